@@ -1,4 +1,5 @@
-# neuralsvcd.h is one header: there is nothing to build in order to use it. This builds the examples and the tests.
+# neuralsvcd.h is one header: there is nothing to build in order to use it. This builds the examples and the tests. The
+# header itself is made from the rooms of src/ by `make header`.
 # `make help` lists the targets. A C compiler and make are enough; libccd is used by the tests where it is installed.
 CC ?= cc
 CXX ?= c++
@@ -13,6 +14,7 @@ endif
 WARNINGS = -Wall -Wextra
 ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
 LIBRARY = neuralsvcd.h weights.h
+ROOMS = $(wildcard src/*.h src/*/*.h)
 # What the examples and the tests share.
 SCENERY = $(wildcard examples/scenery/*.h)
 
@@ -29,9 +31,9 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets help format clean firmware web weights problems accuracy
+.PHONY: all demo preview assets header help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-header check-examples check-gradient check-tiles check-fast-math check-levels
+.PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
 .PHONY: check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-asks bench-flags bench-level bench-scale bench-plan race profile instructions sizes
@@ -47,6 +49,9 @@ help:  ## this list
 
 build:
 	mkdir -p build
+
+header:  ## writes neuralsvcd.h from the rooms of src/
+	python3 src/make_header.py
 
 # ---------------------------------------------------------------------------------------------------------- examples
 
@@ -119,12 +124,13 @@ uninstall:  ## takes it away again
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-HELPERS = $(wildcard tests/*.h tests/data/*.h)
+HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS)
 PEERS = $(wildcard tests/bench/*.h)
 TEST_OBJECTS = build/main.o $(patsubst tests/%.c,build/%.o,$(wildcard tests/test_*.c))
-# Each test file holds its own copy of the header, and uses only a part of its private functions. One instruction set is
-# enough for most: test_processor.c has all that the processor knows, whatever the flags.
-TEST_WARNINGS = -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPATCH
+# Each test file holds the rooms of src/ that it is about, test_asks.c and test_processor.c the header as users have it, and uses
+# only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
+# whatever the flags.
+TEST_WARNINGS = -I. -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPATCH
 build/test_processor.o: CFLAGS := $(filter-out -m%,$(CFLAGS))
 # -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not.
 build/test_asks.o: CFLAGS := $(filter-out -m%,$(CFLAGS)) -ffp-contract=fast
@@ -142,7 +148,12 @@ $(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) |
 # The prototype of the proof as one loop, beside the proof: tests/bench/loop/NOTES.md.
 build/loop_bench: tests/bench/loop/bench.c $(wildcard tests/bench/loop/*.h) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm
+# Its certificates, replayed.
+build/loop_replay: tests/bench/loop/replay.c $(wildcard tests/bench/loop/*.h) tests/proof_scene.h $(SCENERY) $(LIBRARY) | build
+	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm
 
+check-rooms:  # each compiles by itself, with what it includes and nothing else
+	CC="$(CC)" tests/rooms.sh
 check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
@@ -172,7 +183,7 @@ check-tiles: build/tiles_proof build/tiles_facets  # the proof, searched tile by
 FAST = query/refuses motion/bad_poses proof/refuses mesh/mesh_is_checked mesh/refused encoding/refuses facets/refuses \
   body/malice gradient/refuses optimizer/refuses
 build/fast_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS) -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DTEST_ALONE -o $@ $< -lm \
+	$(CC) $(CFLAGS) -I. -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DNSVCD_NO_DISPATCH -DTEST_ALONE -o $@ $< -lm \
 	  2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
 check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))
 	@for test in $(FAST); do \
@@ -332,7 +343,7 @@ check-options: build/check_options build/check_options_fused  # every option aga
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text header packages gradient examples tiles fast-math levels 32 mingw firmware motions options problems extremes python web
+CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
@@ -340,17 +351,18 @@ run-tests: build/tests
 check-all:  ## every check, bounded: one table of what ran, how long, with what result
 	@MAKE="$(MAKE)" tests/check_all.sh $(ONLY)
 
-# Lines and branches of neuralsvcd.h that the tests reach, and those lines that they do not (Debian: gcovr). With -j16 some
+# Lines and branches of src/ that the tests reach, and those lines that they do not (Debian: gcovr). With -j16 some
 # minutes. So many are demanded, per cent.
 COVERED_LINES = 97
 COVERED_BRANCHES = 95
 # Functions that no test calls are in no test's program: they are counted where all of the header is.
-build/covered/library.o: tests/fuzz/library.c $(LIBRARY)
+build/covered/library.o: $(ROOMS) weights.h
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS_covered) -std=c99 $(TEST_WARNINGS) -c -o $@ $<
-coverage:  ## what the tests reach of neuralsvcd.h; make -j16, minutes
+	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "src/header.h"\n' >build/covered/library.c
+	$(CC) $(FLAGS_covered) -std=c99 $(TEST_WARNINGS) -c -o $@ build/covered/library.c
+coverage:  ## what the tests reach of the rooms; make -j16, minutes
 	@if command -v gcovr >/dev/null; then \
-	  $(MAKE) build/covered/library.o $(TESTS:%=build/covered/test_%.txt) && gcovr --root . --filter neuralsvcd.h \
+	  $(MAKE) build/covered/library.o $(TESTS:%=build/covered/test_%.txt) && gcovr --root . --filter src/ \
 	    --gcov-ignore-parse-errors --txt --print-summary --fail-under-line $(COVERED_LINES) --fail-under-branch $(COVERED_BRANCHES) build/covered; \
 	else echo "coverage: no gcovr: not tested"; fi
 
@@ -513,12 +525,13 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
 WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/web tests tests/bench
-FORMATTED = neuralsvcd.h $(wildcard $(WRITTEN:%=%/*.[ch]))
+FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
-check-text:  ## the header as a text; that the tests that tests/PROMISES.md names are there; that all is formatted
-	@if command -v python3 >/dev/null; then python3 tests/text.py && python3 tests/isa.py && python3 tests/promises.py; \
+check-text:  ## the rooms as a text; that neuralsvcd.h is made of them, the tests of tests/PROMISES.md are there, all is formatted
+	@if command -v python3 >/dev/null; then python3 src/make_header.py --check && python3 tests/make_header_test.py && \
+	  python3 tests/text.py && python3 tests/promises.py; \
 	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \

@@ -79,7 +79,7 @@
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
-//   stands in section *proof*. It is about the surfaces of the two meshes and the motion as
+//   stands in proof/proof. It is about the surfaces of the two meshes and the motion as
 //   described at nsvcd_sweep, and it is tested by replaying certificates in double precision
 //   (tests/test_proof.c). UNDECIDED says that surfaces come as close as the triangles are stored
 //   (nsvcd_body_facts.quantum of both bodies; with rounding, less than twice that), that of eight
@@ -125,37 +125,95 @@
 //   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
 //
-// CONTENTS: a section's name ends a line of dashes. Each calls only those above it.
-//   results           codes, and what they say
-//   allocation        the caller's allocator
-//   meshes            OBJ files, parts of a mesh
-//   bodies            encoding, loading, scaling, facts
-//   queries           poses, movers, questions, options, answers; nsvcd_sweep and its kin
-//   trajectories      splines, planning problems; nsvcd_plan
-//   strings           what codes and statuses say
-//   math              vectors, quaternions, matrices; bits and sizes
-//   vectors           16 lanes on AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C; rotations
-//   memory            where it comes from: the allocator, the rows of a workspace
-//   mesh              checks, cuts at a box; polygons into triangles; OBJ
-//   patches           surface points, farthest point sampling; balls that cover the surface
-//   regions           welded vertices, components; a large mesh in parts
-//   surface           of each patch a ball, a disc, a hull, its triangles: all rounded outwards
-//   weights           does weights.h fit?
-//   encoder           a patch -> its latent
-//   latent rotation   Wigner matrices of degree 1 and 2, and latents turned by them
-//   body              the blob: balls in groups of 16, and levels of spheres above
-//   facets            the blob of the proof: discs, hulls, triangles; load, trust, scale, describe
-//   encoding          nsvcd_encode
-//   motion            the moving body's poses as the fixed one sees them
-//   broad phase       segments and chords; which groups and patches meet, and when
-//   proof             spans; planes of discs, of hulls, of triangles; witnesses; containment; skins
-//   winding number    what is inside of what, for the network
-//   decoder           pairs of patches -> invariants -> logits, in float or int8
-//   query             nsvcd_sweep: checks, workspace; an answer by the network, by proof
-//   gradient          of the logit by the poses
-//   processor         SSE2, AVX2 or AVX-512, as it has; the public functions of queries
-//   spline            quintic Hermite
-//   optimizer         MPPI, then L-BFGS; nsvcd_plan
+// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
+//   interface: what a program sees
+//     options         what is compiled; the version
+//     results         codes, what they say, the caller's allocator
+//     meshes          OBJ files, parts of a mesh
+//     bodies          encoding, loading, scaling, facts
+//     queries         movers, options, answers; nsvcd_sweep and its kin
+//     plans           splines, planning problems; nsvcd_plan
+//   ground: numbers and memory
+//     compiler        what is asked of the compiler; libc and libm
+//     strings         what codes and statuses say
+//     bits            bits and sizes
+//     points          vectors of three, of floats and of doubles
+//     rotations       quaternions and matrices, of floats and of doubles
+//     spheres         spheres and discs, as bodies store them
+//     memory          the allocator; the rows of a workspace
+//     slices          how many of 16 lanes a register holds
+//   mesh: files and triangles
+//     mesh            checks, cuts at a box
+//     polygons        polygons into triangles
+//     obj             Wavefront OBJ
+//   patches: a mesh in parts
+//     samples         points of the surface, in equal share
+//     clusters        farthest point sampling, then Lloyd's algorithm
+//     covering        balls that cover the surface; patches as a whole
+//     topology        welded vertices, components, which of them are closed
+//     regions         a large mesh in regions, each with its own patches
+//   surface: each patch described from outside
+//     pieces          triangles cut by the cells of the centres
+//     balls           the least ball that holds all points
+//     discs           a direction in which the points are thin
+//     hulls           16 vertices about a patch
+//     surface         patch by patch: ball, disc, hull, triangles
+//   encoder: what the network keeps of a patch
+//     model           does weights.h fit?
+//     encoder         a patch -> its latent
+//   body: the blob
+//     body            balls in groups of 16, and levels of spheres above
+//     walk            a walk through the groups; load, scale, describe
+//     facets          the blob of the proof: discs, hulls, triangles
+//     trust           is a blob sound? load it, scale it, describe it
+//     encode          nsvcd_encode
+//   lanes: 16 numbers at a time
+//     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
+//     turns           rotations, lane by lane
+//   motion: where bodies are
+//     motion          the moving body's poses as the fixed one sees them
+//     segments        how far a point strays from a straight line
+//   search: which patches may meet
+//     intervals       when the balls of two patches meet, for the network
+//     search          which groups and patches meet, and in which segments
+//   proof: whether surfaces meet
+//     proof           the theorem; what a proof asks, knows and remembers
+//     poses           poses in double
+//     spans           a stretch of time, and how far points stray in it
+//     discs           planes across discs, of patches and of groups
+//     hulls           planes between hulls
+//     couples         a triangle of each body, in double
+//     blocks          16 triangles at a time
+//     witnesses       two triangles that meet at one time
+//     items           an item: parted by planes, or by its triangles, or in contact
+//     containment     what is inside of what, exactly
+//     loop            the loop: all that a search finds is settled
+//     verdict         the verdict, the first contact, the least distance
+//     leave           leaving a contact
+//   network: an opinion
+//     latent_rotation Wigner matrices; latents turned by them
+//     winding_number  what is inside of what, for the network
+//     pairs           pairs of patches -> invariants
+//     decoder         invariants -> logits, in float or int8
+//   query: a question, and its answer
+//     task            a question that has been checked, and its memory
+//     by_network      an answer by the network
+//     by_proof        an answer by proof
+//     question        check, who moves, lay out, answer, write
+//     self_test       a question by hand, whose answer is known
+//   gradient: of the logit by the poses
+//     by_pair         by the decoder's inputs, and by the pair
+//     gradient        by the poses, and by the times of contact
+//   entry: the processor decides
+//     processor       SSE2, AVX2 or AVX-512; the public functions of queries
+//   plan: a motion that hits nothing
+//     spline          quintic Hermite
+//     problem         a planning problem in the caller's workspace
+//     culling         which bodies may meet when; what a collision costs
+//     cost            control points -> cost, and its derivative
+//     explore         MPPI
+//     refine          L-BFGS, with bundled gradients
+//     plan            several seeds, and the last check
 //
 // GLOSSARY
 //   patch             a part of the surface about a representative point; N of them make a body
@@ -172,7 +230,7 @@
 //   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
 //                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
-//                     its own: see section *optimizer*
+//                     its own: see plan/problem
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -191,6 +249,11 @@
 //   work              units that a proof takes
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
+
+// ================================================================== interface: what a program sees
+
+// ------------------------------------------------------------------------------- interface/options
+// In: what is defined before the header. Out: what follows from it, and how functions are declared.
 
 // as the first line says; before 1.0 a minor version may change what a program sees
 #define NSVCD_VERSION "0.2.0"
@@ -213,8 +276,8 @@
 #if defined(NSVCD_NO_INT8) && defined(NSVCD_NO_FLOAT)
 #error "neuralsvcd.h: NSVCD_NO_INT8 and NSVCD_NO_FLOAT leave no decoder"
 #endif
-#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && defined(NEURALSVCD_IMPLEMENTATION) && \
-    defined(__GNUC__)
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ && \
+    defined(NEURALSVCD_IMPLEMENTATION) && defined(__GNUC__)
 #pragma GCC warning \
     "neuralsvcd.h: -ffinite-math-only: bad input is still refused, but results are not tested so"
 #endif
@@ -229,12 +292,12 @@
 #else
 #define NSVCDDEF extern
 #endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// ----------------------------------------------------------------------------------------- results
+// ------------------------------------------------------------------------------- interface/results
+// In: nothing. Out: codes of what may fail, what they say, and the caller's allocator.
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
@@ -285,8 +348,6 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 //   errors     BUILD
 NSVCDDEF nsvcd_result nsvcd_self_test(void);
 
-// -------------------------------------------------------------------------------------- allocation
-
 // Where memory comes from. NULL in place of an allocator means malloc and free.
 //   alloc      returns memory aligned as malloc's, or NULL on failure
 //   user       handed to both
@@ -296,7 +357,8 @@ typedef struct nsvcd_allocator {
   void *user;
 } nsvcd_allocator;
 
-// ------------------------------------------------------------------------------------------ meshes
+// -------------------------------------------------------------------------------- interface/meshes
+// In: an OBJ file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
 
 typedef struct nsvcd_mesh {
   // (vertex_count, 3) metres
@@ -354,7 +416,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
 #endif
 
-// ------------------------------------------------------------------------------------------ bodies
+// -------------------------------------------------------------------------------- interface/bodies
+// In: a mesh, or bytes that were a body. Out: nsvcd_body, and facts about it.
 
 // An encoded body: one relocatable blob without pointers, aligned to NSVCD_ALIGNMENT. Copy it with
 // memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
@@ -416,9 +479,9 @@ typedef struct nsvcd_encode_options {
 // let nsvcd_encode allocate it.
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
-#define NSVCD_BODY_BYTES(patches)                                                            \
+#define NSVCD_BODY_BYTES(patches) \
   ((64 + 28 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
-    40 * (patches) + 7) /                                                                    \
+    40 * (patches) + 7) / \
    8 * 8)
 #endif
 
@@ -435,8 +498,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory, size_t capacity,
-                                   const nsvcd_body **body);
+                                   const nsvcd_allocator *allocator, void *memory,
+                                   size_t capacity, const nsvcd_body **body);
 // Gives back a body that nsvcd_encode allocated.
 //   body       may be NULL
 //   allocator  the one that it came from
@@ -448,14 +511,16 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT (NULL), BODY (anything is wrong with it)
-NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
+                                      const nsvcd_body **body);
 
 // nsvcd_body_load for bytes that are known to be what nsvcd_encode made. Only the header is read:
 // is it a body of this version and these weights, and is all of it there? For an array baked into
 // the program, and for a large mapped file that was loaded once before: its pages are then read as
 // queries need them. Bytes that were changed since do harm: wrong answers, or reads anywhere.
 // Arguments and errors are those of nsvcd_body_load.
-NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
+                                       const nsvcd_body **body);
 
 // Writes a copy of a body, scaled about its origin: for a planner's bodies, or to bake one; a
 // question has scales of its own. Latents do not depend on scale, and answers scale along, to
@@ -502,12 +567,14 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius);
 
-// ----------------------------------------------------------------------------------------- queries
+// ------------------------------------------------------------------------------- interface/queries
+// In: two movers and options. Out: an answer, and its derivative.
 
 // Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
-  float rotation[4];  // unit quaternion x y z w
+  // unit quaternion x y z w
+  float rotation[4];
 } nsvcd_pose;
 
 typedef enum nsvcd_status {
@@ -533,20 +600,25 @@ NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);
 // The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications for each pair
 // of patches.
 typedef enum nsvcd_model {
-  NSVCD_MODEL_DEFAULT = 0,  // the largest that is compiled in
+  // the largest that is compiled in
+  NSVCD_MODEL_DEFAULT = 0,
   NSVCD_MODEL_TINY,
   NSVCD_MODEL_SMALL,
   NSVCD_MODEL_BASE
 } nsvcd_model;
 
 // The arithmetic of the decoder. Latents are int8 in any case.
-typedef enum nsvcd_precision { NSVCD_PRECISION_FLOAT = 0, NSVCD_PRECISION_INT8 } nsvcd_precision;
+typedef enum nsvcd_precision {
+  NSVCD_PRECISION_FLOAT = 0,
+  NSVCD_PRECISION_INT8
+} nsvcd_precision;
 
 // How a question is answered.
 typedef enum nsvcd_method {
-  NSVCD_METHOD_DEFAULT = 0,  // by proof where both bodies have triangles, else by the network
-  NSVCD_METHOD_PROOF,        // a witness or a certificate
-  NSVCD_METHOD_NETWORK       // an opinion, in a time that is bounded strictly
+  // by proof where both bodies have triangles, else by the network
+  NSVCD_METHOD_DEFAULT = 0,
+  NSVCD_METHOD_PROOF,   // a witness or a certificate
+  NSVCD_METHOD_NETWORK  // an opinion, in a time that is bounded strictly
 } nsvcd_method;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -686,7 +758,7 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   threads    each with its own workspace; they may share bodies
 //   errors     ARGUMENT, POSE, SCALE, TOLERANCE, SAME, WORKSPACE, and BODY where a body lacks what
 //              the method needs
-//   source     the proof: this library, section *proof*; the network: NeuralSVCD, algorithm 1
+//   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
 // CERTIFIED_FREE and INSIDE hold for the meshes themselves. The triangles of a WITNESS meet to
@@ -714,7 +786,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
 #define NSVCD__GROUPS_OF(patches) ((patches) > 512 ? 32 : ((patches) + 15) / 16)
-#define NSVCD__SEARCH_BYTES(patches_a, patches_b, segments)                                  \
+#define NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) \
   (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
    ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
@@ -764,13 +836,15 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                            float *gradient_a, float *gradient_b);
 #endif
 
-#ifndef NSVCD_NO_OPTIMIZER
-// ------------------------------------------------------------------------------------ trajectories
+// --------------------------------------------------------------------------------- interface/plans
+// In: a planning problem, or control points. Out: control points, or what the joints are at a time.
+//
 // A trajectory of F joints is a spline through control points: the start, M via points, the goal,
 // control (M + 2, F), uniform in t in [0,1]. Between two points it is of degree five. At via points
 // it has the velocity and the acceleration of central differences, and it is at rest at both ends;
 // so both are continuous everywhere.
 
+#ifndef NSVCD_NO_OPTIMIZER
 #define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
 // of a stage of the planner
@@ -854,8 +928,8 @@ typedef struct nsvcd_plan_problem {
   // It may end at the first sum above `limit`. Sets *collides if there is a collision. Unless
   // `gradient` is NULL, adds the cost's derivative to it, (T, B, 6), as nsvcd_sweep_gradient has
   // it. NULL: the network
-  float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit, int *collides,
-                     float *gradient);
+  float (*collision)(void *user, const nsvcd_pose *poses, size_t times, float limit,
+                     int *collides, float *gradient);
   // once in each iteration; not 0 cancels. May be NULL
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
@@ -977,8 +1051,9 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 // iterations, each of `draws` trajectories, and for L-BFGS of 5 more.
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
-                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer);
-#endif
+                                 size_t workspace_size, float *control,
+                                 nsvcd_plan_answer *answer);
+#endif  // NSVCD_NO_OPTIMIZER
 
 #ifdef __cplusplus
 }
@@ -986,12 +1061,19 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif  // NEURALSVCD_H
 
 // ================================================================================== IMPLEMENTATION
-// Where section *processor* takes this file in once more, for AVX2 and for AVX-512, NSVCD__ISA is
-// defined: then only those sections are compiled that use vectors, under names of their own.
-#if defined(NEURALSVCD_IMPLEMENTATION) && (!defined(NEURALSVCD_IMPLEMENTED) || defined(NSVCD__ISA))
+// Where entry/processor takes this file in once more, for AVX2 and for AVX-512, NSVCD__ISA is
+// defined: then only those rooms are compiled that use vectors, under names of their own.
+#if defined(NEURALSVCD_IMPLEMENTATION) && \
+    (!defined(NEURALSVCD_IMPLEMENTED) || defined(NSVCD__ISA))
 #define NEURALSVCD_IMPLEMENTED
 
 #ifndef NSVCD__ISA
+// ====================================================================== ground: numbers and memory
+
+// --------------------------------------------------------------------------------- ground/compiler
+// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
+// its callers.
+
 #ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
 #error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
 #endif
@@ -1001,92 +1083,6 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
-
-// ----------------------------------------------------------------------------------------- strings
-// What codes and statuses say.
-
-NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
-  switch (result) {
-    case NSVCD_OK:
-      return "ok";
-    case NSVCD_ERROR_ARGUMENT:
-      return "an argument is NULL or out of its range";
-    case NSVCD_ERROR_IO:
-      return "the file is missing or cannot be read";
-    case NSVCD_ERROR_MEMORY:
-      return "out of memory";
-    case NSVCD_ERROR_SYNTAX:
-      return "a line cannot be understood, or a face has fewer than three corners";
-    case NSVCD_ERROR_INDEX:
-      return "an index is zero or refers to no vertex";
-    case NSVCD_ERROR_NUMBER:
-      return "a coordinate is not finite, or beyond a million metres";
-    case NSVCD_ERROR_EMPTY:
-      return "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres";
-    case NSVCD_ERROR_TOO_LARGE:
-      return "more vertices, triangles or bytes than can be counted";
-    case NSVCD_ERROR_POSE:
-      return "a pose is not finite, or its quaternion is not of unit length";
-    case NSVCD_ERROR_SCALE:
-      return "a scale is not finite, negative or out of range, or makes a body too small or too "
-             "large";
-    case NSVCD_ERROR_TOLERANCE:
-      return "a tolerance or a clearance is negative, not finite or beyond the scene";
-    case NSVCD_ERROR_SAME:
-      return "both sides are the same body in the same motion";
-    case NSVCD_ERROR_BODY:
-      return "the body is damaged, cut short, misaligned, of another version, model or byte "
-             "order, or lacks what the method needs";
-    case NSVCD_ERROR_WORKSPACE:
-      return "the memory given is too small or misaligned";
-    case NSVCD_ERROR_CANCELLED:
-      return "cancelled";
-    case NSVCD_ERROR_BUILD:
-      return "this build reckons wrongly: see the compiler, and its flags";
-  }
-  return "unknown result";
-}
-
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
-  switch (status) {
-    case NSVCD_STATUS_OK:
-      return "ok";
-    case NSVCD_STATUS_CERTIFIED_FREE:
-      return "certified-free";
-    case NSVCD_STATUS_INSIDE:
-      return "inside";
-    case NSVCD_STATUS_LIMIT:
-      return "limit";
-    case NSVCD_STATUS_WITNESS:
-      return "witness";
-    case NSVCD_STATUS_UNDECIDED:
-      return "undecided";
-  }
-  return "unknown status";
-}
-
-#ifndef NSVCD_NO_OPTIMIZER
-NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
-  switch (status) {
-    case NSVCD_PLAN_CONVERGED:
-      return "converged";
-    case NSVCD_PLAN_LIMIT:
-      return "limit";
-    case NSVCD_PLAN_CANCELLED:
-      return "cancelled";
-    case NSVCD_PLAN_START:
-      return "infeasible start";
-    case NSVCD_PLAN_GOAL:
-      return "infeasible goal";
-  }
-  return "unknown status";
-}
-#endif
-
-// -------------------------------------------------------------------------------------------- math
-// Vectors, quaternions and matrices are values: f3, quat and mat3 of floats, d3, dquat and dmat3 of
-// doubles. A matrix is its rows.
-
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__MERGED static inline __attribute__((always_inline))
@@ -1116,37 +1112,157 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 #define NSVCD__UNROLL
 #endif
 
-// Finite test on the bits, so that it survives -ffast-math.
-static inline int nsvcd__is_finite(float x) {
+// ---------------------------------------------------------------------------------- ground/strings
+// In: a code or a status. Out: what it says, in English.
+
+// Number n of texts that follow each other, in the order of enumerators; the last where there is
+// none. No table of pointers: a loader would write into that.
+static const char *nsvcd__text_of(const char *texts, size_t n) {
+  for (; n > 0 && texts[strlen(texts) + 1]; n--) texts += strlen(texts) + 1;
+  return texts;
+}
+
+NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
+  return nsvcd__text_of(
+      "ok\0"
+      "an argument is NULL or out of its range\0"
+      "the file is missing or cannot be read\0"
+      "out of memory\0"
+      "a line cannot be understood, or a face has fewer than three corners\0"
+      "an index is zero or refers to no vertex\0"
+      "a coordinate is not finite, or beyond a million metres\0"
+      "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
+      "more vertices, triangles or bytes than can be counted\0"
+      "a pose is not finite, or its quaternion is not of unit length\0"
+      "a scale is not finite, negative or out of range, or makes a body too small or too "
+      "large\0"
+      "a tolerance or a clearance is negative, not finite or beyond the scene\0"
+      "both sides are the same body in the same motion\0"
+      "the body is damaged, cut short, misaligned, of another version, model or byte "
+      "order, or lacks what the method needs\0"
+      "the memory given is too small or misaligned\0"
+      "cancelled\0"
+      "this build reckons wrongly: see the compiler, and its flags\0"
+      "unknown result\0",
+      (size_t)result);
+}
+
+NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
+  return nsvcd__text_of(
+      "ok\0"
+      "certified-free\0"
+      "inside\0"
+      "limit\0"
+      "witness\0"
+      "undecided\0"
+      "unknown status\0",
+      (size_t)status);
+}
+
+#ifndef NSVCD_NO_OPTIMIZER
+NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
+  return nsvcd__text_of(
+      "converged\0"
+      "limit\0"
+      "cancelled\0"
+      "infeasible start\0"
+      "infeasible goal\0"
+      "unknown status\0",
+      (size_t)status);
+}
+#endif
+
+// ------------------------------------------------------------------------------------- ground/bits
+// In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
+
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+static size_t nsvcd__lowest_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
   uint32_t bits;
   memcpy(&bits, &x, sizeof bits);
-  return (bits & 0x7f800000u) != 0x7f800000u;
+  return bits & 0x7fffffffu;
+}
+static inline int nsvcd__is_finite(float x) {
+  return nsvcd__magnitude(x) < 0x7f800000u;
 }
 
-// A difference of floats, and all that is built of a few of them, is as good as exact in double.
-typedef struct nsvcd__f3 {
-  float x, y, z;
-} nsvcd__f3;
-typedef struct nsvcd__d3 {
-  double x, y, z;
-} nsvcd__d3;
+// ----------------------------------------------------------------------------------- ground/points
+// In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
 
-static inline nsvcd__f3 nsvcd__f3_of(float x, float y, float z) {
-  const nsvcd__f3 out = {x, y, z};
-  return out;
-}
-static inline nsvcd__f3 nsvcd__f3_load(const float *p) {
-  return nsvcd__f3_of(p[0], p[1], p[2]);
-}
-static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
-  p[0] = a.x;
-  p[1] = a.y;
-  p[2] = a.z;
-}
-// Row i of (n, 3).
-static inline nsvcd__f3 nsvcd__f3_row(const float *rows, size_t i) {
-  return nsvcd__f3_load(rows + 3 * i);
-}
+// The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
+// on. _load and _row are from floats, of which a row has three; _add_scaled is a + s b. Of floats a
+// difference, and all that is built of a few of them, is as good as exact in double.
+#define NSVCD__VECTORS(t, scalar, sqrt) \
+  typedef struct t { \
+    scalar x, y, z; \
+  } t; \
+  static inline t t##_of(scalar x, scalar y, scalar z) { \
+    const t out = {x, y, z}; \
+    return out; \
+  } \
+  static inline t t##_load(const float *p) { \
+    return t##_of((scalar)p[0], (scalar)p[1], (scalar)p[2]); \
+  } \
+  static inline t t##_row(const float *rows, size_t i) { \
+    return t##_load(rows + 3 * i); \
+  } \
+  static inline t t##_add(t a, t b) { \
+    return t##_of(a.x + b.x, a.y + b.y, a.z + b.z); \
+  } \
+  static inline t t##_sub(t a, t b) { \
+    return t##_of(a.x - b.x, a.y - b.y, a.z - b.z); \
+  } \
+  static inline t t##_scale(t a, scalar s) { \
+    return t##_of(s * a.x, s * a.y, s * a.z); \
+  } \
+  static inline t t##_add_scaled(t a, scalar s, t b) { \
+    return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
+  } \
+  static inline t t##_min(t a, t b) { \
+    return t##_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z); \
+  } \
+  static inline t t##_max(t a, t b) { \
+    return t##_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z); \
+  } \
+  static inline scalar t##_dot(t a, t b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z; \
+  } \
+  static inline t t##_cross(t a, t b) { \
+    return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
+  } \
+  static inline scalar t##_length(t a) { \
+    return sqrt(t##_dot(a, a)); \
+  }
+NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
+NSVCD__VECTORS(nsvcd__d3, double, sqrt)
+#undef NSVCD__VECTORS
+
+// ---- of floats
+
 // From, and to, rows of x, y and z, so many numbers apart.
 static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
   return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
@@ -1156,37 +1272,12 @@ static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
   rows[stride] = a.y;
   rows[2 * stride] = a.z;
 }
-static inline nsvcd__f3 nsvcd__f3_add(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-static inline nsvcd__f3 nsvcd__f3_sub(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-static inline nsvcd__f3 nsvcd__f3_scale(nsvcd__f3 a, float s) {
-  return nsvcd__f3_of(s * a.x, s * a.y, s * a.z);
-}
-// a + s b.
-static inline nsvcd__f3 nsvcd__f3_add_scaled(nsvcd__f3 a, float s, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
-}
-static inline nsvcd__f3 nsvcd__f3_min(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
-}
-static inline nsvcd__f3 nsvcd__f3_max(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
+  nsvcd__f3_put(a, p, 1);
 }
 // Is a component of a greater than b's?
 static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
   return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
-}
-static inline float nsvcd__f3_dot(nsvcd__f3 a, nsvcd__f3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline nsvcd__f3 nsvcd__f3_cross(nsvcd__f3 a, nsvcd__f3 b) {
-  return nsvcd__f3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-static inline float nsvcd__f3_length(nsvcd__f3 a) {
-  return sqrtf(nsvcd__f3_dot(a, a));
 }
 
 // A box along the axes.
@@ -1194,36 +1285,6 @@ typedef struct nsvcd__box {
   nsvcd__f3 low, high;
 } nsvcd__box;
 
-static inline nsvcd__d3 nsvcd__d3_of(double x, double y, double z) {
-  const nsvcd__d3 out = {x, y, z};
-  return out;
-}
-static inline nsvcd__d3 nsvcd__d3_load(const float *p) {
-  return nsvcd__d3_of((double)p[0], (double)p[1], (double)p[2]);
-}
-// Row i of (n, 3).
-static inline nsvcd__d3 nsvcd__d3_row(const float *rows, size_t i) {
-  return nsvcd__d3_load(rows + 3 * i);
-}
-static inline nsvcd__d3 nsvcd__d3_add(nsvcd__d3 a, nsvcd__d3 b) {
-  return nsvcd__d3_of(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-static inline nsvcd__d3 nsvcd__d3_sub(nsvcd__d3 a, nsvcd__d3 b) {
-  return nsvcd__d3_of(a.x - b.x, a.y - b.y, a.z - b.z);
-}
-static inline nsvcd__d3 nsvcd__d3_scale(nsvcd__d3 a, double s) {
-  return nsvcd__d3_of(s * a.x, s * a.y, s * a.z);
-}
-// a + s b.
-static inline nsvcd__d3 nsvcd__d3_add_scaled(nsvcd__d3 a, double s, nsvcd__d3 b) {
-  return nsvcd__d3_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
-}
-static inline nsvcd__d3 nsvcd__d3_min(nsvcd__d3 a, nsvcd__d3 b) {
-  return nsvcd__d3_of(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
-}
-static inline nsvcd__d3 nsvcd__d3_max(nsvcd__d3 a, nsvcd__d3 b) {
-  return nsvcd__d3_of(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
-}
 // Component 0, 1 or 2.
 static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
   return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
@@ -1240,15 +1301,6 @@ static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
 // a + t (b - a).
 static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
   return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
-}
-static inline double nsvcd__d3_dot(nsvcd__d3 a, nsvcd__d3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline nsvcd__d3 nsvcd__d3_cross(nsvcd__d3 a, nsvcd__d3 b) {
-  return nsvcd__d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-static inline double nsvcd__d3_length(nsvcd__d3 a) {
-  return sqrt(nsvcd__d3_dot(a, a));
 }
 static inline double nsvcd__d3_squared_distance(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
@@ -1278,85 +1330,188 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 
-// ---- quaternions and matrices of doubles
+// -------------------------------------------------------------------------------- ground/rotations
+// In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
+// its rows. A transform is a rotation and a place.
 
-typedef struct nsvcd__dquat {
-  double x, y, z, w;
-} nsvcd__dquat;
+// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _add_scaled is a + s b; _axis is that of a unit
+// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
+// _apply_transpose is the transpose of m, times a.
+#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+  typedef struct quat { \
+    scalar x, y, z, w; \
+  } quat; \
+  typedef struct mat { \
+    vec x, y, z; \
+  } mat; \
+  static inline scalar quat##_dot(quat a, quat b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
+  } \
+  static inline quat quat##_scale(quat q, scalar s) { \
+    const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
+    return out; \
+  } \
+  static inline quat quat##_add_scaled(quat a, scalar s, quat b) { \
+    const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
+    return out; \
+  } \
+  NSVCD__MERGED quat quat##_unit(quat q) { \
+    return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
+  } \
+  static inline vec quat##_axis(quat q) { \
+    return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline mat mat##_of(quat q) { \
+    mat m; \
+    m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
+    m.x.y = 2 * (q.x * q.y - q.z * q.w); \
+    m.x.z = 2 * (q.x * q.z + q.y * q.w); \
+    m.y.x = 2 * (q.x * q.y + q.z * q.w); \
+    m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z); \
+    m.y.z = 2 * (q.y * q.z - q.x * q.w); \
+    m.z.x = 2 * (q.x * q.z - q.y * q.w); \
+    m.z.y = 2 * (q.y * q.z + q.x * q.w); \
+    m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y); \
+    return m; \
+  } \
+  static inline mat mat##_transpose(mat m) { \
+    const mat out = {vec##_of(m.x.x, m.y.x, m.z.x), vec##_of(m.x.y, m.y.y, m.z.y), \
+                     vec##_of(m.x.z, m.y.z, m.z.z)}; \
+    return out; \
+  } \
+  static inline vec mat##_apply(const mat *m, vec a) { \
+    return vec##_of(vec##_dot(m->x, a), vec##_dot(m->y, a), vec##_dot(m->z, a)); \
+  } \
+  static inline vec mat##_apply_transpose(const mat *m, vec a) { \
+    const mat back = mat##_transpose(*m); \
+    return mat##_apply(&back, a); \
+  }
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+#undef NSVCD__ROTATIONS
 
-typedef struct nsvcd__dmat3 {
-  nsvcd__d3 x, y, z;
-} nsvcd__dmat3;
-
-static inline nsvcd__dquat nsvcd__dquat_scale(nsvcd__dquat q, double s) {
-  const nsvcd__dquat out = {q.x * s, q.y * s, q.z * s, q.w * s};
-  return out;
-}
-// a + s b.
-static inline nsvcd__dquat nsvcd__dquat_add_scaled(nsvcd__dquat a, double s, nsvcd__dquat b) {
-  const nsvcd__dquat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w};
-  return out;
-}
-static inline double nsvcd__dquat_square(nsvcd__dquat q) {
-  return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-}
-static inline nsvcd__dquat nsvcd__dquat_unit(nsvcd__dquat q) {
-  return nsvcd__dquat_scale(q, 1 / sqrt(nsvcd__dquat_square(q)));
-}
-static inline nsvcd__d3 nsvcd__dquat_axis(nsvcd__dquat q) {  // times the sine of half the angle
-  return nsvcd__d3_of(q.x, q.y, q.z);
-}
 // The inverse of a, unit, times b.
 static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
   const nsvcd__d3 u = nsvcd__dquat_axis(a);
   const nsvcd__d3 v = nsvcd__dquat_axis(b);
-  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
-  nsvcd__dquat out;
-  out.x = a.w * v.x - b.w * u.x - across.x;
-  out.y = a.w * v.y - b.w * u.y - across.y;
-  out.z = a.w * v.z - b.w * u.z - across.z;
-  out.w = a.w * b.w + nsvcd__d3_dot(u, v);
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
+  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
+  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
   return out;
 }
 
-// The matrix of a unit quaternion.
-static inline nsvcd__dmat3 nsvcd__dmat3_of(nsvcd__dquat q) {
-  nsvcd__dmat3 m;
-  m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
-  m.x.y = 2 * (q.x * q.y - q.z * q.w);
-  m.x.z = 2 * (q.x * q.z + q.y * q.w);
-  m.y.x = 2 * (q.x * q.y + q.z * q.w);
-  m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z);
-  m.y.z = 2 * (q.y * q.z - q.x * q.w);
-  m.z.x = 2 * (q.x * q.z - q.y * q.w);
-  m.z.y = 2 * (q.y * q.z + q.x * q.w);
-  m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
-  return m;
-}
 static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
-  nsvcd__dmat3 out;
-  out.x = nsvcd__d3_scale(m->x, s);
-  out.y = nsvcd__d3_scale(m->y, s);
-  out.z = nsvcd__d3_scale(m->z, s);
+  const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
+                            nsvcd__d3_scale(m->z, s)};
   return out;
-}
-static inline nsvcd__dmat3 nsvcd__dmat3_transpose(const nsvcd__dmat3 *m) {
-  nsvcd__dmat3 out;
-  out.x = nsvcd__d3_of(m->x.x, m->y.x, m->z.x);
-  out.y = nsvcd__d3_of(m->x.y, m->y.y, m->z.y);
-  out.z = nsvcd__d3_of(m->x.z, m->y.z, m->z.z);
-  return out;
-}
-static inline nsvcd__d3 nsvcd__dmat3_apply(const nsvcd__dmat3 *m, nsvcd__d3 a) {
-  return nsvcd__d3_of(nsvcd__d3_dot(m->x, a), nsvcd__d3_dot(m->y, a), nsvcd__d3_dot(m->z, a));
-}
-// The transpose of m, times a.
-static inline nsvcd__d3 nsvcd__dmat3_apply_transpose(const nsvcd__dmat3 *m, nsvcd__d3 a) {
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_scale(m->x, a.x), nsvcd__d3_scale(m->y, a.y));
-  return nsvcd__d3_add(sum, nsvcd__d3_scale(m->z, a.z));
 }
 
-// ---- spheres
+// ---- quaternions and matrices of floats
+
+// A rotation and a position: a -> rotation a + position.
+typedef struct nsvcd__transform {
+  nsvcd__mat3 rotation;
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
+}
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
+}
+// To rows of x, y, z and w, so many numbers apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  nsvcd__quat_put(q, p, 1);
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot += (double)a.y * (double)b.y;
+  dot += (double)a.z * (double)b.z;
+  dot += (double)a.w * (double)b.w;
+  return dot < 0;
+}
+
+// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
+// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
+// left.
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat chord = nsvcd__quat_add_scaled(a, -1, b);
+  return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+}
+
+// The same rotation on the side of another quaternion, to which q is opposed or not.
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+// of a unit one
+static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
+  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
+}
+
+// The rotation by b, then by a.
+static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
+  nsvcd__quat out;
+  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
+  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
+  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
+  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
+  return out;
+}
+// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
+  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
+}
+
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
+  const float angle = nsvcd__quat_arc(start, end);
+  float wa = 1 - u;
+  float wb = u;
+  // below, the difference is less than rounding
+  if (angle > 1e-3f) {
+    wa = sinf((1 - u) * angle);
+    wb = sinf(u * angle);
+  }
+  return nsvcd__quat_unit(nsvcd__quat_add_scaled(nsvcd__quat_scale(start, wa), wb, end));
+}
+
+// s (a + t b).
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s)};
+  return out;
+}
+static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
+  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
+                           nsvcd__mat3_apply(&columns, a->y),
+                           nsvcd__mat3_apply(&columns, a->z)};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+}
+
+// ---------------------------------------------------------------------------------- ground/spheres
+// In: rows of floats, as a body stores them. Out: one sphere, or one disc, as a value.
 
 typedef struct nsvcd__sphere {
   nsvcd__f3 centre;
@@ -1384,10 +1539,9 @@ static inline nsvcd__sphere nsvcd__sphere_of(nsvcd__spheres all, size_t i) {
   return out;
 }
 // Writes the i-th of spheres in arrays of so many slots.
-static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_t slots, size_t i) {
-  first[i] = sphere.centre.x;
-  first[slots + i] = sphere.centre.y;
-  first[2 * slots + i] = sphere.centre.z;
+static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_t slots,
+                                       size_t i) {
+  nsvcd__f3_put(sphere.centre, first + i, slots);
   first[3 * slots + i] = sphere.radius;
 }
 
@@ -1418,203 +1572,97 @@ static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stri
   d[5 * stride] = disc.across;
 }
 
-// ---- quaternions and matrices of floats
+// ----------------------------------------------------------------------------------- ground/memory
+// In: the caller's allocator, or the workspace. Out: arrays from either; NULL, or a count alone,
+// where there is no memory.
 
-typedef struct nsvcd__quat {
-  float x, y, z, w;
-} nsvcd__quat;
+#ifndef NSVCD_NO_ENCODER
+static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
+  return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
+}
+static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
+  if (allocator && memory) allocator->free(memory, allocator->user);
+  if (!allocator) free(memory);
+}
+// count * size bytes; NULL also where that product cannot be counted.
+static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
+  return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
+}
 
-typedef struct nsvcd__mat3 {
-  nsvcd__f3 x, y, z;
-} nsvcd__mat3;
+// Arrays that are given back together. Where one cannot be had, `failed` says so: who takes several
+// asks once, after the last.
+typedef union nsvcd__header {
+  union nsvcd__header *next;
+  double aligned;
+} nsvcd__header;
+typedef struct nsvcd__arena {
+  const nsvcd_allocator *allocator;
+  // an array behind each
+  nsvcd__header *last;
+  int failed;
+} nsvcd__arena;
 
-// A rotation and a position: a -> rotation a + position.
-typedef struct nsvcd__transform {
-  nsvcd__mat3 rotation;
-  nsvcd__f3 position;
-} nsvcd__transform;
-
-static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
-  const nsvcd__quat out = {x, y, z, w};
+static nsvcd__arena nsvcd__arena_of(const nsvcd_allocator *allocator) {
+  const nsvcd__arena out = {allocator, NULL, 0};
   return out;
 }
-static inline nsvcd__quat nsvcd__quat_load(const float *p) {
-  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
-}
-static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
-  p[0] = q.x;
-  p[1] = q.y;
-  p[2] = q.z;
-  p[3] = q.w;
-}
-// To rows of x, y, z and w, so many numbers apart.
-static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
-  rows[0] = q.x;
-  rows[stride] = q.y;
-  rows[2 * stride] = q.z;
-  rows[3 * stride] = q.w;
-}
-static inline float nsvcd__quat_dot(nsvcd__quat a, nsvcd__quat b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-}
-static inline nsvcd__quat nsvcd__quat_scale(nsvcd__quat q, float s) {
-  return nsvcd__quat_of(q.x * s, q.y * s, q.z * s, q.w * s);
-}
-NSVCD__MERGED nsvcd__quat nsvcd__quat_unit(nsvcd__quat q) {
-  return nsvcd__quat_scale(q, 1 / sqrtf(nsvcd__quat_dot(q, q)));
-}
-
-// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
-// every machine and the exact poses of the proof say the same, also where the arcs are equally long
-// to rounding.
-static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
-  double dot = (double)a.x * (double)b.x;
-  dot += (double)a.y * (double)b.y;
-  dot += (double)a.z * (double)b.z;
-  dot += (double)a.w * (double)b.w;
-  return dot < 0;
-}
-
-// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
-// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
-// left.
-static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
-  float chord = (a.x - b.x) * (a.x - b.x);
-  chord += (a.y - b.y) * (a.y - b.y);
-  chord += (a.z - b.z) * (a.z - b.z);
-  chord += (a.w - b.w) * (a.w - b.w);
-  return 2 * asinf(0.5f * sqrtf(chord));
-}
-
-// The same rotation on the side of another quaternion, to which q is opposed or not.
-static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
-  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
-}
-static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {  // of a unit one
-  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
-}
-
-// The rotation by b, then by a.
-static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
-  nsvcd__quat out;
-  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
-  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
-  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
-  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
-  return out;
-}
-// The turn from a to b, unit ones: its axis, times the sine of half its angle.
-static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
-  const nsvcd__quat turn = nsvcd__quat_mul(b, nsvcd__quat_inverse(a));
-  return nsvcd__f3_of(turn.x, turn.y, turn.z);
-}
-
-// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
-static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
-  const int opposed = nsvcd__quats_opposed(a, b);
-  const nsvcd__quat start = nsvcd__quat_unit(a);
-  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
-  const float angle = nsvcd__quat_arc(start, end);
-  float wa = 1 - u;
-  float wb = u;
-  if (angle > 1e-3f) {  // below, the difference is less than rounding
-    wa = sinf((1 - u) * angle);
-    wb = sinf(u * angle);
+static void nsvcd__arena_free(nsvcd__arena *arena) {
+  while (arena->last) {
+    nsvcd__header *header = arena->last;
+    arena->last = header->next;
+    nsvcd__free(arena->allocator, header);
   }
-  const nsvcd__quat sum = nsvcd__quat_of(wa * start.x + wb * end.x, wa * start.y + wb * end.y,
-                                         wa * start.z + wb * end.z, wa * start.w + wb * end.w);
-  return nsvcd__quat_unit(sum);
 }
 
-// The matrix of a unit quaternion.
-static inline nsvcd__mat3 nsvcd__mat3_of(nsvcd__quat q) {
-  nsvcd__mat3 m;
-  m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z);
-  m.x.y = 2 * (q.x * q.y - q.z * q.w);
-  m.x.z = 2 * (q.x * q.z + q.y * q.w);
-  m.y.x = 2 * (q.x * q.y + q.z * q.w);
-  m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z);
-  m.y.z = 2 * (q.y * q.z - q.x * q.w);
-  m.z.x = 2 * (q.x * q.z - q.y * q.w);
-  m.z.y = 2 * (q.y * q.z + q.x * q.w);
-  m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y);
-  return m;
-}
-static inline nsvcd__mat3 nsvcd__mat3_transpose(nsvcd__mat3 m) {
-  nsvcd__mat3 out;
-  out.x = nsvcd__f3_of(m.x.x, m.y.x, m.z.x);
-  out.y = nsvcd__f3_of(m.x.y, m.y.y, m.z.y);
-  out.z = nsvcd__f3_of(m.x.z, m.y.z, m.z.z);
-  return out;
-}
-static inline nsvcd__f3 nsvcd__mat3_apply(const nsvcd__mat3 *m, nsvcd__f3 a) {
-  return nsvcd__f3_of(nsvcd__f3_dot(m->x, a), nsvcd__f3_dot(m->y, a), nsvcd__f3_dot(m->z, a));
-}
-// The transpose of m, times a.
-static inline nsvcd__f3 nsvcd__mat3_apply_transpose(const nsvcd__mat3 *m, nsvcd__f3 a) {
-  const nsvcd__mat3 back = nsvcd__mat3_transpose(*m);
-  return nsvcd__mat3_apply(&back, a);
-}
-// s (a + t b).
-static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
-                                          const nsvcd__mat3 *b) {
-  nsvcd__mat3 out;
-  out.x = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s);
-  out.y = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s);
-  out.z = nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s);
-  return out;
-}
-static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
-  nsvcd__mat3 out;
-  out.x = nsvcd__mat3_apply(&columns, a->x);
-  out.y = nsvcd__mat3_apply(&columns, a->y);
-  out.z = nsvcd__mat3_apply(&columns, a->z);
-  return out;
-}
-static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
-  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+// Room for an array; NULL without memory.
+static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
+  nsvcd__header *header = NULL;
+  if (count <= (SIZE_MAX - sizeof *header) / size)
+    header = (nsvcd__header *)nsvcd__alloc(arena->allocator, sizeof *header + count * size);
+  if (!header) {
+    arena->failed = 1;
+    return NULL;
+  }
+  header->next = arena->last;
+  arena->last = header;
+  return header + 1;
 }
 
-// ---- bits and sizes
+// An array of zeros; NULL without memory.
+#define NSVCD__TAKE(arena, type, count) ((type *)nsvcd__arena_take(arena, count, sizeof(type)))
+static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
+  void *array = nsvcd__arena_room(arena, count, size);
+  return array ? memset(array, 0, count * size) : NULL;
+}
 
-// Index of the lowest bit that is set, of a number that is not 0; how many are set.
-static size_t nsvcd__lowest_bit(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_ctzll(bits);
-#else
-  size_t n = 0;
-  while (!(bits >> n & 1))
-    n++;
-  return n;
+// Room in place of an array (NULL: none), of which it keeps the first `used` bytes; without memory
+// that stays.
+static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
+                               size_t size) {
+  nsvcd__header **at = &arena->last;
+  void *larger = nsvcd__arena_room(arena, count, size);
+  if (!larger || !old) return larger;
+  memcpy(larger, old, used);
+  while ((void *)(*at + 1) != old) at = &(*at)->next;
+  nsvcd__header *header = *at;
+  *at = header->next;
+  nsvcd__free(arena->allocator, header);
+  return larger;
+}
 #endif
+
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
+// they may be more than a machine of 32 bits can count.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
+  void *at = base ? base + *used : NULL;
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
+  return at;
 }
 
-static size_t nsvcd__bit_count(uint64_t bits) {
-#if defined(__GNUC__) || defined(__clang__)
-  return (size_t)__builtin_popcountll(bits);
-#else
-  size_t n = 0;
-  for (; bits; bits &= bits - 1)
-    n++;
-  return n;
-#endif
-}
-
-static size_t nsvcd__round_up(size_t n, size_t multiple) {
-  return (n + multiple - 1) / multiple * multiple;
-}
-
-// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
-static uint32_t nsvcd__magnitude(float x) {
-  uint32_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  return bits & 0x7fffffffu;
-}
-
-#endif  // NSVCD__ISA
-
-// ----------------------------------------------------------------------------------------- vectors
+// ----------------------------------------------------------------------------------- ground/slices
+// In: what the compiler was told the processor has. Out: how many of 16 lanes a register holds.
+//
 // 16 floats side by side, lane by lane, for the sweep and the decoder. One set of operations over
 // what the compiler was told the processor has; the plain path says what they mean. They differ in
 // rounding only: fma rounds once or twice. NSVCD_NO_SIMD takes the plain path.
@@ -1623,8 +1671,9 @@ static uint32_t nsvcd__magnitude(float x) {
 // Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
 // it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
-#define NSVCD__HULL NSVCD__LANES     // vertices of a patch's hull, at most
-#define NSVCD__ENCLOSES 0x80000000u  // of a listing: its triangle belongs to a closed component
+#define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
+// of a listing: its triangle belongs to a closed component
+#define NSVCD__ENCLOSES 0x80000000u
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
@@ -1666,675 +1715,17 @@ static uint32_t nsvcd__magnitude(float x) {
 #endif
 #endif  // NSVCD__ISA
 
-#if NSVCD__SLICE == 16
-// Some are masked, by a mask that takes all: without one gcc's own header warns, in C++.
-#define NSVCD__ALL ((__mmask16)0xffff)
-typedef __m512 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return _mm512_loadu_ps(p);
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  _mm512_storeu_ps(p, a);
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return _mm512_set1_ps(x);
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return _mm512_add_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return _mm512_sub_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return _mm512_mul_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return _mm512_div_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return _mm512_fmadd_ps(a, b, c);
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return _mm512_maskz_min_ps(NSVCD__ALL, a, b);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return _mm512_maskz_max_ps(NSVCD__ALL, a, b);
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return _mm512_maskz_sqrt_ps(NSVCD__ALL, a);
-}
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LE_OQ), y, x);
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  const __m512d whole = _mm512_castps_pd(a);
-  const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, whole, 0);
-  const __m256d high = _mm512_maskz_extractf64x4_pd(0xf, whole, 1);
-  const __m256 eight = _mm256_min_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high));
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
-  const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
-  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
-}
+// ======================================================================= mesh: files and triangles
 
-#elif NSVCD__SLICE == 8
-typedef __m256 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return _mm256_loadu_ps(p);
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  _mm256_storeu_ps(p, a);
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return _mm256_set1_ps(x);
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return _mm256_add_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return _mm256_sub_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return _mm256_mul_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return _mm256_div_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return _mm256_fmadd_ps(a, b, c);
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return _mm256_min_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return _mm256_max_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return _mm256_sqrt_ps(a);
-}
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return _mm256_blendv_ps(y, x, _mm256_cmp_ps(a, b, _CMP_LE_OQ));
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
-  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
-}
-
-#elif NSVCD__SLICE == 4 && defined(__wasm_simd128__)
-typedef v128_t nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return wasm_v128_load(p);
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  wasm_v128_store(p, a);
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return wasm_f32x4_splat(x);
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_add(a, b);
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_sub(a, b);
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_mul(a, b);
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_div(a, b);
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return wasm_f32x4_add(wasm_f32x4_mul(a, b), c);
-}
-// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_pmin(b, a);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return wasm_f32x4_pmax(b, a);
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return wasm_f32x4_sqrt(a);
-}
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_le(a, b));
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)wasm_i32x4_bitmask(wasm_f32x4_lt(a, b));
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return wasm_v128_bitselect(x, y, wasm_f32x4_le(a, b));
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
-  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)), 0);
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
-}
-
-#elif NSVCD__SLICE == 4 && !defined(__aarch64__)
-typedef __m128 nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return _mm_loadu_ps(p);
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  _mm_storeu_ps(p, a);
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return _mm_set1_ps(x);
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return _mm_add_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return _mm_sub_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return _mm_mul_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return _mm_div_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return _mm_add_ps(_mm_mul_ps(a, b), c);
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return _mm_min_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return _mm_max_ps(a, b);
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return _mm_sqrt_ps(a);
-}
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  const __m128 mask = _mm_cmple_ps(a, b);
-  return _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y));
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
-  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
-}
-
-#elif NSVCD__SLICE == 4
-typedef float32x4_t nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return vld1q_f32(p);
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  vst1q_f32(p, a);
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return vdupq_n_f32(x);
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return vaddq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return vsubq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return vmulq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return vdivq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return vfmaq_f32(c, a, b);
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return vminq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return vmaxq_f32(a, b);
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return vsqrtq_f32(a);
-}
-static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
-  static const uint32_t bit[4] = {1, 2, 4, 8};
-  return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
-}
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return nsvcd__v_bits(vcleq_f32(a, b));
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return nsvcd__v_bits(vcltq_f32(a, b));
-}
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return vbslq_f32(vcleq_f32(a, b), x, y);
-}
-static inline float nsvcd__v_least(nsvcd__v a) {
-  return vminvq_f32(a);
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
-}
-
-#else
-typedef float nsvcd__v;
-static inline nsvcd__v nsvcd__v_load(const float *p) {
-  return *p;
-}
-static inline void nsvcd__v_store(float *p, nsvcd__v a) {
-  *p = a;
-}
-static inline nsvcd__v nsvcd__v_set(float x) {
-  return x;
-}
-static inline nsvcd__v nsvcd__v_add(nsvcd__v a, nsvcd__v b) {
-  return a + b;
-}
-static inline nsvcd__v nsvcd__v_sub(nsvcd__v a, nsvcd__v b) {
-  return a - b;
-}
-static inline nsvcd__v nsvcd__v_mul(nsvcd__v a, nsvcd__v b) {
-  return a * b;
-}
-static inline nsvcd__v nsvcd__v_div(nsvcd__v a, nsvcd__v b) {
-  return a / b;
-}
-static inline nsvcd__v nsvcd__v_fma(nsvcd__v a, nsvcd__v b, nsvcd__v c) {
-  return a * b + c;
-}
-static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
-  return a < b ? a : b;
-}
-static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
-  return a > b ? a : b;
-}
-static inline nsvcd__v nsvcd__v_sqrt(nsvcd__v a) {
-  return sqrtf(a);
-}
-// Bit i is set where a <= b in lane i of the slice, or a < b.
-static inline uint32_t nsvcd__v_le(nsvcd__v a, nsvcd__v b) {
-  return a <= b;
-}
-static inline uint32_t nsvcd__v_lt(nsvcd__v a, nsvcd__v b) {
-  return a < b;
-}
-// a <= b ? x : y.
-static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
-  return a <= b ? x : y;
-}
-// The least of all lanes.
-static inline float nsvcd__v_least(nsvcd__v a) {
-  return a;
-}
-static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
-  return (float)*p;
-}
-#endif
-
-#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
-#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
-
-static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
-  return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
-}
-// All lanes times a number, and plus a number.
-static inline nsvcd__v nsvcd__v_scale(nsvcd__v a, float s) {
-  return nsvcd__v_mul(a, nsvcd__v_set(s));
-}
-static inline nsvcd__v nsvcd__v_plus(nsvcd__v a, float s) {
-  return nsvcd__v_add(a, nsvcd__v_set(s));
-}
-static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
-  return nsvcd__v_sub(nsvcd__v_set(0), a);
-}
-
-static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
-  return nsvcd__v_max(a, nsvcd__v_negate(a));
-}
-
-// A slice of vectors as a value, lane by lane.
-typedef struct nsvcd__v3 {
-  nsvcd__v x, y, z;
-} nsvcd__v3;
-
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
-  const nsvcd__v3 out = {x, y, z};
-  return out;
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
-  return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_add(a.x, b.x), nsvcd__v_add(a.y, b.y), nsvcd__v_add(a.z, b.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_max(a.x, b.x), nsvcd__v_max(a.y, b.y), nsvcd__v_max(a.z, b.z));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
-  return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
-}
-// a + s b.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
-                      nsvcd__v_fma(s, b.z, a.z));
-}
-NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
-}
-// s + a b.
-NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
-  const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
-  return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
-}
-NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) {
-  return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
-  return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
-                      nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
-                      nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
-}
-// Lanes l .. l + SLICE - 1 of p (3, LANES).
-NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3 a) {
-  nsvcd__v_store(p[0] + l, a.x);
-  nsvcd__v_store(p[1] + l, a.y);
-  nsvcd__v_store(p[2] + l, a.z);
-}
-// The centres of a slice of spheres, from l on.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
-  return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l), nsvcd__v_load(all.z + l));
-}
-// Rows of x, y and z, so many numbers apart.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
-  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride), nsvcd__v_load(p + 2 * stride));
-}
-NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
-  nsvcd__v_store(p, a.x);
-  nsvcd__v_store(p + stride, a.y);
-  nsvcd__v_store(p + 2 * stride, a.z);
-}
-// From three rows of 16 numbers.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
-  return nsvcd__v3_load_rows(p, NSVCD__LANES);
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
-  return nsvcd__v3_of(nsvcd__v_load(p[0] + l), nsvcd__v_load(p[1] + l), nsvcd__v_load(p[2] + l));
-}
-
-// One lane alone: the vector in lane l of (3, LANES).
-static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
-  return nsvcd__f3_of(lanes[0][l], lanes[1][l], lanes[2][l]);
-}
-static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
-  lanes[0][l] = a.x;
-  lanes[1][l] = a.y;
-  lanes[2][l] = a.z;
-}
-// Vectors over their lengths; the x axis where that is 0.
-static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v least = nsvcd__v_set(1e-18f);
-  const nsvcd__v length = nsvcd__v3_length(a);
-  const nsvcd__v inverse = nsvcd__v_div(one, nsvcd__v_max(length, least));
-  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
-  return nsvcd__v3_of(nsvcd__v_pick(length, least, one, unit.x),
-                      nsvcd__v_pick(length, least, zero, unit.y),
-                      nsvcd__v_pick(length, least, zero, unit.z));
-}
-
-// ---- rotations, lane by lane
-
-typedef struct nsvcd__vquat {
-  nsvcd__v x, y, z, w;
-} nsvcd__vquat;
-
-// Matrices by their rows.
-typedef struct nsvcd__vmat3 {
-  nsvcd__v3 x, y, z;
-} nsvcd__vmat3;
-
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
-  const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
-  return out;
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {  // times the sine of half the angle
-  return nsvcd__v3_of(q.x, q.y, q.z);
-}
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
-  return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
-}
-// Rows of x, y, z and w, so many numbers apart.
-NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
-}
-NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
-  nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
-  nsvcd__v_store(p + 3 * stride, q.w);
-}
-static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
-  nsvcd__v sum = nsvcd__v_mul(a.x, b.x);
-  sum = nsvcd__v_fma(a.y, b.y, sum);
-  sum = nsvcd__v_fma(a.z, b.z, sum);
-  return nsvcd__v_fma(a.w, b.w, sum);
-}
-// a + s b.
-static inline nsvcd__vquat nsvcd__vquat_fma(nsvcd__v s, nsvcd__vquat b, nsvcd__vquat a) {
-  const nsvcd__vquat out = {nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
-                            nsvcd__v_fma(s, b.z, a.z), nsvcd__v_fma(s, b.w, a.w)};
-  return out;
-}
-static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
-  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(q, q));
-  const nsvcd__vquat out = {nsvcd__v_div(q.x, length), nsvcd__v_div(q.y, length),
-                            nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
-  return out;
-}
-static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {  // of unit ones
-  return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
-}
-static inline nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
-  const nsvcd__v3 u = nsvcd__vquat_axis(a);
-  const nsvcd__v3 v = nsvcd__vquat_axis(b);
-  const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
-  const nsvcd__v cosines = nsvcd__v_mul(a.w, b.w);
-  return nsvcd__vquat_of(nsvcd__v3_add(nsvcd__v3_cross(u, v), along),
-                         nsvcd__v_sub(cosines, nsvcd__v3_dot(u, v)));
-}
-
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
-  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
-  return out;
-}
-// The matrix in lane l of p (9, LANES), row-major.
-static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
-  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
-                           nsvcd__lane_of(p + 6, l)};
-  return out;
-}
-// p: (9, LANES), row-major.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(float (*p)[NSVCD__LANES], size_t l) {
-  const nsvcd__vmat3 out = {nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
-                            nsvcd__v3_load(p + 6, l)};
-  return out;
-}
-NSVCD__INLINE void nsvcd__vmat3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__vmat3 m) {
-  nsvcd__v3_store(p, l, m.x);
-  nsvcd__v3_store(p + 3, l, m.y);
-  nsvcd__v3_store(p + 6, l, m.z);
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_scale(nsvcd__vmat3 m, nsvcd__v s) {
-  const nsvcd__vmat3 out = {nsvcd__v3_scale(m.x, s), nsvcd__v3_scale(m.y, s),
-                            nsvcd__v3_scale(m.z, s)};
-  return out;
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_sub(nsvcd__vmat3 a, nsvcd__vmat3 b) {
-  const nsvcd__vmat3 out = {nsvcd__v3_sub(a.x, b.x), nsvcd__v3_sub(a.y, b.y),
-                            nsvcd__v3_sub(a.z, b.z)};
-  return out;
-}
-// a + s b.
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_fma(nsvcd__v s, nsvcd__vmat3 b, nsvcd__vmat3 a) {
-  const nsvcd__vmat3 out = {nsvcd__v3_fma(s, b.x, a.x), nsvcd__v3_fma(s, b.y, a.y),
-                            nsvcd__v3_fma(s, b.z, a.z)};
-  return out;
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_transpose(nsvcd__vmat3 m) {
-  const nsvcd__vmat3 out = {nsvcd__v3_of(m.x.x, m.y.x, m.z.x), nsvcd__v3_of(m.x.y, m.y.y, m.z.y),
-                            nsvcd__v3_of(m.x.z, m.y.z, m.z.z)};
-  return out;
-}
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply(nsvcd__vmat3 m, nsvcd__v3 a) {
-  return nsvcd__v3_of(nsvcd__v3_dot(m.x, a), nsvcd__v3_dot(m.y, a), nsvcd__v3_dot(m.z, a));
-}
-NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_mul(nsvcd__vmat3 a, nsvcd__vmat3 b) {
-  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(b);
-  const nsvcd__vmat3 out = {nsvcd__vmat3_apply(columns, a.x), nsvcd__vmat3_apply(columns, a.y),
-                            nsvcd__vmat3_apply(columns, a.z)};
-  return out;
-}
-// p + m a.
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvcd__v3 p) {
-  return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
-                      nsvcd__v3_dot_add(m.z, a, p.z));
-}
-// The sum of the squares of the entries.
-NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
-  nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
-  sum = nsvcd__v3_dot_add(m.y, m.y, sum);
-  return nsvcd__v3_dot_add(m.z, m.z, sum);
-}
-// The transpose of m, times a.
-NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_transpose(nsvcd__vmat3 m, nsvcd__v3 a) {
-  const nsvcd__v3 sum = nsvcd__v3_fma(a.y, m.y, nsvcd__v3_scale(m.x, a.x));
-  return nsvcd__v3_fma(a.z, m.z, sum);
-}
-// One rotation and position for all lanes.
-NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
-  const nsvcd__mat3 columns = nsvcd__mat3_transpose(t->rotation);
-  nsvcd__v3 sum = nsvcd__v3_set(t->position);
-  sum = nsvcd__v3_fma(a.z, nsvcd__v3_set(columns.z), sum);
-  sum = nsvcd__v3_fma(a.y, nsvcd__v3_set(columns.y), sum);
-  return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
-}
-
-// Of quaternions that need not be of unit length, but whose squares float holds.
-static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
-  const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
-  const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
-  const nsvcd__v xx = nsvcd__v_mul(s.x, q.x);
-  const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);
-  const nsvcd__v zz = nsvcd__v_mul(s.z, q.z);
-  const nsvcd__v xy = nsvcd__v_mul(s.x, q.y);
-  const nsvcd__v yz = nsvcd__v_mul(s.y, q.z);
-  const nsvcd__v xz = nsvcd__v_mul(s.x, q.z);
-  const nsvcd__v xw = nsvcd__v_mul(s.x, q.w);
-  const nsvcd__v yw = nsvcd__v_mul(s.y, q.w);
-  const nsvcd__v zw = nsvcd__v_mul(s.z, q.w);
-  nsvcd__vmat3 m;
-  m.x.x = nsvcd__v_sub(one, nsvcd__v_add(yy, zz));
-  m.x.y = nsvcd__v_sub(xy, zw);
-  m.x.z = nsvcd__v_add(xz, yw);
-  m.y.x = nsvcd__v_add(xy, zw);
-  m.y.y = nsvcd__v_sub(one, nsvcd__v_add(xx, zz));
-  m.y.z = nsvcd__v_sub(yz, xw);
-  m.z.x = nsvcd__v_sub(xz, yw);
-  m.z.y = nsvcd__v_add(yz, xw);
-  m.z.z = nsvcd__v_sub(one, nsvcd__v_add(xx, yy));
-  return m;
-}
-
-#ifndef NSVCD__ISA
-// ------------------------------------------------------------------------------------------ memory
-
-#ifndef NSVCD_NO_ENCODER
-static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
-  return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
-}
-static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
-  if (allocator && memory)
-    allocator->free(memory, allocator->user);
-  if (!allocator)
-    free(memory);
-}
-// count * size bytes; NULL also where that product cannot be counted.
-static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
-  return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
-}
-static inline float *nsvcd__alloc_floats(const nsvcd_allocator *allocator, size_t count) {
-  return (float *)nsvcd__alloc_array(allocator, count, sizeof(float));
-}
-static inline uint32_t *nsvcd__alloc_words(const nsvcd_allocator *allocator, size_t count) {
-  return (uint32_t *)nsvcd__alloc_array(allocator, count, sizeof(uint32_t));
-}
-static inline size_t *nsvcd__alloc_sizes(const nsvcd_allocator *allocator, size_t count) {
-  return (size_t *)nsvcd__alloc_array(allocator, count, sizeof(size_t));
-}
-static inline nsvcd__f3 *nsvcd__alloc_f3s(const nsvcd_allocator *allocator, size_t count) {
-  return (nsvcd__f3 *)nsvcd__alloc_array(allocator, count, sizeof(nsvcd__f3));
-}
-static inline nsvcd__d3 *nsvcd__alloc_d3s(const nsvcd_allocator *allocator, size_t count) {
-  return (nsvcd__d3 *)nsvcd__alloc_array(allocator, count, sizeof(nsvcd__d3));
-}
-#endif
-
-// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
-// they may be more than a machine of 32 bits can count.
-static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
-  void *at = base ? base + *used : NULL;
-  const uint64_t bytes = (uint64_t)rows * row_size;
-  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
-  return at;
-}
-
-// -------------------------------------------------------------------------------------------- mesh
-// In: Wavefront OBJ text, or triangles from the caller. Out: nsvcd_mesh, every index in range,
-// every coordinate finite.
+// --------------------------------------------------------------------------------------- mesh/mesh
+// In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; or what of it lies
+// in a box.
 
 #define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
 
 #ifndef NSVCD_NO_ENCODER
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
-  if (!mesh)
-    return;
+  if (!mesh) return;
   nsvcd__free(allocator, mesh->positions);
   nsvcd__free(allocator, mesh->indices);
   memset(mesh, 0, sizeof *mesh);
@@ -2343,117 +1734,81 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // Room for vertices and triangles. 0 without memory; in either case nsvcd_mesh_free gives it back.
 static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles,
                              const nsvcd_allocator *allocator) {
-  const size_t positions = 3 * sizeof(float);
-  const size_t indices = 3 * sizeof(uint32_t);
+  const size_t row = 3 * sizeof(float);
   mesh->vertex_count = vertices;
   mesh->triangle_count = triangles;
   // + 1: a file may hold faces and no vertex, and malloc(0) may return NULL.
-  mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, positions);
-  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, indices);
+  mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, row);
+  mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, row);
   return mesh->positions && mesh->indices;
 }
 
 // A mesh may come from anywhere: everything below relies on what is checked here.
 static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
-  if (!mesh)
-    return NSVCD_ERROR_ARGUMENT;
-  if (mesh->triangle_count == 0)
-    return NSVCD_ERROR_EMPTY;
-  if (!mesh->positions || !mesh->indices)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!mesh) return NSVCD_ERROR_ARGUMENT;
+  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
+  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
   const size_t vertices = mesh->vertex_count;
   const size_t triangles = mesh->triangle_count;
   if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < 3 * triangles; i++) {
-    if (mesh->indices[i] >= vertices)
-      return NSVCD_ERROR_INDEX;
+    if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
   }
   for (size_t i = 0; i < 3 * vertices; i++) {
     const float x = mesh->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
   }
   return NSVCD_OK;
 }
 
-// What is left of a triangle when it is cut at the six sides of a box. Each side adds one corner,
-// or two where roundings make the polygon cross it twice.
+// A triangle cut at the six sides of a box. Each side adds one corner, or two where roundings make
+// the polygon cross it twice.
 typedef struct nsvcd__clipped {
   nsvcd__d3 corners[3 + 2 * 6];
   size_t count;
 } nsvcd__clipped;
 
-static void nsvcd__clipped_add(nsvcd__clipped *polygon, nsvcd__d3 corner) {
-  polygon->corners[polygon->count++] = corner;
-}
-
-// Cuts a polygon at one side of a box: keeps what has sign * x[axis] <= sign * bound.
-static nsvcd__clipped nsvcd__clip(const nsvcd__clipped *polygon, size_t axis, double sign,
-                                  double bound) {
-  nsvcd__clipped out;
-  out.count = 0;
-  for (size_t i = 0; i < polygon->count; i++) {
-    const nsvcd__d3 a = polygon->corners[i];
-    const nsvcd__d3 b = polygon->corners[(i + 1) % polygon->count];
-    const double past_a = sign * (nsvcd__d3_axis(a, axis) - bound);
-    const double past_b = sign * (nsvcd__d3_axis(b, axis) - bound);
-    if (past_a <= 0)
-      nsvcd__clipped_add(&out, a);
-    if ((past_a <= 0) == (past_b <= 0))
-      continue;
-    nsvcd__d3 between = nsvcd__d3_mix(a, b, past_a / (past_a - past_b));
-    nsvcd__d3_set_axis(&between, axis, bound);
-    nsvcd__clipped_add(&out, between);
-  }
-  return out;
-}
-
 // The part of triangle t within the box: 0, or 3 to 9 corners, but for roundings.
 static nsvcd__clipped nsvcd__cut_triangle(const nsvcd_mesh *mesh, size_t t, const float *low,
                                           const float *high) {
-  const uint32_t *corners = mesh->indices + 3 * t;
-  nsvcd__clipped polygon;
-  polygon.count = 0;
-  for (size_t i = 0; i < 3; i++)
-    nsvcd__clipped_add(&polygon, nsvcd__d3_row(mesh->positions, corners[i]));
-  for (size_t k = 0; k < 3 && polygon.count >= 3; k++) {
-    polygon = nsvcd__clip(&polygon, k, -1, (double)low[k]);
-    polygon = nsvcd__clip(&polygon, k, 1, (double)high[k]);
+  const uint32_t *triangle = mesh->indices + 3 * t;
+  nsvcd__clipped out;
+  for (out.count = 0; out.count < 3; out.count++)
+    out.corners[out.count] = nsvcd__d3_row(mesh->positions, triangle[out.count]);
+  for (size_t side = 0; side < 6; side++) {
+    const size_t axis = side / 2;
+    const double sign = side % 2 ? 1 : -1;
+    const double bound = (double)(side % 2 ? high : low)[axis];
+    const nsvcd__clipped from = out;
+    out.count = 0;
+    // what has sign * x[axis] <= sign * bound is kept
+    for (size_t i = 0; i < from.count; i++) {
+      const nsvcd__d3 a = from.corners[i];
+      const nsvcd__d3 b = from.corners[(i + 1) % from.count];
+      const double past_a = sign * (nsvcd__d3_axis(a, axis) - bound);
+      const double past_b = sign * (nsvcd__d3_axis(b, axis) - bound);
+      if (past_a <= 0) out.corners[out.count++] = a;
+      if ((past_a <= 0) == (past_b <= 0)) continue;
+      nsvcd__d3 *between = &out.corners[out.count++];
+      *between = nsvcd__d3_mix(a, b, past_a / (past_a - past_b));
+      nsvcd__d3_set_axis(between, axis, bound);
+    }
+    if (side % 2 && out.count < 3) out.count = 0;
   }
-  if (polygon.count < 3)
-    polygon.count = 0;
-  return polygon;
-}
-
-// Adds a polygon to a mesh in which there is room for it: a fan of triangles.
-static void nsvcd__mesh_add(nsvcd_mesh *mesh, const nsvcd__clipped *polygon) {
-  const uint32_t first = (uint32_t)mesh->vertex_count;
-  for (size_t i = 0; i < polygon->count; i++) {
-    const nsvcd__f3 corner = nsvcd__d3_narrow(polygon->corners[i]);
-    nsvcd__f3_store(corner, mesh->positions + 3 * mesh->vertex_count++);
-  }
-  for (uint32_t i = 2; i < polygon->count; i++) {
-    uint32_t *triangle = mesh->indices + 3 * mesh->triangle_count++;
-    triangle[0] = first;
-    triangle[1] = first + i - 1;
-    triangle[2] = first + i;
-  }
+  return out;
 }
 
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part) {
-  if (!low || !high || !part)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
     const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
-    if (!finite || !(low[k] < high[k]))
-      return NSVCD_ERROR_ARGUMENT;
+    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_ARGUMENT;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
-  if (result)
-    return result;
+  if (result) return result;
 
   size_t vertices = 0;
   size_t triangles = 0;
@@ -2462,10 +1817,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
     vertices += corners;
     triangles += corners ? corners - 2 : 0;
   }
-  if (vertices == 0)
-    return NSVCD_ERROR_EMPTY;
-  if (vertices > NSVCD__MAX_COUNT)
-    return NSVCD_ERROR_TOO_LARGE;
+  if (vertices == 0) return NSVCD_ERROR_EMPTY;
+  if (vertices > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   nsvcd_mesh out;
   if (!nsvcd__mesh_alloc(&out, vertices, triangles, allocator)) {
     nsvcd_mesh_free(&out, allocator);
@@ -2476,15 +1829,28 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   out.triangle_count = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const nsvcd__clipped polygon = nsvcd__cut_triangle(mesh, t, low, high);
-    nsvcd__mesh_add(&out, &polygon);
+    const uint32_t first = (uint32_t)out.vertex_count;
+    for (size_t i = 0; i < polygon.count; i++) {
+      const nsvcd__f3 corner = nsvcd__d3_narrow(polygon.corners[i]);
+      nsvcd__f3_store(corner, out.positions + 3 * out.vertex_count++);
+    }
+    // a fan
+    for (uint32_t i = 2; i < polygon.count; i++) {
+      uint32_t *triangle = out.indices + 3 * out.triangle_count++;
+      triangle[0] = first;
+      triangle[1] = first + i - 1;
+      triangle[2] = first + i;
+    }
   }
   *part = out;
   return NSVCD_OK;
 }
 #endif
 
-#ifndef NSVCD_NO_OBJ
-// ---- polygons: ear clipping (Meisters 1975; after Eberly, "Triangulation by Ear Clipping")
+// ----------------------------------------------------------------------------------- mesh/polygons
+// In: the corners of a face. Out: triangles, by ear clipping (Meisters 1975; after Eberly,
+// "Triangulation by Ear Clipping").
+//
 // A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
 // polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
 // (crossing itself, no area) is cut somehow.
@@ -2493,6 +1859,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
 // these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
 // has a box, as have two boxes side by side, and so on up to one about all.
 
+#ifndef NSVCD_NO_OBJ
 #define NSVCD__RUN 8
 
 // In the polygon's plane.
@@ -2506,8 +1873,8 @@ typedef struct nsvcd__corner {
   uint32_t vertex;
   // the ring of corners not yet clipped
   uint32_t previous, next;
-  // 1: in the queue of corners that may have become an ear; the next one there
-  uint32_t queued, queue_next;
+  // 1: in the queue
+  uint32_t queued;
   // 1: the inner angle exceeds 180 degrees
   uint32_t reflex;
   // the box of its run
@@ -2522,35 +1889,32 @@ typedef struct nsvcd__corner_box {
 
 typedef struct nsvcd__polygon {
   nsvcd__corner *corners;
-  uint32_t *order;           // (count): corners along the Z curve
-  nsvcd__corner_box *boxes;  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
-  uint32_t count, runs;      // a power of two
-  uint32_t queue_first, queue_last, queue_length;
+  // (count): corners along the Z curve
+  uint32_t *order;
+  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  nsvcd__corner_box *boxes;
+  uint32_t count, runs;  // a power of two
+  // (count), a ring: corners that may have become an ear
+  uint32_t *queue;
+  uint32_t queue_first, queue_length;
 } nsvcd__polygon;
 
 // Runs of so many corners, rounded up to a power of two.
 static uint32_t nsvcd__runs_of(uint32_t corners) {
   uint32_t runs = 1;
-  while (NSVCD__RUN * (uint64_t)runs < corners)
-    runs *= 2;
+  while (NSVCD__RUN * (uint64_t)runs < corners) runs *= 2;
   return runs;
 }
 
-static void nsvcd__polygon_free(nsvcd__polygon *polygon, const nsvcd_allocator *allocator) {
-  nsvcd__free(allocator, polygon->corners);
-  nsvcd__free(allocator, polygon->order);
-  nsvcd__free(allocator, polygon->boxes);
-}
-// Room for polygons of up to so many corners. 0 without memory; nsvcd__polygon_free in either case.
+// Room for polygons of up to so many corners. 0 without memory.
 static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
-                                const nsvcd_allocator *allocator) {
-  const size_t boxes = 2 * (size_t)nsvcd__runs_of(corners);
+                                nsvcd__arena *arena) {
   memset(polygon, 0, sizeof *polygon);
-  polygon->corners = (nsvcd__corner *)nsvcd__alloc_array(allocator, corners, sizeof(nsvcd__corner));
-  polygon->order = nsvcd__alloc_words(allocator, corners);
-  polygon->boxes =
-      (nsvcd__corner_box *)nsvcd__alloc_array(allocator, boxes, sizeof(nsvcd__corner_box));
-  return polygon->corners && polygon->order && polygon->boxes;
+  polygon->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
+  polygon->order = NSVCD__TAKE(arena, uint32_t, corners);
+  polygon->queue = NSVCD__TAKE(arena, uint32_t, corners);
+  polygon->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
+  return !arena->failed;
 }
 
 // Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
@@ -2558,68 +1922,47 @@ static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
 static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
-static nsvcd__d2 nsvcd__d2_min(nsvcd__d2 a, nsvcd__d2 b) {
-  const nsvcd__d2 out = {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y};
-  return out;
-}
-static nsvcd__d2 nsvcd__d2_max(nsvcd__d2 a, nsvcd__d2 b) {
-  const nsvcd__d2 out = {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y};
-  return out;
-}
 static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
   return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
-}
-
-// Twice the area times the normal of a polygon in space (Newell's).
-static nsvcd__d3 nsvcd__polygon_normal(const nsvcd__polygon *polygon, const float *positions) {
-  const nsvcd__corner *corners = polygon->corners;
-  const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
-  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  for (uint32_t i = 0; i < polygon->count; i++) {
-    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
-    const nsvcd__d3 p = nsvcd__d3_row(positions, corners[i].vertex);
-    const nsvcd__d3 q = nsvcd__d3_row(positions, next);
-    const nsvcd__d3 area = nsvcd__d3_cross(nsvcd__d3_sub(p, origin), nsvcd__d3_sub(q, origin));
-    normal = nsvcd__d3_add(normal, area);
-  }
-  return normal;
 }
 
 // Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
 // coordinates exact.
 static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
-  const nsvcd__d3 normal = nsvcd__polygon_normal(polygon, positions);
-  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
-  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis)))
-    axis = 2;
-  const int turned = nsvcd__d3_axis(normal, axis) < 0;
-  const size_t u = (axis + (turned ? 2 : 1)) % 3;
-  const size_t v = (axis + (turned ? 1 : 2)) % 3;
+  nsvcd__corner *corners = polygon->corners;
+  // twice the area times the normal (Newell's)
+  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
   for (uint32_t i = 0; i < polygon->count; i++) {
-    nsvcd__corner *c = &polygon->corners[i];
-    const float *p = positions + 3 * (size_t)c->vertex;
-    c->at.x = (double)p[u];
-    c->at.y = (double)p[v];
+    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
+    const nsvcd__d3 p = nsvcd__d3_sub(nsvcd__d3_row(positions, corners[i].vertex), origin);
+    const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
+    normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
+  }
+  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
+  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
+  const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const float *p = positions + 3 * (size_t)corners[i].vertex;
+    corners[i].at.x = (double)p[(axis + 1 + turned) % 3];
+    corners[i].at.y = (double)p[(axis + 2 - turned) % 3];
   }
 }
 
-// A number that grows with a coordinate, which is a float.
-static uint32_t nsvcd__z_key(double coordinate) {
-  const float x = (float)coordinate;
-  uint32_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  return bits >> 31 ? ~bits : bits | 0x80000000u;
-}
-
 // Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
-static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count, int bit) {
-  if (count <= NSVCD__RUN || bit < 0)
-    return;
-  uint32_t ones = count;  // where those begin that have the bit
+static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count,
+                          int bit) {
+  if (count <= NSVCD__RUN || bit < 0) return;
+  // where those begin that have the bit
+  uint32_t ones = count;
   for (uint32_t i = 0; i < ones;) {
     const uint32_t corner = order[i];
     const nsvcd__d2 at = corners[corner].at;
-    const uint32_t key = nsvcd__z_key(bit % 2 ? at.x : at.y);
+    const float x = (float)(bit % 2 ? at.x : at.y);
+    uint32_t key;
+    memcpy(&key, &x, sizeof key);
+    // grows with the coordinate
+    key = key >> 31 ? ~key : key | 0x80000000u;
     if (key >> bit / 2 & 1) {
       order[i] = order[--ones];
       order[ones] = corner;
@@ -2631,23 +1974,27 @@ static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_
   nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
 }
 
+static nsvcd__corner_box nsvcd__no_box(void) {
+  const nsvcd__corner_box out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+  return out;
+}
+static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
+  if (at.x < box->low.x) box->low.x = at.x;
+  if (at.y < box->low.y) box->low.y = at.y;
+  if (at.x > box->high.x) box->high.x = at.x;
+  if (at.y > box->high.y) box->high.y = at.y;
+}
+
 // Puts the corners into boxes. None is known to be reflex yet.
 static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
-  nsvcd__corner_box *boxes = polygon->boxes;
-  const nsvcd__corner_box none = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
   polygon->runs = nsvcd__runs_of(polygon->count);
-  for (uint32_t k = 0; k < 2 * polygon->runs; k++)
-    boxes[k] = none;
-  for (uint32_t i = 0; i < polygon->count; i++)
-    polygon->order[i] = i;
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box();
+  for (uint32_t i = 0; i < polygon->count; i++) polygon->order[i] = i;
   nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
   for (uint32_t i = 0; i < polygon->count; i++) {
     nsvcd__corner *c = &polygon->corners[polygon->order[i]];
     c->box = polygon->runs + i / NSVCD__RUN;
-    for (uint32_t k = c->box; k > 0; k /= 2) {
-      boxes[k].low = nsvcd__d2_min(boxes[k].low, c->at);
-      boxes[k].high = nsvcd__d2_max(boxes[k].high, c->at);
-    }
+    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&polygon->boxes[k], c->at);
   }
 }
 
@@ -2665,79 +2012,50 @@ static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__d2 previous = corners[c->previous].at;
   const nsvcd__d2 next = corners[c->next].at;
   nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
-  if (c->queued)
-    return;
+  if (c->queued) return;
   c->queued = 1;
-  if (polygon->queue_length == 0) {
-    polygon->queue_first = i;
-  } else {
-    corners[polygon->queue_last].queue_next = i;
-  }
-  polygon->queue_length++;
-  polygon->queue_last = i;
+  polygon->queue[(polygon->queue_first + polygon->queue_length++) % polygon->count] = i;
 }
 
 // A triangle of three neighbours, counter-clockwise, and the box about it.
 typedef struct nsvcd__ear {
-  nsvcd__d2 a, b, c;
-  nsvcd__d2 low, high;
+  nsvcd__d2 at[3];
+  nsvcd__corner_box box;
 } nsvcd__ear;
 
 // Is a place within an ear, and not at one of its corners?
 static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
-  if (nsvcd__d2_cross(ear->a, ear->b, p) < 0)
-    return 0;
-  if (nsvcd__d2_cross(ear->b, ear->c, p) < 0 || nsvcd__d2_cross(ear->c, ear->a, p) < 0)
-    return 0;
-  if (nsvcd__same_place(p, ear->a) || nsvcd__same_place(p, ear->b))
-    return 0;
-  return !nsvcd__same_place(p, ear->c);
-}
-
-// Is all of a box to the right of the line from a to b? Its farthest corner to the left tells.
-static int nsvcd__is_right_of(const nsvcd__corner_box *box, nsvcd__d2 a, nsvcd__d2 b) {
-  nsvcd__d2 left;
-  left.x = b.y > a.y ? box->low.x : box->high.x;
-  left.y = b.x > a.x ? box->high.y : box->low.y;
-  return nsvcd__d2_cross(a, b, left) < 0;
+  for (size_t k = 0; k < 3; k++) {
+    if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
+  }
+  if (nsvcd__same_place(p, ear->at[0]) || nsvcd__same_place(p, ear->at[1])) return 0;
+  return !nsvcd__same_place(p, ear->at[2]);
 }
 
 // May an ear hold a corner in a box?
 static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
-  if (nsvcd__same_place(box->low, box->high))
-    return nsvcd__ear_holds(ear, box->low);
-  if (ear->high.x < box->low.x || ear->high.y < box->low.y)
-    return 0;
-  if (ear->low.x > box->high.x || ear->low.y > box->high.y)
-    return 0;
-  if (nsvcd__is_right_of(box, ear->a, ear->b) || nsvcd__is_right_of(box, ear->b, ear->c))
-    return 0;
-  return !nsvcd__is_right_of(box, ear->c, ear->a);
-}
-
-// Does an ear hold a reflex corner of run k?
-static int nsvcd__ear_holds_one(const nsvcd__polygon *polygon, const nsvcd__ear *ear, uint32_t k) {
-  const uint32_t first = NSVCD__RUN * (k - polygon->runs);
-  for (uint32_t i = first; i < first + NSVCD__RUN && i < polygon->count; i++) {
-    const nsvcd__corner *p = &polygon->corners[polygon->order[i]];
-    if (p->reflex && nsvcd__ear_holds(ear, p->at))
-      return 1;
+  if (nsvcd__same_place(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
+  if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
+  if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    // All of the box is to the right of a side: its farthest corner to the left tells.
+    const nsvcd__d2 a = ear->at[k];
+    const nsvcd__d2 b = ear->at[(k + 1) % 3];
+    const double x = b.y > a.y ? box->low.x : box->high.x;
+    const nsvcd__d2 left = {x, b.x > a.x ? box->high.y : box->low.y};
+    if (nsvcd__d2_cross(a, b, left) < 0) return 0;
   }
-  return 0;
+  return 1;
 }
 
 // An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
 static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
   const nsvcd__corner *corners = polygon->corners;
-  const nsvcd__corner *middle = &corners[i];
-  nsvcd__ear ear;
-  ear.a = corners[middle->previous].at;
-  ear.b = middle->at;
-  ear.c = corners[middle->next].at;
-  if (nsvcd__d2_cross(ear.a, ear.b, ear.c) <= 0)
-    return 0;
-  ear.low = nsvcd__d2_min(nsvcd__d2_min(ear.a, ear.b), ear.c);
-  ear.high = nsvcd__d2_max(nsvcd__d2_max(ear.a, ear.b), ear.c);
+  const nsvcd__d2 a = corners[corners[i].previous].at;
+  const nsvcd__d2 c = corners[corners[i].next].at;
+  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box()};
+  if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
+  for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
   for (uint32_t k = 1; k > 0;) {
     const nsvcd__corner_box *box = &polygon->boxes[k];
     const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
@@ -2746,20 +2064,25 @@ static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
       k *= 2;
       continue;
     }
-    if (meets && nsvcd__ear_holds_one(polygon, &ear, k))
-      return 0;
+    const uint32_t first = NSVCD__RUN * (k - polygon->runs);
+    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < polygon->count; j++) {
+      const nsvcd__corner *p = &corners[polygon->order[j]];
+      if (p->reflex && nsvcd__ear_holds(&ear, p->at)) return 0;
+    }
     // to the next box that is not within this one; 0: there is none
-    while (k % 2)
-      k /= 2;
+    while (k % 2) k /= 2;
     k += k > 0;
   }
   return 1;
 }
 
-// Makes a ring of the corners, and a queue of all: each may be an ear.
-static void nsvcd__polygon_begin(nsvcd__polygon *polygon, const float *positions) {
+// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+                                       uint32_t *triangles) {
+  // A ring of the corners, and a queue of all: each may be an ear.
   nsvcd__corner *corners = polygon->corners;
   const uint32_t count = polygon->count;
+  polygon->queue_first = 0;
   polygon->queue_length = 0;
   for (uint32_t i = 0; i < count; i++) {
     corners[i].previous = (i + count - 1) % count;
@@ -2767,33 +2090,26 @@ static void nsvcd__polygon_begin(nsvcd__polygon *polygon, const float *positions
     corners[i].queued = 0;
     corners[i].reflex = 0;
   }
-  if (count == 3)
-    return;
-  nsvcd__polygon_project(polygon, positions);
-  nsvcd__polygon_box(polygon);
-  for (uint32_t i = 0; i < count; i++)
-    nsvcd__polygon_update(polygon, i);
-}
+  if (count > 3) {
+    nsvcd__polygon_project(polygon, positions);
+    nsvcd__polygon_box(polygon);
+    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(polygon, i);
+  }
 
-// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
-static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
-                                       uint32_t *triangles) {
-  nsvcd__corner *corners = polygon->corners;
-  nsvcd__polygon_begin(polygon, positions);
-  uint32_t at = 0;  // some corner of what is left
-  for (uint32_t left = polygon->count; left > 3;) {
+  // some corner of what is left
+  uint32_t at = 0;
+  for (uint32_t left = count; left > 3;) {
     // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
     // go on.
     const int stuck = polygon->queue_length == 0;
-    const uint32_t i = stuck ? at : polygon->queue_first;
+    const uint32_t i = stuck ? at : polygon->queue[polygon->queue_first];
     nsvcd__corner *c = &corners[i];
     if (!stuck) {
-      polygon->queue_first = c->queue_next;
+      polygon->queue_first = (polygon->queue_first + 1) % count;
       polygon->queue_length--;
       c->queued = 0;
     }
-    if (!stuck && !nsvcd__polygon_is_ear(polygon, i))
-      continue;
+    if (!stuck && !nsvcd__polygon_is_ear(polygon, i)) continue;
     triangles[0] = corners[c->previous].vertex;
     triangles[1] = c->vertex;
     triangles[2] = corners[c->next].vertex;
@@ -2810,44 +2126,40 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
 }
+#endif  // NSVCD_NO_OBJ
 
-// ---- OBJ (Wavefront, "Object Files", version 3.0): v and f count, all else is skipped
+// ---------------------------------------------------------------------------------------- mesh/obj
+// In: the text of a Wavefront OBJ file (version 3.0). Out: nsvcd_mesh. Statements v and f count,
+// all else is skipped.
+//
 // Three passes over the text: count, vertices, faces. A face may refer to any vertex of the file by
 // its number, also to a later one; negative numbers count back from the last vertex so far. Locale
 // plays no part. Keywords that are skipped are letters, and digits behind two of them: curv2 is
 // one, f1 is a mistake.
 
+#ifndef NSVCD_NO_OBJ
 typedef struct nsvcd__obj {
   const char *at, *end;
-  size_t line;           // of `at`, from 1
-  uint32_t vertices;     // v statements so far
-  uint32_t triangles;    // so far, from f statements
-  uint32_t max_corners;  // of a face
+  size_t line;  // of `at`, from 1; 0: before the first
+  // v statements so far
+  uint32_t vertices;
+  // so far, from f statements
+  uint32_t triangles;
+  // of a face
+  uint32_t max_corners;
 } nsvcd__obj;
-
-enum {
-  NSVCD__OBJ_END,
-  NSVCD__OBJ_VERTEX,
-  NSVCD__OBJ_FACE,
-  NSVCD__OBJ_OTHER,
-  NSVCD__OBJ_BAD  // not a keyword
-};
 
 // Length of the line's end at p; 0: there is none.
 static size_t nsvcd__obj_newline(const char *p, const char *end) {
-  if (p == end || (*p != '\n' && *p != '\r'))
-    return 0;
+  if (p == end || (*p != '\n' && *p != '\r')) return 0;
   return end - p >= 2 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
 }
 // Length of the blank at p: a backslash before the line's end continues the statement on the next
 // line.
-static size_t nsvcd__obj_blank(const char *p, const char *end) {
-  if (p == end)
-    return 0;
-  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f')
-    return 1;
-  if (*p != '\\')
-    return 0;
+static inline size_t nsvcd__obj_blank(const char *p, const char *end) {
+  if (p == end) return 0;
+  if (*p == ' ' || *p == '\t' || *p == '\v' || *p == '\f') return 1;
+  if (*p != '\\') return 0;
   const size_t newline = nsvcd__obj_newline(p + 1, end);
   return newline > 0 ? 1 + newline : 0;
 }
@@ -2856,19 +2168,25 @@ static int nsvcd__obj_is_digit(const nsvcd__obj *obj) {
 }
 static int nsvcd__obj_accept(nsvcd__obj *obj, char c) {
   const int is_there = obj->at < obj->end && *obj->at == c;
-  if (is_there)
-    obj->at++;
+  if (is_there) obj->at++;
   return is_there;
 }
 static int nsvcd__obj_line_ends(const nsvcd__obj *obj) {
   return obj->at == obj->end || *obj->at == '\n' || *obj->at == '\r';
 }
+// Reads digits; 0 where there is none. What is too large for any use stays too large.
+static int nsvcd__obj_integer(nsvcd__obj *obj, int64_t *number) {
+  const char *start = obj->at;
+  for (*number = 0; nsvcd__obj_is_digit(obj); obj->at++) {
+    if (*number < 1000000000000000) *number = 10 * *number + (*obj->at - '0');
+  }
+  return obj->at > start;
+}
 static int nsvcd__obj_token_ends(const nsvcd__obj *obj) {
-  if (nsvcd__obj_line_ends(obj))
-    return 1;
+  if (nsvcd__obj_line_ends(obj)) return 1;
   return nsvcd__obj_blank(obj->at, obj->end) > 0;
 }
-static void nsvcd__obj_skip_token(nsvcd__obj *obj) {
+static inline void nsvcd__obj_skip_token(nsvcd__obj *obj) {
   for (; !nsvcd__obj_token_ends(obj); obj->at++) {
     // what can be nothing else, quickly
     while (obj->at + 1 < obj->end && (unsigned char)obj->at[1] > ' ' && obj->at[1] != '\\')
@@ -2887,34 +2205,26 @@ static int nsvcd__obj_has_token(nsvcd__obj *obj) {
   return !nsvcd__obj_line_ends(obj) && *obj->at != '#';
 }
 
-// To the beginning of the next line that does not continue this statement. Token by token, as all
-// passes read it: what one takes for a comment, which nothing continues, all do.
-static void nsvcd__obj_skip_statement(nsvcd__obj *obj) {
-  while (nsvcd__obj_has_token(obj))
-    nsvcd__obj_skip_token(obj);
-  while (!nsvcd__obj_line_ends(obj))
-    obj->at++;
-  obj->at += nsvcd__obj_newline(obj->at, obj->end);
+// To the next statement, past what is left of this one. Token by token, as all passes read it: what
+// one takes for a comment, which nothing continues, all do. Returns its keyword: v, f, a hash for
+// any other, ? for what is none, or 0 at the end of the text.
+static int nsvcd__obj_next(nsvcd__obj *obj) {
+  if (obj->line > 0) {
+    while (nsvcd__obj_has_token(obj)) nsvcd__obj_skip_token(obj);
+    while (!nsvcd__obj_line_ends(obj)) obj->at++;
+    obj->at += nsvcd__obj_newline(obj->at, obj->end);
+  }
   obj->line++;
-}
-
-// Reads the keyword that a statement begins with.
-static int nsvcd__obj_keyword(nsvcd__obj *obj) {
-  if (!nsvcd__obj_has_token(obj))
-    return obj->at == obj->end ? NSVCD__OBJ_END : NSVCD__OBJ_OTHER;
+  if (!nsvcd__obj_has_token(obj)) return obj->at == obj->end ? 0 : '#';
   const char *start = obj->at;
   nsvcd__obj_skip_token(obj);
-  if (obj->at - start == 1 && *start == 'v')
-    return NSVCD__OBJ_VERTEX;
-  if (obj->at - start == 1 && *start == 'f')
-    return NSVCD__OBJ_FACE;
+  if (obj->at - start == 1 && (*start == 'v' || *start == 'f')) return *start;
   for (const char *p = start; p < obj->at; p++) {
     const int letter = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') || *p == '_';
     const int digit = *p >= '0' && *p <= '9';
-    if (!letter && !(digit && p - start >= 2))
-      return NSVCD__OBJ_BAD;
+    if (!letter && !(digit && p - start >= 2)) return '?';
   }
-  return NSVCD__OBJ_OTHER;
+  return '#';
 }
 
 // value = mantissa * 10^exponent, exponent in -400..400. Powers up to 10^22 are exact: one rounding
@@ -2924,132 +2234,75 @@ static double nsvcd__obj_scale(uint64_t mantissa, int exponent) {
                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
   double value = (double)mantissa;
-  for (; exponent > 22; exponent -= 22)
-    value *= power[22];
-  for (; exponent < -22; exponent += 22)
-    value /= power[22];
+  for (; exponent > 22; exponent -= 22) value *= power[22];
+  for (; exponent < -22; exponent += 22) value /= power[22];
   return exponent < 0 ? value / power[-exponent] : value * power[exponent];
 }
 
 // Accepts a sign; returns 1 if it is a minus.
 static int nsvcd__obj_minus(nsvcd__obj *obj) {
   const int minus = nsvcd__obj_accept(obj, '-');
-  if (!minus)
-    nsvcd__obj_accept(obj, '+');
+  if (!minus) nsvcd__obj_accept(obj, '+');
   return minus;
-}
-
-// Digits and a point, as mantissa * 10^exponent. 0 where there is no digit.
-static int nsvcd__obj_digits(nsvcd__obj *obj, uint64_t *mantissa, int64_t *exponent) {
-  int digits = 0;
-  int point = 0;
-  *mantissa = 0;
-  *exponent = 0;
-  for (;;) {
-    if (!point && nsvcd__obj_accept(obj, '.'))
-      point = 1;
-    if (!nsvcd__obj_is_digit(obj))
-      break;
-    digits = 1;
-    // 19 digits are kept, the rest only moves the point
-    const int fits = *mantissa < 1000000000000000000u;
-    if (fits)
-      *mantissa = 10 * *mantissa + (uint64_t)(*obj->at - '0');
-    *exponent += !fits - point;
-    obj->at++;
-  }
-  return digits;
-}
-
-// The number behind an e, added to the exponent. 0 where there is none.
-static int nsvcd__obj_exponent(nsvcd__obj *obj, int64_t *exponent) {
-  const int minus = nsvcd__obj_minus(obj);
-  int64_t written = 0;
-  if (!nsvcd__obj_is_digit(obj))
-    return 0;
-  for (; nsvcd__obj_is_digit(obj); obj->at++) {
-    if (written < 1000000000000000)
-      written = 10 * written + (*obj->at - '0');
-  }
-  *exponent += minus ? -written : written;
-  return 1;
 }
 
 // A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
 // +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
 // hold it.
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
-  const double greatest = 3.4028234663852886e38;  // FLT_MAX
+  // FLT_MAX
+  const double greatest = 3.4028234663852886e38;
   const int negative = nsvcd__obj_minus(obj);
   // nan, inf
-  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at)
-    return NSVCD_ERROR_NUMBER;
-  uint64_t mantissa;
-  int64_t exponent;
-  if (!nsvcd__obj_digits(obj, &mantissa, &exponent))
-    return NSVCD_ERROR_SYNTAX;
-  if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
-    if (!nsvcd__obj_exponent(obj, &exponent))
-      return NSVCD_ERROR_SYNTAX;
+  if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
+  // digits and a point: mantissa * 10^exponent
+  uint64_t mantissa = 0;
+  int64_t exponent = 0;
+  int digits = 0;
+  for (int point = 0;; obj->at++) {
+    if (!point && nsvcd__obj_accept(obj, '.')) point = 1;
+    if (!nsvcd__obj_is_digit(obj)) break;
+    digits = 1;
+    // 19 digits are kept, the rest only moves the point
+    const int fits = mantissa < 1000000000000000000u;
+    if (fits) mantissa = 10 * mantissa + (uint64_t)(*obj->at - '0');
+    exponent += !fits - point;
   }
-  if (!nsvcd__obj_token_ends(obj))
-    return NSVCD_ERROR_SYNTAX;
-  if (mantissa == 0)
-    exponent = 0;
-  if (exponent > 400)
-    return NSVCD_ERROR_NUMBER;
+  if (!digits) return NSVCD_ERROR_SYNTAX;
+  if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
+    const int minus = nsvcd__obj_minus(obj);
+    int64_t written;
+    if (!nsvcd__obj_integer(obj, &written)) return NSVCD_ERROR_SYNTAX;
+    exponent += minus ? -written : written;
+  }
+  if (!nsvcd__obj_token_ends(obj)) return NSVCD_ERROR_SYNTAX;
+  if (mantissa == 0) exponent = 0;
+  if (exponent > 400) return NSVCD_ERROR_NUMBER;
   const int power = exponent < -400 ? -400 : (int)exponent;
   const double magnitude = nsvcd__obj_scale(mantissa, power);
-  if (magnitude > greatest)
-    return NSVCD_ERROR_NUMBER;
+  if (magnitude > greatest) return NSVCD_ERROR_NUMBER;
   *value = negative ? -magnitude : magnitude;
   return NSVCD_OK;
 }
 
-// v x y z, then up to five more: a weight, a colour. These are skipped, but must be numbers.
-static nsvcd_result nsvcd__obj_vertex(nsvcd__obj *obj, float *position) {
-  int count = 0;
-  for (; nsvcd__obj_has_token(obj); count++) {
-    double value;
-    nsvcd_result result = nsvcd__obj_number(obj, &value);
-    if (result != NSVCD_OK)
-      return result;
-    if (count == 8)
-      return NSVCD_ERROR_SYNTAX;
-    if (count >= 3)
-      continue;
-    if (fabs(value) > (double)NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_NUMBER;
-    position[count] = (float)value;
-  }
-  return count < 3 ? NSVCD_ERROR_SYNTAX : NSVCD_OK;
-}
-
 // One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
 // against a range. vertex_count: of the file.
-static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count, uint32_t *vertex) {
-  int negative = nsvcd__obj_accept(obj, '-');
-  if (!nsvcd__obj_is_digit(obj))
-    return NSVCD_ERROR_SYNTAX;
-  uint64_t number = 0;
-  for (; nsvcd__obj_is_digit(obj); obj->at++) {
-    if (number <= NSVCD__MAX_COUNT)
-      number = 10 * number + (uint64_t)(*obj->at - '0');
-  }
+static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
+                                      uint32_t *vertex) {
+  const int negative = nsvcd__obj_accept(obj, '-');
+  const uint32_t most = negative ? obj->vertices : vertex_count;
+  int64_t number;
+  int64_t unused;
+  if (!nsvcd__obj_integer(obj, &number)) return NSVCD_ERROR_SYNTAX;
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
-    if (i == 0 && obj->at < obj->end && *obj->at == '/')
-      continue;  // v//vn
+    // v//vn
+    if (i == 0 && obj->at < obj->end && *obj->at == '/') continue;
     nsvcd__obj_accept(obj, '-');
-    if (!nsvcd__obj_is_digit(obj))
-      return NSVCD_ERROR_SYNTAX;
-    while (nsvcd__obj_is_digit(obj))
-      obj->at++;
+    if (!nsvcd__obj_integer(obj, &unused)) return NSVCD_ERROR_SYNTAX;
   }
-  if (!nsvcd__obj_token_ends(obj))
-    return NSVCD_ERROR_SYNTAX;
-  if (number == 0 || number > (negative ? obj->vertices : vertex_count))
-    return NSVCD_ERROR_INDEX;
-  *vertex = negative ? obj->vertices - (uint32_t)number : (uint32_t)number - 1;
+  if (!nsvcd__obj_token_ends(obj)) return NSVCD_ERROR_SYNTAX;
+  if (number == 0 || number > (int64_t)most) return NSVCD_ERROR_INDEX;
+  *vertex = (uint32_t)(negative ? (int64_t)most - number : number - 1);
   return NSVCD_OK;
 }
 
@@ -3057,128 +2310,98 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
   memset(obj, 0, sizeof *obj);
   obj->at = text;
   obj->end = text + size;
-  obj->line = 1;
-  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-    obj->at += 3;  // UTF-8 byte order mark
-}
-
-// To the next statement. Returns its keyword.
-static int nsvcd__obj_next(nsvcd__obj *obj) {
-  nsvcd__obj_skip_statement(obj);
-  return nsvcd__obj_keyword(obj);
+  // UTF-8 byte order mark
+  if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) obj->at += 3;
 }
 
 // First pass: counts vertices and triangles.
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
-  int keyword = nsvcd__obj_keyword(obj);
-  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
-    if (keyword == NSVCD__OBJ_BAD)
-      return NSVCD_ERROR_SYNTAX;
-    if (keyword == NSVCD__OBJ_VERTEX && obj->vertices++ == NSVCD__MAX_COUNT)
-      return NSVCD_ERROR_TOO_LARGE;
-    if (keyword != NSVCD__OBJ_FACE)
-      continue;
+  for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
+    if (keyword == '?') return NSVCD_ERROR_SYNTAX;
+    if (keyword == 'v' && obj->vertices++ == NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+    if (keyword != 'f') continue;
     size_t corners = 0;
-    for (; nsvcd__obj_has_token(obj); nsvcd__obj_skip_token(obj))
-      corners++;
-    if (corners < 3)
-      return NSVCD_ERROR_SYNTAX;
-    if (corners - 2 > NSVCD__MAX_COUNT - obj->triangles)
-      return NSVCD_ERROR_TOO_LARGE;
+    for (; nsvcd__obj_has_token(obj); nsvcd__obj_skip_token(obj)) corners++;
+    if (corners < 3) return NSVCD_ERROR_SYNTAX;
+    if (corners - 2 > NSVCD__MAX_COUNT - obj->triangles) return NSVCD_ERROR_TOO_LARGE;
     obj->triangles += (uint32_t)(corners - 2);
-    if (corners > obj->max_corners)
-      obj->max_corners = (uint32_t)corners;
+    if (corners > obj->max_corners) obj->max_corners = (uint32_t)corners;
   }
   return NSVCD_OK;
 }
 
-// Second pass: positions (vertices, 3).
+// Second pass: positions (vertices, 3), of v x y z, then up to five more: a weight, a colour. These
+// are skipped, but must be numbers.
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
-  int keyword = nsvcd__obj_keyword(obj);
-  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
-    if (keyword != NSVCD__OBJ_VERTEX)
-      continue;
-    const nsvcd_result result = nsvcd__obj_vertex(obj, positions);
-    if (result)
-      return result;
-    positions += 3;
-    obj->vertices++;
+  for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
+    if (keyword != 'v') continue;
+    int count = 0;
+    for (; nsvcd__obj_has_token(obj); count++) {
+      double value;
+      const nsvcd_result result = nsvcd__obj_number(obj, &value);
+      if (result) return result;
+      if (count == 8) return NSVCD_ERROR_SYNTAX;
+      if (count >= 3) continue;
+      if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+      *positions++ = (float)value;
+    }
+    if (count < 3) return NSVCD_ERROR_SYNTAX;
   }
   return NSVCD_OK;
 }
 
-// One face: its triangles, (corners - 2, 3). polygon: with room for any face.
-static nsvcd_result nsvcd__obj_face(nsvcd__obj *obj, const nsvcd_mesh *mesh,
-                                    nsvcd__polygon *polygon) {
-  const uint32_t vertices = (uint32_t)mesh->vertex_count;
-  uint32_t *triangles = mesh->indices + 3 * (size_t)obj->triangles;
-  polygon->count = 0;
-  while (nsvcd__obj_has_token(obj)) {
-    uint32_t *vertex = &polygon->corners[polygon->count++].vertex;
-    const nsvcd_result result = nsvcd__obj_corner(obj, vertices, vertex);
-    if (result)
-      return result;
-  }
-  obj->triangles += polygon->count - 2;
-  nsvcd__polygon_triangulate(polygon, mesh->positions, triangles);
-  return NSVCD_OK;
-}
-
-// Third pass: the mesh's indices.
+// Third pass: the mesh's indices. polygon: with room for any face.
 static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
                                      nsvcd__polygon *polygon) {
-  int keyword = nsvcd__obj_keyword(obj);
-  for (; keyword != NSVCD__OBJ_END; keyword = nsvcd__obj_next(obj)) {
-    obj->vertices += keyword == NSVCD__OBJ_VERTEX;
-    if (keyword != NSVCD__OBJ_FACE)
-      continue;
-    const nsvcd_result result = nsvcd__obj_face(obj, mesh, polygon);
-    if (result)
-      return result;
+  uint32_t *triangles = mesh->indices;
+  for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
+    obj->vertices += keyword == 'v';
+    if (keyword != 'f') continue;
+    polygon->count = 0;
+    while (nsvcd__obj_has_token(obj)) {
+      uint32_t *vertex = &polygon->corners[polygon->count++].vertex;
+      const nsvcd_result result = nsvcd__obj_corner(obj, (uint32_t)mesh->vertex_count, vertex);
+      if (result) return result;
+    }
+    nsvcd__polygon_triangulate(polygon, mesh->positions, triangles);
+    triangles += 3 * (size_t)(polygon->count - 2);
   }
   return NSVCD_OK;
-}
-
-// Reads OBJ text into a mesh that nsvcd_mesh_free gives back, also on failure.
-static nsvcd_result nsvcd__obj_read(nsvcd__obj *obj, const char *text, size_t size,
-                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
-  nsvcd__obj_begin(obj, text, size);
-  nsvcd_result result = nsvcd__obj_count(obj);
-  if (result)
-    return result;
-  obj->line = 0;  // what follows is not tied to a line
-  if (obj->triangles == 0)
-    return NSVCD_ERROR_EMPTY;
-  if (!nsvcd__mesh_alloc(mesh, obj->vertices, obj->triangles, allocator))
-    return NSVCD_ERROR_MEMORY;
-  nsvcd__polygon polygon;
-  if (!nsvcd__polygon_alloc(&polygon, obj->max_corners, allocator))
-    result = NSVCD_ERROR_MEMORY;
-  if (!result) {
-    nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_vertices(obj, mesh->positions);
-  }
-  if (!result) {
-    nsvcd__obj_begin(obj, text, size);
-    result = nsvcd__obj_faces(obj, mesh, &polygon);
-  }
-  nsvcd__polygon_free(&polygon, allocator);
-  return result;
 }
 
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
+  if (error_line) *error_line = 0;
+  if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
   nsvcd_mesh parsed;
   nsvcd__obj obj;
+  nsvcd__polygon polygon;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
   memset(&parsed, 0, sizeof parsed);
-  obj.line = 0;
-  nsvcd_result result = NSVCD_ERROR_ARGUMENT;
-  if (mesh && text)
-    result = nsvcd__obj_read(&obj, text, size, allocator, &parsed);
-  if (error_line)
-    *error_line = result == NSVCD_OK ? 0 : obj.line;
-  if (result != NSVCD_OK) {
+  nsvcd__obj_begin(&obj, text, size);
+  nsvcd_result result = nsvcd__obj_count(&obj);
+  if (!result) {
+    // what follows is not tied to a line
+    obj.line = 0;
+    if (obj.triangles == 0) {
+      result = NSVCD_ERROR_EMPTY;
+    } else if (!nsvcd__mesh_alloc(&parsed, obj.vertices, obj.triangles, allocator) ||
+               !nsvcd__polygon_alloc(&polygon, obj.max_corners, &arena)) {
+      result = NSVCD_ERROR_MEMORY;
+    }
+  }
+  if (!result) {
+    nsvcd__obj_begin(&obj, text, size);
+    result = nsvcd__obj_vertices(&obj, parsed.positions);
+  }
+  if (!result) {
+    nsvcd__obj_begin(&obj, text, size);
+    result = nsvcd__obj_faces(&obj, &parsed, &polygon);
+  }
+  nsvcd__arena_free(&arena);
+  if (result) {
+    if (error_line) *error_line = obj.line;
     nsvcd_mesh_free(&parsed, allocator);
     return result;
   }
@@ -3187,62 +2410,40 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 }
 
 #ifndef NSVCD_NO_STDIO
-// Reads the whole file into *text, which the caller frees. No fseek, so that pipes work and a
-// directory is an error. MEMORY, IO.
-static nsvcd_result nsvcd__read_file(FILE *file, const nsvcd_allocator *allocator, char **text,
-                                     size_t *size) {
-  size_t used = 0;
-  char *buffer = NULL;
-  for (size_t capacity = 65536;; capacity *= 2) {
-    char *larger = NULL;
-    if (capacity <= SIZE_MAX / 2)
-      larger = (char *)nsvcd__alloc(allocator, capacity);
-    if (larger && used > 0)
-      memcpy(larger, buffer, used);
-    nsvcd__free(allocator, buffer);
-    if (!larger)
-      return NSVCD_ERROR_MEMORY;
-    buffer = larger;
-    used += fread(buffer + used, 1, capacity - used, file);
-    if (used < capacity)
-      break;
-  }
-  if (ferror(file)) {
-    nsvcd__free(allocator, buffer);
-    return NSVCD_ERROR_IO;
-  }
-  *text = buffer;
-  *size = used;
-  return NSVCD_OK;
-}
-
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  if (error_line)
-    *error_line = 0;
-  if (!path || !mesh)
-    return NSVCD_ERROR_ARGUMENT;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
   FILE *file = fopen(path, "rb");
-  if (!file)
-    return NSVCD_ERROR_IO;
+  if (!file) return NSVCD_ERROR_IO;
+  // No fseek, so that pipes work and a directory is an error.
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
   char *text = NULL;
   size_t size = 0;
-  nsvcd_result result = nsvcd__read_file(file, allocator, &text, &size);
+  size_t capacity = 32768;
+  do {
+    capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
+    text = (char *)nsvcd__arena_grow(&arena, text, size, capacity, 1);
+    if (text) size += fread(text + size, 1, capacity - size, file);
+  } while (text && size == capacity);
+  nsvcd_result result = text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  if (text && ferror(file)) result = NSVCD_ERROR_IO;
   fclose(file);
-  if (result == NSVCD_OK)
-    result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
-  nsvcd__free(allocator, text);
+  if (!result) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
+  nsvcd__arena_free(&arena);
   return result;
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
 
-#ifndef NSVCD_NO_ENCODER
-// ----------------------------------------------------------------------------------------- patches
-// In: a checked mesh. Out: its surface as N patches: S samples, which are oriented points of the
-// surface, grouped by patch, and one ball for each patch. Together the balls contain every
-// triangle. Everything here is deterministic and, up to rounding, scales and moves with the mesh.
+// ======================================================================== patches: a mesh in parts
 
+// --------------------------------------------------------------------------------- patches/samples
+// In: a checked mesh. Out: S samples, which are oriented points of the surface; and what its N
+// patches will be: samples grouped by patch, and one ball for each patch. Everything on this floor
+// is deterministic and, up to rounding, scales and moves with the mesh.
+
+#ifndef NSVCD_NO_ENCODER
 // on average
 #define NSVCD__SAMPLES_PER_PATCH 32
 #define NSVCD__NO_SAMPLE 0xffffffffu
@@ -3256,9 +2457,11 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 
 // Sums over a patch, in double, rounded once at the end.
 typedef struct nsvcd__patch_sum {
-  nsvcd__d3 vector;      // of the positions of samples, or of area vectors
-  double weight;         // number of samples, or area
-  double squared_reach;  // greatest squared distance from the centre
+  // of the positions of samples, or of area vectors
+  nsvcd__d3 vector;
+  double weight;  // number of samples
+  // greatest squared distance from the centre
+  double squared_reach;
 } nsvcd__patch_sum;
 
 typedef struct nsvcd__patches {
@@ -3272,8 +2475,6 @@ typedef struct nsvcd__patches {
   float *radii;
   // (N) the same for the patch's samples
   float *sample_radii;
-  // (N) square metres
-  float *areas;
   // (N) area times normal, summed over the patch; over all patches it is that of the mesh
   nsvcd__f3 *area_vectors;
   // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
@@ -3281,8 +2482,7 @@ typedef struct nsvcd__patches {
   nsvcd__f3 *samples;  // (S) metres
   nsvcd__f3 *normals;  // (S) unit
 
-  // Working memory. All of this lies in one block.
-  void *memory;
+  // Working memory.
   nsvcd__patch_sum *sums;  // (N)
   // (S) the samples in the order in which they were drawn
   nsvcd__f3 *drawn;
@@ -3307,22 +2507,21 @@ typedef struct nsvcd__patches {
 
 // Differences of floats are as good as exact in double.
 typedef struct nsvcd__triangle {
-  nsvcd__d3 a, b, c;
+  nsvcd__d3 at[3];
 } nsvcd__triangle;
 
 static nsvcd__triangle nsvcd__triangle_of(const nsvcd_mesh *mesh, size_t t) {
-  const uint32_t *corners = mesh->indices + 3 * t;
-  nsvcd__triangle out;
-  out.a = nsvcd__d3_row(mesh->positions, corners[0]);
-  out.b = nsvcd__d3_row(mesh->positions, corners[1]);
-  out.c = nsvcd__d3_row(mesh->positions, corners[2]);
+  const float *from = mesh->positions;
+  const uint32_t *i = mesh->indices + 3 * t;
+  const nsvcd__triangle out = {
+      {nsvcd__d3_row(from, i[0]), nsvcd__d3_row(from, i[1]), nsvcd__d3_row(from, i[2])}};
   return out;
 }
 
 // Area times unit normal.
 static nsvcd__d3 nsvcd__area_vector(const nsvcd__triangle *t) {
-  const nsvcd__d3 u = nsvcd__d3_sub(t->b, t->a);
-  const nsvcd__d3 v = nsvcd__d3_sub(t->c, t->a);
+  const nsvcd__d3 u = nsvcd__d3_sub(t->at[1], t->at[0]);
+  const nsvcd__d3 v = nsvcd__d3_sub(t->at[2], t->at[0]);
   return nsvcd__d3_scale(nsvcd__d3_cross(u, v), 0.5);
 }
 
@@ -3339,30 +2538,18 @@ static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
   return area;
 }
 
-// The place of sample k in its triangle, by the R2 sequence (Roberts 2018: multiples of 1/g and
-// 1/g^2, g^3 = g + 1).
-static nsvcd__d3 nsvcd__place_sample(const nsvcd__triangle *t, uint32_t k) {
-  double u = (double)(k * 3242174889u + 0x80000000u) / 4294967296.0;
-  double v = (double)(k * 2447445414u + 0x80000000u) / 4294967296.0;
-  if (u + v > 1) {
-    u = 1 - u;
-    v = 1 - v;
-  }
-  const nsvcd__d3 ab = nsvcd__d3_sub(t->b, t->a);
-  const nsvcd__d3 ac = nsvcd__d3_sub(t->c, t->a);
-  return nsvcd__d3_add_scaled(nsvcd__d3_add_scaled(t->a, u, ab), v, ac);
-}
-
 // Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
-// triangle where the area summed in triangle order passes (k + 1/2) / count of the total. Where
-// there is no area, triangles count alike, and normals are 0.
+// triangle where the area summed in triangle order passes (k + 1/2) / count of the total, where the
+// R2 sequence says (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1). Where there is no area,
+// triangles count alike, and normals are 0.
 static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
                                   nsvcd__f3 *normals) {
   const double all = nsvcd__mesh_area(mesh);
   const double total = all > 0 ? all : (double)mesh->triangle_count;
   nsvcd__triangle triangle;
   double area = 0;
-  double passed = 0;  // the area up to and including the triangle
+  // the area up to and including the triangle
+  double passed = 0;
   size_t next = 0;
   for (size_t k = 0; k < count; k++) {
     const double target = total * (((double)k + 0.5) / (double)count);
@@ -3372,145 +2559,109 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
       area = nsvcd__triangle_area(&triangle);
       passed += all > 0 ? area : 1;
     }
-    samples[k] = nsvcd__d3_narrow(nsvcd__place_sample(&triangle, (uint32_t)k));
-    normals[k] = nsvcd__f3_of(0, 0, 0);
-    if (area > 0) {
-      const nsvcd__d3 vector = nsvcd__area_vector(&triangle);
-      normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(vector, area));
+    double u = (double)((uint32_t)k * 3242174889u + 0x80000000u) / 4294967296.0;
+    double v = (double)((uint32_t)k * 2447445414u + 0x80000000u) / 4294967296.0;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
     }
+    const nsvcd__d3 ab = nsvcd__d3_sub(triangle.at[1], triangle.at[0]);
+    const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
+    const nsvcd__d3 along = nsvcd__d3_add_scaled(triangle.at[0], u, ab);
+    samples[k] = nsvcd__d3_narrow(nsvcd__d3_add_scaled(along, v, ac));
+    normals[k] = nsvcd__f3_of(0, 0, 0);
+    if (area > 0)
+      normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
   }
 }
 
-// ---- memory
-
-// The next `count` numbers, or vectors, of a block.
-static float *nsvcd__next_floats(float **next, size_t count) {
-  float *out = *next;
-  *next += count;
-  return out;
-}
-static nsvcd__f3 *nsvcd__next_f3s(float **next, size_t count) {
-  return (nsvcd__f3 *)(void *)nsvcd__next_floats(next, 3 * count);
-}
-static uint32_t *nsvcd__next_words(float **next, size_t count) {
-  return (uint32_t *)(void *)nsvcd__next_floats(next, count);
-}
-
-// All arrays in one block: the doubles first, then everything of four bytes. 0 without memory.
-// count: up to NSVCD_SMALL_PATCHES, so that nothing overflows.
+// Room for so many patches and samples. 0 without memory.
 static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
-                                const nsvcd_allocator *allocator) {
+                                nsvcd__arena *arena) {
   const size_t links = NSVCD__NEIGHBOURS * count;
-  const size_t words = 13 * count + 2 * links + 1 + 12 * samples + (samples + 1) / 2;
-  const size_t sums = count * sizeof(nsvcd__patch_sum);
   memset(p, 0, sizeof *p);
-  p->memory = nsvcd__alloc(allocator, sums + words * sizeof(float));
-  if (!p->memory)
-    return 0;
   p->count = count;
   p->sample_count = samples;
-  p->sums = (nsvcd__patch_sum *)p->memory;
-
-  float *next = (float *)(void *)(p->sums + count);
-  p->centres = nsvcd__next_f3s(&next, count);
-  p->radii = nsvcd__next_floats(&next, count);
-  p->sample_radii = nsvcd__next_floats(&next, count);
-  p->areas = nsvcd__next_floats(&next, count);
-  p->area_vectors = nsvcd__next_f3s(&next, count);
-  p->drawn = nsvcd__next_f3s(&next, samples);
-  p->drawn_normals = nsvcd__next_f3s(&next, samples);
-  p->samples = nsvcd__next_f3s(&next, samples);
+  p->sums = NSVCD__TAKE(arena, nsvcd__patch_sum, count);
+  p->centres = NSVCD__TAKE(arena, nsvcd__f3, count);
+  p->radii = NSVCD__TAKE(arena, float, count);
+  p->sample_radii = NSVCD__TAKE(arena, float, count);
+  p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
+  p->drawn = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->quarter_squares = NSVCD__TAKE(arena, float, links);
+  p->squared_reach = NSVCD__TAKE(arena, float, count);
+  p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
+  p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
+  p->owners = NSVCD__TAKE(arena, uint16_t, samples);
+  if (arena->failed) return 0;
   p->squares = (float *)(void *)p->samples;
   p->next_sample = (uint32_t *)(void *)(p->squares + samples);
-  p->normals = nsvcd__next_f3s(&next, samples);
-  p->quarter_squares = nsvcd__next_floats(&next, links);
-  p->squared_reach = nsvcd__next_floats(&next, count);
-  p->first_sample = nsvcd__next_words(&next, count);
-  p->farthest_sample = nsvcd__next_words(&next, count);
-  p->neighbours = nsvcd__next_words(&next, links);
-  p->offsets = nsvcd__next_words(&next, count + 1);
-  p->owners = (uint16_t *)(void *)next;
   return 1;
 }
+#endif  // NSVCD_NO_ENCODER
 
-static void nsvcd__patches_free(nsvcd__patches *p, const nsvcd_allocator *allocator) {
-  nsvcd__free(allocator, p->memory);
-  memset(p, 0, sizeof *p);
-}
+// -------------------------------------------------------------------------------- patches/clusters
+// In: samples. Out: centres, and the samples of each.
 
-// ---- clusters: farthest point sampling, then Lloyd's algorithm
-
+#ifndef NSVCD_NO_ENCODER
 // The squared distance of a point from a centre.
 static float nsvcd__squared_to_centre(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
   const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
   return nsvcd__f3_dot(offset, offset);
 }
 
-// Lists the nearest other centres of centre i; a short list ends in infinities.
-static void nsvcd__link_centre(nsvcd__patches *p, uint32_t i) {
-  const size_t last = NSVCD__NEIGHBOURS - 1;
-  uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
-  float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
-  for (size_t k = 0; k <= last; k++) {
-    neighbours[k] = i;
-    quarters[k] = HUGE_VALF;
-  }
-  for (uint32_t j = 0; j < p->count; j++) {
-    const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
-    if (j == i || quarter >= quarters[last])
-      continue;
-    size_t k = last;
-    for (; k > 0 && quarters[k - 1] > quarter; k--) {
-      quarters[k] = quarters[k - 1];
-      neighbours[k] = neighbours[k - 1];
-    }
-    quarters[k] = quarter;
-    neighbours[k] = j;
-  }
-}
+// Lists the nearest other centres of each centre; a short list ends in infinities.
 static void nsvcd__link_centres(nsvcd__patches *p) {
-  for (uint32_t i = 0; i < p->count; i++)
-    nsvcd__link_centre(p, i);
+  const size_t last = NSVCD__NEIGHBOURS - 1;
+  for (uint32_t i = 0; i < p->count; i++) {
+    uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
+    float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
+    for (size_t k = 0; k <= last; k++) {
+      neighbours[k] = i;
+      quarters[k] = HUGE_VALF;
+    }
+    for (uint32_t j = 0; j < p->count; j++) {
+      const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
+      if (j == i || quarter >= quarters[last]) continue;
+      size_t k = last;
+      for (; k > 0 && quarters[k - 1] > quarter; k--) {
+        quarters[k] = quarters[k - 1];
+        neighbours[k] = neighbours[k - 1];
+      }
+      quarters[k] = quarter;
+      neighbours[k] = j;
+    }
+  }
 }
 
-// A centre, and its squared distance from the point in question.
-typedef struct nsvcd__near_centre {
-  uint32_t centre;
-  float square;
-} nsvcd__near_centre;
-
-// Keeps the nearer one of the nearest so far and centre i; of equals the first.
-static void nsvcd__look_at_centre(const nsvcd__patches *p, uint32_t i, nsvcd__f3 at,
-                                  nsvcd__near_centre *best) {
-  const float square = nsvcd__squared_to_centre(p, i, at);
-  const int equal = !(square < best->square) && !(square > best->square);
-  if (square > best->square || (equal && i >= best->centre))
-    return;
-  best->centre = i;
-  best->square = square;
-}
-
-// The centre nearest to a point, found from a guess. A centre twice as far from the guess as the
-// point is cannot be nearer to the point (triangle inequality). So the guess's neighbours usually
-// decide; where they do not, they give a better guess.
+// The centre nearest to a point, of equals the first, found from a guess. A centre twice as far
+// from the guess as the point is cannot be nearer to the point (triangle inequality). So the
+// guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
-  nsvcd__near_centre best = {guess, nsvcd__squared_to_centre(p, guess, at)};
-  for (;;) {
+  uint32_t best = guess;
+  float least = nsvcd__squared_to_centre(p, guess, at);
+  for (int all = 0;;) {
     const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
     const float *quarters = p->quarter_squares + (size_t)guess * NSVCD__NEIGHBOURS;
-    const float own = best.square;
+    const size_t most = all ? p->count : NSVCD__NEIGHBOURS;
+    const float own = least;
     size_t k = 0;
-    for (; k < NSVCD__NEIGHBOURS && quarters[k] <= own; k++)
-      nsvcd__look_at_centre(p, neighbours[k], at, &best);
-    if (k < NSVCD__NEIGHBOURS)
-      return best.centre;
-    if (best.centre == guess)
-      break;
-    guess = best.centre;
+    for (; k < most && (all || quarters[k] <= own); k++) {
+      const uint32_t i = all ? (uint32_t)k : neighbours[k];
+      const float square = nsvcd__squared_to_centre(p, i, at);
+      if (square > least || (square >= least && i >= best)) continue;
+      best = i;
+      least = square;
+    }
+    if (all || k < most) return best;
+    all = best == guess;
+    guess = best;
   }
-  for (uint32_t i = 0; i < p->count; i++)
-    nsvcd__look_at_centre(p, i, at, &best);
-  return best.centre;
 }
 
 static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
@@ -3519,7 +2670,8 @@ static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
 }
 
 // square: of its distance from the owner.
-static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, float square) {
+static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
+                                      float square) {
   p->owners[s] = (uint16_t)owner;
   p->squares[s] = square;
   p->next_sample[s] = p->first_sample[owner];
@@ -3530,57 +2682,44 @@ static void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner, fl
   }
 }
 
-// Makes sample `from` a new centre and hands it the samples that are nearer to it than to their
-// owner. An owner more than twice as far away as its farthest sample loses none (triangle
-// inequality): most are passed over.
-static void nsvcd__add_centre(nsvcd__patches *p, uint32_t centre, uint32_t from) {
-  p->centres[centre] = p->drawn[from];
-  nsvcd__forget_samples(p, centre);
-  for (uint32_t owner = 0; owner < centre; owner++) {
-    const float square = nsvcd__squared_to_centre(p, owner, p->drawn[from]);
-    if (0.25f * square > p->squared_reach[owner])
-      continue;
-    uint32_t s = p->first_sample[owner];
-    nsvcd__forget_samples(p, owner);
-    while (s != NSVCD__NO_SAMPLE) {
-      const uint32_t next = p->next_sample[s];
-      const float old = p->squares[s];
-      const float fresh = nsvcd__squared_to_centre(p, centre, p->drawn[s]);
-      const int nearer = fresh < old;
-      nsvcd__give_sample(p, s, nearer ? centre : owner, nearer ? fresh : old);
-      s = next;
-    }
-  }
-}
-
-static void nsvcd__give_all_samples(nsvcd__patches *p) {  // to centre 0
-  nsvcd__forget_samples(p, 0);
-  for (uint32_t s = 0; s < p->sample_count; s++) {
-    const float square = nsvcd__squared_to_centre(p, 0, p->drawn[s]);
-    nsvcd__give_sample(p, s, 0, square);
-  }
-}
-
 // Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
 // all. Ends early once every sample is at a centre.
 static void nsvcd__farthest_points(nsvcd__patches *p) {
   nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
   for (size_t s = 0; s < p->sample_count; s++)
     sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
-  const nsvcd__d3 mean = nsvcd__d3_over(sum, (double)p->sample_count);
-  p->centres[0] = nsvcd__d3_narrow(mean);
-  nsvcd__give_all_samples(p);
-  p->centres[0] = p->drawn[p->farthest_sample[0]];
-  nsvcd__give_all_samples(p);
+  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
+    nsvcd__forget_samples(p, 0);
+    for (uint32_t s = 0; s < p->sample_count; s++)
+      nsvcd__give_sample(p, s, 0, nsvcd__squared_to_centre(p, 0, p->drawn[s]));
+  }
 
   uint32_t count = 1;
   for (; count < p->count; count++) {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < count; i++)
       farthest = p->squared_reach[i] > p->squared_reach[farthest] ? i : farthest;
-    if (!(p->squared_reach[farthest] > 0))
-      break;
-    nsvcd__add_centre(p, count, p->farthest_sample[farthest]);
+    if (!(p->squared_reach[farthest] > 0)) break;
+    p->centres[count] = p->drawn[p->farthest_sample[farthest]];
+    nsvcd__forget_samples(p, count);
+    for (uint32_t owner = 0; owner < count; owner++) {
+      // An owner more than twice as far away as its farthest sample loses none (triangle
+      // inequality): most are passed over.
+      const float square = nsvcd__squared_to_centre(p, owner, p->centres[count]);
+      if (0.25f * square > p->squared_reach[owner]) continue;
+      uint32_t s = p->first_sample[owner];
+      nsvcd__forget_samples(p, owner);
+      while (s != NSVCD__NO_SAMPLE) {
+        const uint32_t next = p->next_sample[s];
+        const float old = p->squares[s];
+        const float fresh = nsvcd__squared_to_centre(p, count, p->drawn[s]);
+        const int nearer = fresh < old;
+        nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
+        s = next;
+      }
+    }
   }
   p->count = count;
 }
@@ -3598,9 +2737,9 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
   uint32_t kept = 0;
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
-    p->offsets[i] = kept;  // for now: the new number of patch i
-    if (!(sum->weight > 0))
-      continue;
+    // for now: the new number of patch i
+    p->offsets[i] = kept;
+    if (!(sum->weight > 0)) continue;
     const nsvcd__d3 mean = nsvcd__d3_over(sum->vector, sum->weight);
     p->centres[kept++] = nsvcd__d3_narrow(mean);
   }
@@ -3627,10 +2766,8 @@ static float nsvcd__radius_above(double squared) {
 static void nsvcd__group_samples(nsvcd__patches *p) {
   memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
   memset(p->sums, 0, p->count * sizeof *p->sums);
-  for (size_t s = 0; s < p->sample_count; s++)
-    p->offsets[p->owners[s] + 1]++;
-  for (size_t i = 0; i < p->count; i++)
-    p->offsets[i + 1] += p->offsets[i];
+  for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
+  for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
 
   for (size_t s = 0; s < p->sample_count; s++) {
     const uint32_t owner = p->owners[s];
@@ -3645,47 +2782,44 @@ static void nsvcd__group_samples(nsvcd__patches *p) {
   for (size_t i = 0; i < p->count; i++)
     p->sample_radii[i] = nsvcd__radius_above(p->sums[i].squared_reach);
 }
+#endif  // NSVCD_NO_ENCODER
 
-// ---- covering balls
+// -------------------------------------------------------------------------------- patches/covering
+// In: centres, their samples, and the mesh. Out: of each patch a ball; together the balls hold
+// every triangle.
+//
 // Every triangle is halved across its longest edge until no edge exceeds `limit`. Each piece goes
 // to the patch whose centre is nearest to the piece's centroid. That patch's ball grows to hold the
 // piece's three corners, and so all of it.
 
-// The squared lengths of a triangle's edges.
-typedef struct nsvcd__edge_squares {
-  double ab, bc, ca;
-} nsvcd__edge_squares;
-
-static inline nsvcd__edge_squares nsvcd__squares_of(const nsvcd__triangle *t) {
-  nsvcd__edge_squares out;
-  out.ab = nsvcd__d3_squared_distance(t->a, t->b);
-  out.bc = nsvcd__d3_squared_distance(t->b, t->c);
-  out.ca = nsvcd__d3_squared_distance(t->c, t->a);
-  return out;
+#ifndef NSVCD_NO_ENCODER
+static inline size_t nsvcd__longest_of(const double *e) {
+  if (e[1] > e[0] && e[1] >= e[2]) return 1;
+  return e[2] > e[0] ? 2 : 0;
 }
-// Which edge is the longest: 0 for ab, 1 for bc, 2 for ca; of equal ones the first.
-static int nsvcd__longest_of(nsvcd__edge_squares e) {
-  if (e.bc > e.ab && e.bc >= e.ca)
-    return 1;
-  return e.ca > e.ab ? 2 : 0;
+// The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
+// the longest; of equal ones the first.
+static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
+  e[0] = nsvcd__d3_squared_distance(t->at[0], t->at[1]);
+  e[1] = nsvcd__d3_squared_distance(t->at[1], t->at[2]);
+  e[2] = nsvcd__d3_squared_distance(t->at[2], t->at[0]);
+  return nsvcd__longest_of(e);
 }
 
 // How many pieces a triangle makes; stops counting beyond `most`. The new edge is the median of the
 // longest one (Apollonius's theorem), so lengths are enough.
-static double nsvcd__count_pieces(nsvcd__edge_squares e, double limit, double most) {
-  const int longest = nsvcd__longest_of(e);
-  const nsvcd__edge_squares from_bc = {e.bc, e.ca, e.ab};
-  const nsvcd__edge_squares from_ca = {e.ca, e.ab, e.bc};
-  if (longest > 0)
-    e = longest == 1 ? from_bc : from_ca;
-  if (e.ab <= limit * limit)
-    return 1;
-  const double median = 0.5 * (e.bc + e.ca) - 0.25 * e.ab;
-  const nsvcd__edge_squares near_a = {0.25 * e.ab, median, e.ca};
-  const nsvcd__edge_squares near_b = {0.25 * e.ab, e.bc, median};
+static double nsvcd__count_pieces(const double *e, double limit, double most) {
+  const size_t k = nsvcd__longest_of(e);
+  const size_t next = k == 2 ? 0 : k + 1;
+  const double ab = e[k];
+  const double bc = e[next];
+  const double ca = e[3 - k - next];
+  if (ab <= limit * limit) return 1;
+  const double median = 0.5 * (bc + ca) - 0.25 * ab;
+  const double near_a[3] = {0.25 * ab, median, ca};
+  const double near_b[3] = {0.25 * ab, bc, median};
   const double pieces = nsvcd__count_pieces(near_a, limit, most);
-  if (pieces > most)
-    return pieces;
+  if (pieces > most) return pieces;
   return pieces + nsvcd__count_pieces(near_b, limit, most - pieces);
 }
 
@@ -3696,99 +2830,68 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   // A triangle makes at least as many pieces as its longest edge has limits: no need to begin below
   // that.
   double longest = 0;
+  double e[3];
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
-    const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
-    longest = fmax(longest, fmax(e.ab, fmax(e.bc, e.ca)));
+    const size_t k = nsvcd__edge_squares(&triangle, e);
+    longest = fmax(longest, e[k]);
   }
   for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
     *pieces = 0;
     for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; t++) {
       const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
-      const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
+      (void)nsvcd__edge_squares(&triangle, e);
       *pieces += nsvcd__count_pieces(e, limit, most - *pieces);
     }
-    if (*pieces <= most)
-      return limit;
+    if (*pieces <= most) return limit;
   }
 }
 
-// The limit for the pieces of patches: larger ones only make larger balls.
-static double nsvcd__piece_limit(const nsvcd__patches *p, const nsvcd_mesh *mesh) {
-  const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
-  const double most = (double)mesh->triangle_count + added;
-  double limit = 0;
-  double pieces;
-  for (size_t i = 0; i < p->count; i++)
-    limit += (double)p->sample_radii[i] / (double)p->count;
-  limit *= NSVCD__PIECE_SIZE;
-  if (!(limit > 0))
-    return HUGE_VAL;  // all samples of each patch coincide: nothing to go by
-  return nsvcd__raise_limit(mesh, limit, most, &pieces);
-}
-
-// A triangle, or a part of one, that is to be covered.
-typedef struct nsvcd__patch_piece {
-  nsvcd__triangle corners;
-  nsvcd__d3 area_vector;
-  double area;
-} nsvcd__patch_piece;
-
-// Gives a piece to the patch with the nearest centre. Returns that patch.
-static uint32_t nsvcd__give_piece(nsvcd__patches *p, uint32_t guess,
-                                  const nsvcd__patch_piece *piece) {
-  const nsvcd__triangle *t = &piece->corners;
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(t->a, t->b), t->c);
-  const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
-  const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
-  nsvcd__patch_sum *to = &p->sums[patch];
-  to->vector = nsvcd__d3_add(to->vector, piece->area_vector);
-  to->weight += piece->area;
-  nsvcd__reach_to(p, patch, t->a);
-  nsvcd__reach_to(p, patch, t->b);
-  nsvcd__reach_to(p, patch, t->c);
-  p->piece_count++;
-  return patch;
-}
-
-// Covers a piece, halved as often as need be. guess: a patch near by. Returns the patch of the last
+// Covers a triangle, halved as often as need be; a small one goes to the patch with the nearest
+// centre. vector: its area times its normal. guess: a patch near by. Returns the patch of the last
 // half: the guess for what comes next.
-static uint32_t nsvcd__cover_piece(nsvcd__patches *p, double limit, uint32_t guess,
-                                   const nsvcd__patch_piece *piece) {
-  const nsvcd__edge_squares e = nsvcd__squares_of(&piece->corners);
-  const nsvcd__triangle abc = piece->corners;
-  const nsvcd__triangle bca = {abc.b, abc.c, abc.a};
-  const nsvcd__triangle cab = {abc.c, abc.a, abc.b};
-  const int longest = nsvcd__longest_of(e);
-  const nsvcd__triangle t = longest == 0 ? abc : longest == 1 ? bca : cab;
-  if (nsvcd__d3_squared_distance(t.a, t.b) <= limit * limit) {
-    nsvcd__patch_piece whole = *piece;
-    whole.corners = t;
-    return nsvcd__give_piece(p, guess, &whole);
+static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t guess,
+                                      const nsvcd__triangle *t, nsvcd__d3 vector) {
+  double e[3];
+  const size_t k = nsvcd__edge_squares(t, e);
+  const size_t next = k == 2 ? 0 : k + 1;
+  const nsvcd__d3 a = t->at[k];
+  const nsvcd__d3 b = t->at[next];
+  const nsvcd__d3 c = t->at[3 - k - next];
+  if (e[k] <= limit * limit) {
+    const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(a, b), c);
+    const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
+    const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
+    p->sums[patch].vector = nsvcd__d3_add(p->sums[patch].vector, vector);
+    for (size_t i = 0; i < 3; i++) nsvcd__reach_to(p, patch, t->at[i]);
+    p->piece_count++;
+    return patch;
   }
-
-  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(t.a, t.b), 0.5);
-  nsvcd__patch_piece half;
-  half.area_vector = nsvcd__d3_scale(piece->area_vector, 0.5);
-  half.area = 0.5 * piece->area;
-  half.corners = t;
-  half.corners.b = middle;
-  guess = nsvcd__cover_piece(p, limit, guess, &half);
-  half.corners = t;
-  half.corners.a = middle;
-  return nsvcd__cover_piece(p, limit, guess, &half);
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(a, b), 0.5);
+  const nsvcd__triangle near_a = {{a, middle, c}};
+  const nsvcd__triangle near_b = {{middle, b, c}};
+  vector = nsvcd__d3_scale(vector, 0.5);
+  guess = nsvcd__cover_triangle(p, limit, guess, &near_a, vector);
+  return nsvcd__cover_triangle(p, limit, guess, &near_b, vector);
 }
 
 static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
-  const double limit = nsvcd__piece_limit(p, mesh);
+  const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
+  const double most = (double)mesh->triangle_count + added;
+  double pieces;
+  // Larger pieces only make larger balls.
+  double limit = 0;
+  for (size_t i = 0; i < p->count; i++) limit += (double)p->sample_radii[i] / (double)p->count;
+  limit *= NSVCD__PIECE_SIZE;
+  // otherwise all samples of each patch coincide: nothing to go by
+  limit = limit > 0 ? nsvcd__raise_limit(mesh, limit, most, &pieces) : HUGE_VAL;
+
   uint32_t guess = 0;
   memset(p->sums, 0, p->count * sizeof *p->sums);
   for (size_t t = 0; t < mesh->triangle_count; t++) {
-    nsvcd__patch_piece piece;
-    piece.corners = nsvcd__triangle_of(mesh, t);
-    piece.area_vector = nsvcd__area_vector(&piece.corners);
-    piece.area = nsvcd__d3_length(piece.area_vector);
-    guess = nsvcd__cover_piece(p, limit, guess, &piece);
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    const nsvcd__d3 vector = nsvcd__area_vector(&triangle);
+    guess = nsvcd__cover_triangle(p, limit, guess, &triangle, vector);
   }
   for (size_t i = 0; i < p->count; i++) {
     const nsvcd__patch_sum *sum = &p->sums[i];
@@ -3796,7 +2899,6 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
     // ball holds both.
     const float radius = nsvcd__radius_above(sum->squared_reach);
     p->radii[i] = fmaxf(radius, p->sample_radii[i]);
-    p->areas[i] = (float)sum->weight;
     p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
   }
 }
@@ -3804,53 +2906,34 @@ static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
 // ---- all of it
 
 // Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
-// where samples coincide or a patch loses all of its samples. On success release *patches with
-// nsvcd__patches_free. On failure, MEMORY, it is untouched.
+// where samples coincide or a patch loses all of its samples. MEMORY.
 static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
-                                         const nsvcd_allocator *allocator,
-                                         nsvcd__patches *patches) {
-  nsvcd__patches p;
-  if (!nsvcd__patches_alloc(&p, count, NSVCD__SAMPLES_PER_PATCH * count, allocator))
+                                         nsvcd__arena *arena, nsvcd__patches *p) {
+  if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
     return NSVCD_ERROR_MEMORY;
-  nsvcd__sample_surface(mesh, p.sample_count, p.drawn, p.drawn_normals);
-  nsvcd__farthest_points(&p);
-  nsvcd__move_centres(&p);
+  nsvcd__sample_surface(mesh, p->sample_count, p->drawn, p->drawn_normals);
+  nsvcd__farthest_points(p);
+  nsvcd__move_centres(p);
   for (int step = 1; step < NSVCD__LLOYD_STEPS; step++) {
-    for (size_t s = 0; s < p.sample_count; s++)
-      p.owners[s] = (uint16_t)nsvcd__nearest_centre(&p, p.owners[s], p.drawn[s]);
-    nsvcd__move_centres(&p);
+    for (size_t s = 0; s < p->sample_count; s++)
+      p->owners[s] = (uint16_t)nsvcd__nearest_centre(p, p->owners[s], p->drawn[s]);
+    nsvcd__move_centres(p);
   }
-  nsvcd__group_samples(&p);
-  nsvcd__cover(&p, mesh);
-  *patches = p;
+  nsvcd__group_samples(p);
+  nsvcd__cover(p, mesh);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_ENCODER
 
+// -------------------------------------------------------------------------------- patches/topology
+// In: a checked mesh. Out: what is learned of it: vertices at the same place are one, triangles
+// that share vertices are one component, and a component is closed or not.
+
 #ifndef NSVCD_NO_ENCODER
-// ----------------------------------------------------------------------------------------- regions
-// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
-// no more than 512 patches in each. Each region is then made into patches by itself. Where there
-// are several, large triangles are halved first, until none is large beside the regions. Nothing is
-// lost: halves share the corner between them, and both are kept.
-
-// patches of a region, where there are several
-#define NSVCD__REGION_PATCHES 256
-// longest edge, in roots of a region's mean area
-#define NSVCD__REGION_EDGE 0.5
-// a cut between regions is found to the width of one
-#define NSVCD__REGION_BINS 512
-// bounds the triangles that halving adds
-#define NSVCD__HALVES_PER_REGION 256
-#define NSVCD__NO_NUMBER 0xffffffffu
-
-// ---- topology: welded vertices, components, which of them are closed
-
 // What is learned of a mesh. Vertices at the same place are one: the first of them. A component
 // goes by its root, the least of its vertices.
 typedef struct nsvcd__topology {
   const nsvcd_mesh *mesh;
-  const nsvcd_allocator *allocator;
   size_t component_count;
   // (vertices) the first vertex at the same place
   uint32_t *welded;
@@ -3862,58 +2945,42 @@ typedef struct nsvcd__topology {
   uint8_t *seen;
 } nsvcd__topology;
 
-static void nsvcd__topology_free(nsvcd__topology *topology) {
-  const nsvcd_allocator *allocator = topology->allocator;
-  nsvcd__free(allocator, topology->welded);
-  nsvcd__free(allocator, topology->parents);
-  nsvcd__free(allocator, topology->open);
-  nsvcd__free(allocator, topology->seen);
-}
-
-static uint32_t nsvcd__place_hash(const float *position) {
-  uint32_t hash = 0;
-  for (size_t k = 0; k < 3; k++) {
-    uint32_t bits;
-    memcpy(&bits, position + k, sizeof bits);
-    if (bits == 0x80000000u)
-      bits = 0;  // -0 is at the same place as 0
-    hash = (hash ^ bits) * 0x9e3779b1u;
-    hash ^= hash >> 15;
-  }
-  return hash * 0x85ebca6bu ^ hash >> 13;
-}
-
-static int nsvcd__equal_positions(const float *a, const float *b) {
-  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
 // Finds the first vertex at each place, in a table of open addresses. 0 without memory.
-static int nsvcd__weld(nsvcd__topology *topology) {
+static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
   const nsvcd_mesh *mesh = topology->mesh;
-  const uint32_t empty = 0xffffffffu;
   size_t slots = 16;
-  while (slots / 2 < mesh->vertex_count)
-    slots *= 2;
-  uint32_t *table = nsvcd__alloc_words(topology->allocator, slots);
-  if (!table)
-    return 0;
-
-  memset(table, 0xff, slots * sizeof *table);
-  for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-    const float *position = mesh->positions + 3 * (size_t)v;
-    size_t slot = nsvcd__place_hash(position) & (slots - 1);
-    while (table[slot] != empty) {
-      const float *other = mesh->positions + 3 * (size_t)table[slot];
-      if (nsvcd__equal_positions(other, position))
-        break;
-      slot = (slot + 1) & (slots - 1);
+  while (slots / 2 < mesh->vertex_count) slots *= 2;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  // 0: none, else a vertex + 1
+  uint32_t *table = NSVCD__TAKE(&arena, uint32_t, slots);
+  for (uint32_t v = 0; table && v < mesh->vertex_count; v++) {
+    const float *at = mesh->positions + 3 * (size_t)v;
+    uint32_t hash = 0;
+    for (size_t k = 0; k < 3; k++) {
+      uint32_t bits;
+      memcpy(&bits, at + k, sizeof bits);
+      // -0 is at the same place as 0
+      if (bits == 0x80000000u) bits = 0;
+      hash = (hash ^ bits) * 0x9e3779b1u;
+      hash ^= hash >> 15;
     }
-    if (table[slot] == empty)
-      table[slot] = v;
-    topology->welded[v] = table[slot];
+    size_t slot = (hash * 0x85ebca6bu ^ hash >> 13) & (slots - 1);
+    for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
+      const float *other = mesh->positions + 3 * (size_t)(table[slot] - 1);
+      if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2]) break;
+    }
+    if (!table[slot]) table[slot] = v + 1;
+    topology->welded[v] = table[slot] - 1;
   }
-  nsvcd__free(topology->allocator, table);
-  return 1;
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+
+static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32_t *face) {
+  const uint32_t *corners = topology->mesh->indices + 3 * t;
+  face[0] = topology->welded[corners[0]];
+  face[1] = topology->welded[corners[1]];
+  face[2] = topology->welded[corners[2]];
 }
 
 static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
@@ -3924,196 +2991,105 @@ static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
   return v;
 }
 
-static void nsvcd__join(uint32_t *parents, uint32_t a, uint32_t b) {
-  a = nsvcd__root(parents, a);
-  b = nsvcd__root(parents, b);
-  if (a < b)
-    parents[b] = a;
-  if (b < a)
-    parents[a] = b;
-}
-
-// A triangle, by the numbers of its corners.
-typedef struct nsvcd__face {
-  uint32_t a, b, c;
-} nsvcd__face;
-
-static nsvcd__face nsvcd__face_load(const uint32_t *p) {
-  const nsvcd__face out = {p[0], p[1], p[2]};
-  return out;
-}
-static void nsvcd__face_store(nsvcd__face face, uint32_t *p) {
-  p[0] = face.a;
-  p[1] = face.b;
-  p[2] = face.c;
-}
-
-static nsvcd__face nsvcd__welded_face(const nsvcd__topology *topology, size_t t) {
-  const uint32_t *corners = topology->mesh->indices + 3 * t;
-  nsvcd__face out;
-  out.a = topology->welded[corners[0]];
-  out.b = topology->welded[corners[1]];
-  out.c = topology->welded[corners[2]];
-  return out;
-}
-
-static void nsvcd__find_components(nsvcd__topology *topology) {
+// Finds the components that are not closed: those whose directed edges do not cancel. 0 without
+// memory.
+static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
   const nsvcd_mesh *mesh = topology->mesh;
-  uint32_t *parents = topology->parents;
-  for (uint32_t v = 0; v < mesh->vertex_count; v++)
-    parents[v] = v;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const nsvcd__face face = nsvcd__welded_face(topology, t);
-    nsvcd__join(parents, face.a, face.b);
-    nsvcd__join(parents, face.a, face.c);
-  }
-  for (uint32_t v = 0; v < mesh->vertex_count; v++)
-    parents[v] = nsvcd__root(parents, v);
-
-  memset(topology->seen, 0, mesh->vertex_count);
-  topology->component_count = 0;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t root = parents[nsvcd__welded_face(topology, t).a];
-    topology->component_count += !topology->seen[root];
-    topology->seen[root] = 1;
-  }
-}
-
-// A directed edge: +1 where it leads away from its lesser end, -1 where towards it.
-typedef struct nsvcd__edge {
-  uint32_t low, high;
-  int8_t sign;
-} nsvcd__edge;
-
-static nsvcd__edge nsvcd__edge_of(uint32_t from, uint32_t to) {
-  const nsvcd__edge away = {from, to, 1};
-  const nsvcd__edge towards = {to, from, -1};
-  return from < to ? away : towards;
-}
-
-// The edges of triangle t. Returns how many: 3, or none where two corners are one, for then the
-// edges cancel among themselves.
-static size_t nsvcd__edges_of(const nsvcd__topology *topology, size_t t, nsvcd__edge *edges) {
-  const nsvcd__face face = nsvcd__welded_face(topology, t);
-  if (face.a == face.b || face.b == face.c || face.c == face.a)
-    return 0;
-  edges[0] = nsvcd__edge_of(face.a, face.b);
-  edges[1] = nsvcd__edge_of(face.b, face.c);
-  edges[2] = nsvcd__edge_of(face.c, face.a);
-  return 3;
-}
-
-// All edges, listed at their lesser ends. A component is closed if its edges cancel.
-typedef struct nsvcd__edges {
-  // (vertices + 1) where a vertex's edges begin; one more while they are sorted
-  size_t *first;
-  // (3 triangles) the greater end
-  uint32_t *ends;
-  // (3 triangles)
-  int8_t *signs;
-  // (vertices) sums over the edges of one vertex, by their other end; else zero
-  int32_t *balances;
-} nsvcd__edges;
-
-static void nsvcd__edges_free(nsvcd__edges *edges, const nsvcd_allocator *allocator) {
-  nsvcd__free(allocator, edges->first);
-  nsvcd__free(allocator, edges->ends);
-  nsvcd__free(allocator, edges->signs);
-  nsvcd__free(allocator, edges->balances);
-}
-
-static int nsvcd__edges_alloc(nsvcd__edges *edges, const nsvcd_mesh *mesh,
-                              const nsvcd_allocator *allocator) {
   const size_t vertices = mesh->vertex_count;
-  const size_t count = 3 * mesh->triangle_count;
-  edges->first = nsvcd__alloc_sizes(allocator, vertices + 2);
-  edges->ends = nsvcd__alloc_words(allocator, count);
-  edges->signs = (int8_t *)nsvcd__alloc(allocator, count);
-  edges->balances = (int32_t *)nsvcd__alloc_array(allocator, vertices, sizeof(int32_t));
-  if (edges->first && edges->ends && edges->signs && edges->balances)
-    return 1;
-  nsvcd__edges_free(edges, allocator);
-  return 0;
-}
-
-// Counting sort of the edges by their lesser end.
-static void nsvcd__sort_edges(const nsvcd__topology *topology, nsvcd__edges *edges) {
-  const nsvcd_mesh *mesh = topology->mesh;
-  nsvcd__edge sides[3];
-  memset(edges->first, 0, (mesh->vertex_count + 2) * sizeof *edges->first);
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const size_t count = nsvcd__edges_of(topology, t, sides);
-    for (size_t i = 0; i < count; i++)
-      edges->first[sides[i].low + 2]++;
-  }
-  for (size_t v = 0; v < mesh->vertex_count; v++)
-    edges->first[v + 2] += edges->first[v + 1];
-
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const size_t count = nsvcd__edges_of(topology, t, sides);
-    for (size_t i = 0; i < count; i++) {
-      // afterwards the start of the next
-      const size_t to = edges->first[sides[i].low + 1]++;
-      edges->ends[to] = sides[i].high;
-      edges->signs[to] = sides[i].sign;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  // where the edges of a vertex begin, which is the lesser of their ends; one more, while sorted
+  size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
+  // the greater end
+  uint32_t *ends = NSVCD__TAKE(&arena, uint32_t, 3 * mesh->triangle_count);
+  // 1: an edge leads to the greater end; -1: from it
+  int8_t *signs = NSVCD__TAKE(&arena, int8_t, 3 * mesh->triangle_count);
+  // sums over the edges of one vertex, by their other end; else zero
+  int32_t *balances = NSVCD__TAKE(&arena, int32_t, vertices);
+  // counting sort of the edges: they are counted, then placed
+  for (int pass = 0; !arena.failed && pass < 2; pass++) {
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+      uint32_t face[3];
+      nsvcd__welded_face(topology, t, face);
+      // then the edges cancel among themselves
+      if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+      for (size_t k = 0; k < 3; k++) {
+        const uint32_t from = face[k];
+        const uint32_t to = face[(k + 1) % 3];
+        const uint32_t low = from < to ? from : to;
+        if (pass == 0) {
+          first[low + 2]++;
+          continue;
+        }
+        // afterwards the start of the next
+        const size_t place = first[low + 1]++;
+        ends[place] = from < to ? to : from;
+        signs[place] = from < to ? 1 : -1;
+      }
     }
+    for (size_t v = 0; pass == 0 && v < vertices; v++) first[v + 2] += first[v + 1];
   }
-}
-
-// Finds the components that are not closed. 0 without memory.
-static int nsvcd__find_open(nsvcd__topology *topology) {
-  const nsvcd_mesh *mesh = topology->mesh;
-  nsvcd__edges edges;
-  if (!nsvcd__edges_alloc(&edges, mesh, topology->allocator))
-    return 0;
-  nsvcd__sort_edges(topology, &edges);
-
-  int32_t *balances = edges.balances;
-  memset(topology->open, 0, mesh->vertex_count);
-  memset(balances, 0, mesh->vertex_count * sizeof *balances);
-  for (size_t v = 0; v < mesh->vertex_count; v++) {
-    const size_t first = edges.first[v];
-    const size_t end = edges.first[v + 1];
-    for (size_t e = first; e < end; e++)
-      balances[edges.ends[e]] += edges.signs[e];
-    for (size_t e = first; e < end; e++) {
-      if (balances[edges.ends[e]] != 0)
-        topology->open[topology->parents[v]] = 1;
+  for (size_t v = 0; !arena.failed && v < vertices; v++) {
+    for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] += signs[e];
+    for (size_t e = first[v]; e < first[v + 1]; e++) {
+      if (balances[ends[e]] != 0) topology->open[topology->parents[v]] = 1;
     }
-    for (size_t e = first; e < end; e++)
-      balances[edges.ends[e]] = 0;
+    for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] = 0;
   }
-  nsvcd__edges_free(&edges, topology->allocator);
-  return 1;
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
 }
 
-// On success release with nsvcd__topology_free; 0 without memory.
-static int nsvcd__topology_build(const nsvcd_mesh *mesh, const nsvcd_allocator *allocator,
+// 0 without memory.
+static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
                                  nsvcd__topology *topology) {
-  const size_t vertices = mesh->vertex_count;
   topology->mesh = mesh;
-  topology->allocator = allocator;
-  topology->welded = nsvcd__alloc_words(allocator, vertices);
-  topology->parents = nsvcd__alloc_words(allocator, vertices);
-  topology->open = (uint8_t *)nsvcd__alloc(allocator, vertices);
-  topology->seen = (uint8_t *)nsvcd__alloc(allocator, vertices);
-  int ok = topology->welded && topology->parents && topology->open && topology->seen;
-  ok = ok && nsvcd__weld(topology);
-  if (ok) {
-    nsvcd__find_components(topology);
-    ok = nsvcd__find_open(topology);
-  }
-  if (!ok)
-    nsvcd__topology_free(topology);
-  return ok;
-}
+  topology->component_count = 0;
+  topology->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topology->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topology->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  topology->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  if (arena->failed || !nsvcd__weld(topology, arena->allocator)) return 0;
 
-// ---- a region at a time
+  uint32_t *parents = topology->parents;
+  uint32_t face[3];
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__welded_face(topology, t, face);
+    for (size_t k = 1; k < 3; k++) {
+      const uint32_t a = nsvcd__root(parents, face[0]);
+      const uint32_t b = nsvcd__root(parents, face[k]);
+      parents[a > b ? a : b] = a < b ? a : b;
+    }
+  }
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__welded_face(topology, t, face);
+    topology->component_count += !topology->seen[parents[face[0]]];
+    topology->seen[parents[face[0]]] = 1;
+  }
+  return nsvcd__find_open(topology, arena->allocator);
+}
+#endif  // NSVCD_NO_ENCODER
+
+// --------------------------------------------------------------------------------- patches/regions
+// In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
+// no more than 512 patches in each. Each region is then made into patches by itself. Where there
+// are several, large triangles are halved first, until none is large beside the regions. Nothing is
+// lost: halves share the corner between them, and both are kept.
+
+#ifndef NSVCD_NO_ENCODER
+// patches of a region, where there are several
+#define NSVCD__REGION_PATCHES 256
+// longest edge, in roots of a region's mean area
+#define NSVCD__REGION_EDGE 0.5
+// a cut between regions is found to the width of one
+#define NSVCD__REGION_BINS 512
+// bounds the triangles that halving adds
+#define NSVCD__HALVES_PER_REGION 256
 
 // Points are numbered: the vertices of the caller's mesh, then the cuts, which halving has made.
 typedef struct nsvcd__regions {
   const nsvcd_mesh *mesh;
-  const nsvcd_allocator *allocator;
   // of all coordinates
   double greatest;
   size_t component_count;  // C
@@ -4139,7 +3115,7 @@ typedef struct nsvcd__regions {
   uint32_t *order;
   // (T) working memory
   uint32_t *spare;
-  // (vertices and cuts) the numbers of points in the region at hand
+  // (vertices and cuts) the numbers of points in the region at hand, from 1; 0: none
   uint32_t *numbers;
   // (R + 1) places in `order`
   size_t *first;
@@ -4151,315 +3127,179 @@ typedef struct nsvcd__region {
   // coordinate, of the whole mesh
   double greatest;
   // (triangles)
-  const uint32_t *ids;
+  uint32_t *ids;
   // (cut_count) where the cuts are; the mesh has them rounded
-  const nsvcd__d3 *cuts;
+  nsvcd__d3 *cuts;
   size_t cut_count;
   // (vertices)
   uint8_t *seeds;
   // (vertices) their numbers among the points of all regions; NULL: the same
   uint32_t *vertices;
-  // holds the rest, but for a single region
-  void *memory;
 } nsvcd__region;
-
-static void nsvcd__regions_free(nsvcd__regions *r) {
-  nsvcd__free(r->allocator, r->seeds);
-  nsvcd__free(r->allocator, r->corners);
-  nsvcd__free(r->allocator, r->ids);
-  nsvcd__free(r->allocator, r->cuts);
-  nsvcd__free(r->allocator, r->order);
-  nsvcd__free(r->allocator, r->spare);
-  nsvcd__free(r->allocator, r->numbers);
-  nsvcd__free(r->allocator, r->first);
-}
 
 static nsvcd__d3 nsvcd__regions_point(const nsvcd__regions *r, uint32_t number) {
   const size_t vertices = r->mesh->vertex_count;
-  if (number < vertices)
-    return nsvcd__d3_row(r->mesh->positions, number);
+  if (number < vertices) return nsvcd__d3_row(r->mesh->positions, number);
   return r->cuts[number - vertices];
 }
 
-static nsvcd__triangle nsvcd__regions_place(const nsvcd__regions *r, nsvcd__face face) {
+static nsvcd__triangle nsvcd__regions_place(const nsvcd__regions *r, const uint32_t *corners) {
   nsvcd__triangle out;
-  out.a = nsvcd__regions_point(r, face.a);
-  out.b = nsvcd__regions_point(r, face.b);
-  out.c = nsvcd__regions_point(r, face.c);
+  out.at[0] = nsvcd__regions_point(r, corners[0]);
+  out.at[1] = nsvcd__regions_point(r, corners[1]);
+  out.at[2] = nsvcd__regions_point(r, corners[2]);
   return out;
 }
 
-static nsvcd__triangle nsvcd__regions_triangle(const nsvcd__regions *r, uint32_t t) {
-  const uint32_t *corners = r->corners + 3 * (size_t)t;
-  return nsvcd__regions_place(r, nsvcd__face_load(corners));
-}
-
-// Finds the longest edge that triangles may keep, and how many cuts there may be then.
-static void nsvcd__regions_limit(nsvcd__regions *r) {
-  const double triangles = (double)r->mesh->triangle_count;
-  const double area = nsvcd__mesh_area(r->mesh) / (double)r->count;
-  const double most = triangles + NSVCD__HALVES_PER_REGION * (double)r->count;
-  double pieces;
-  r->longest_edge = nsvcd__raise_limit(r->mesh, NSVCD__REGION_EDGE * sqrt(area), most, &pieces);
-  // Lengths of halves are found there by formulas and later from their corners: roundings may
-  // divide one more or less.
-  r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
-}
-
 // Adds a triangle, or its halves where an edge is too long, as long as there is room for these.
-static void nsvcd__regions_add(nsvcd__regions *r, nsvcd__face face, uint32_t id) {
-  const double limit = r->longest_edge * r->longest_edge;
-  const nsvcd__triangle triangle = nsvcd__regions_place(r, face);
-  const nsvcd__edge_squares e = nsvcd__squares_of(&triangle);
-  if (fmax(e.ab, fmax(e.bc, e.ca)) <= limit || r->cut_count == r->most_cuts) {
-    nsvcd__face_store(face, r->corners + 3 * r->triangle_count);
+static void nsvcd__regions_add(nsvcd__regions *r, const uint32_t *corners, uint32_t id) {
+  const nsvcd__triangle triangle = nsvcd__regions_place(r, corners);
+  double e[3];
+  const size_t k = nsvcd__edge_squares(&triangle, e);
+  if (e[k] <= r->longest_edge * r->longest_edge || r->cut_count == r->most_cuts) {
+    memcpy(r->corners + 3 * r->triangle_count, corners, 3 * sizeof *corners);
     r->ids[r->triangle_count++] = id;
     return;
   }
-
-  const nsvcd__face from_bc = {face.b, face.c, face.a};
-  const nsvcd__face from_ca = {face.c, face.a, face.b};
-  const int longest = nsvcd__longest_of(e);
-  if (longest > 0)
-    face = longest == 1 ? from_bc : from_ca;
   const uint32_t middle = (uint32_t)(r->mesh->vertex_count + r->cut_count);
-  const nsvcd__d3 a = nsvcd__regions_point(r, face.a);
-  const nsvcd__d3 b = nsvcd__regions_point(r, face.b);
-  r->cuts[r->cut_count++] = nsvcd__d3_scale(nsvcd__d3_add(a, b), 0.5);
-  const nsvcd__face near_a = {face.a, middle, face.c};
-  const nsvcd__face near_b = {middle, face.b, face.c};
+  const nsvcd__d3 sum = nsvcd__d3_add(triangle.at[k], triangle.at[(k + 1) % 3]);
+  r->cuts[r->cut_count++] = nsvcd__d3_scale(sum, 0.5);
+  const uint32_t near_a[3] = {corners[k], middle, corners[(k + 2) % 3]};
+  const uint32_t near_b[3] = {middle, corners[(k + 1) % 3], corners[(k + 2) % 3]};
   nsvcd__regions_add(r, near_a, id);
   nsvcd__regions_add(r, near_b, id);
 }
 
-// Room for all triangles and cuts, and for the rest of several regions. 0 without memory; the
-// caller frees.
-static int nsvcd__regions_alloc(nsvcd__regions *r) {
-  const size_t triangles = r->mesh->triangle_count + r->most_cuts;
-  const size_t points = r->mesh->vertex_count + r->most_cuts;
-  r->corners = nsvcd__alloc_words(r->allocator, 3 * triangles);
-  r->ids = nsvcd__alloc_words(r->allocator, triangles);
-  if (!r->corners || !r->ids)
-    return 0;
-  if (r->count == 1)
-    return 1;
-  r->cuts = nsvcd__alloc_d3s(r->allocator, r->most_cuts);
-  r->order = nsvcd__alloc_words(r->allocator, triangles);
-  r->spare = nsvcd__alloc_words(r->allocator, triangles);
-  r->numbers = nsvcd__alloc_words(r->allocator, points);
-  r->first = nsvcd__alloc_sizes(r->allocator, r->count + 1);
-  return r->cuts && r->order && r->spare && r->numbers && r->first;
+static nsvcd__triangle nsvcd__regions_triangle(const nsvcd__regions *r, size_t i) {
+  return nsvcd__regions_place(r, r->corners + 3 * (size_t)r->order[i]);
 }
-
-static nsvcd__d3 nsvcd__regions_centroid(const nsvcd__regions *r, uint32_t t) {
-  const nsvcd__triangle at = nsvcd__regions_triangle(r, t);
-  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(at.a, at.b), at.c);
+static nsvcd__d3 nsvcd__centroid(const nsvcd__triangle *t) {
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(t->at[0], t->at[1]), t->at[2]);
   return nsvcd__d3_scale(sum, 1.0 / 3);
 }
 
-// What a triangle counts when regions are made alike: half of it is its area, half that it is one.
-static double nsvcd__regions_weight(const nsvcd__regions *r, uint32_t t) {
-  const nsvcd__triangle at = nsvcd__regions_triangle(r, t);
-  return r->per_area * nsvcd__triangle_area(&at) + r->per_triangle;
-}
-
-// Some of the triangles, by their places in `order`.
-typedef struct nsvcd__run {
-  size_t first, end;
-} nsvcd__run;
-
-// Where a run of triangles is cut in two.
-typedef struct nsvcd__split {
-  nsvcd__d3 low;    // of the box of their centroids
-  size_t axis;      // its longest
-  double per_bin;   // bins per metre
-  size_t last_bin;  // of the first part
-} nsvcd__split;
-
-static size_t nsvcd__split_bin(const nsvcd__split *split, nsvcd__d3 at) {
-  const nsvcd__d3 from_low = nsvcd__d3_sub(at, split->low);
-  const double bin = nsvcd__d3_axis(from_low, split->axis) * split->per_bin;
-  return bin < NSVCD__REGION_BINS - 1 ? (size_t)bin : NSVCD__REGION_BINS - 1;
-}
-
-// The bins of a run: across the longest axis of its box.
-static nsvcd__split nsvcd__split_across(const nsvcd__regions *r, nsvcd__run run) {
-  nsvcd__split split = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, 0, 0, 0};
+// Cuts a run of triangles, places first .. end - 1 of `order`, in two, such that the first part has
+// about this share of the weight. Centroids decide: the cut is at the end of a bin across the
+// longest axis of their box. In a part triangles keep their order. Returns where the second begins.
+static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
+                                   double share) {
+  nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (size_t i = run.first; i < run.end; i++) {
-    const nsvcd__d3 at = nsvcd__regions_centroid(r, r->order[i]);
-    split.low = nsvcd__d3_min(split.low, at);
+  for (size_t i = first; i < end; i++) {
+    const nsvcd__triangle triangle = nsvcd__regions_triangle(r, i);
+    const nsvcd__d3 at = nsvcd__centroid(&triangle);
+    low = nsvcd__d3_min(low, at);
     high = nsvcd__d3_max(high, at);
   }
-  const nsvcd__d3 size = nsvcd__d3_sub(high, split.low);
-  if (size.y > size.x)
-    split.axis = 1;
-  if (size.z > nsvcd__d3_axis(size, split.axis))
-    split.axis = 2;
-  const double longest = nsvcd__d3_axis(size, split.axis);
-  split.per_bin = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
-  return split;
-}
+  const nsvcd__d3 size = nsvcd__d3_sub(high, low);
+  size_t axis = size.y > size.x ? 1 : 0;
+  if (size.z > nsvcd__d3_axis(size, axis)) axis = 2;
+  const double longest = nsvcd__d3_axis(size, axis);
+  const double per_metre = longest > 1e-30 ? NSVCD__REGION_BINS / longest : 0;
 
-// Chooses the split such that the first part has about this share of the weight.
-static nsvcd__split nsvcd__regions_split(const nsvcd__regions *r, nsvcd__run run, double share) {
   double weights[NSVCD__REGION_BINS] = {0};
   double all = 0;
-  nsvcd__split split = nsvcd__split_across(r, run);
-  for (size_t i = run.first; i < run.end; i++) {
-    const uint32_t t = r->order[i];
-    const double weight = nsvcd__regions_weight(r, t);
-    weights[nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t))] += weight;
+  for (size_t i = first; i < end; i++) {
+    const nsvcd__triangle triangle = nsvcd__regions_triangle(r, i);
+    const double weight = r->per_area * nsvcd__triangle_area(&triangle) + r->per_triangle;
+    const nsvcd__d3 from_low = nsvcd__d3_sub(nsvcd__centroid(&triangle), low);
+    const double bin =
+        fmin(nsvcd__d3_axis(from_low, axis) * per_metre, NSVCD__REGION_BINS - 1);
+    r->spare[i - first] = (uint32_t)bin;
+    weights[(uint32_t)bin] += weight;
     all += weight;
   }
-  double sum = weights[0];
-  while (split.last_bin + 2 < NSVCD__REGION_BINS) {
-    const double next = weights[split.last_bin + 1];
-    if (!(sum + 0.5 * next < share * all))
-      break;
+  uint32_t last_bin = 0;
+  for (double sum = weights[0]; last_bin + 2 < NSVCD__REGION_BINS; last_bin++) {
+    const double next = weights[last_bin + 1];
+    if (!(sum + 0.5 * next < share * all)) break;
     sum += next;
-    split.last_bin++;
   }
-  return split;
-}
 
-// Makes `parts` regions, from number n on, of a run of triangles. In a region they keep their
-// order.
-static void nsvcd__regions_part(nsvcd__regions *r, nsvcd__run run, size_t parts, size_t n) {
-  if (parts == 1) {
-    r->first[n] = run.first;
-    return;
-  }
-  const size_t left_parts = parts / 2;
-  const double share = (double)left_parts / (double)parts;
-  const nsvcd__split split = nsvcd__regions_split(r, run, share);
-  nsvcd__run left = {run.first, run.first};
+  // The second part waits in place of bins that have been looked at.
+  size_t middle = first;
   size_t others = 0;
-  for (size_t i = run.first; i < run.end; i++) {
+  for (size_t i = first; i < end; i++) {
     const uint32_t t = r->order[i];
-    const size_t bin = nsvcd__split_bin(&split, nsvcd__regions_centroid(r, t));
-    if (bin <= split.last_bin) {
-      r->order[left.end++] = t;
-    } else {
-      r->spare[others++] = t;
-    }
+    uint32_t *to = r->spare[i - first] <= last_bin ? &r->order[middle++] : &r->spare[others++];
+    *to = t;
   }
-  const nsvcd__run right = {left.end, run.end};
-  memcpy(r->order + right.first, r->spare, others * sizeof *r->spare);
-  nsvcd__regions_part(r, left, left_parts, n);
-  nsvcd__regions_part(r, right, parts - left_parts, n + left_parts);
+  memcpy(r->order + middle, r->spare, others * sizeof *r->spare);
+  return middle;
 }
 
-// Parts the triangles, which are all there, into several regions.
-static void nsvcd__regions_part_all(nsvcd__regions *r) {
-  const size_t points = r->mesh->vertex_count + r->cut_count;
-  const nsvcd__run all = {0, r->triangle_count};
-  r->per_area = 0.5 / nsvcd__mesh_area(r->mesh);
-  r->per_triangle = 0.5 / (double)r->triangle_count;
-  for (uint32_t t = 0; t < r->triangle_count; t++)
-    r->order[t] = t;
-  for (size_t v = 0; v < points; v++)
-    r->numbers[v] = NSVCD__NO_NUMBER;
-  nsvcd__regions_part(r, all, r->count, 0);
-  r->first[r->count] = r->triangle_count;
+// Makes `parts` regions, from number n on, of a run of triangles.
+static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, size_t parts,
+                                size_t n) {
+  r->first[n] = first;
+  if (parts == 1) return;
+  const size_t left = parts / 2;
+  const double share = (double)left / (double)parts;
+  const size_t middle = nsvcd__regions_split(r, first, end, share);
+  nsvcd__regions_part(r, first, middle, left, n);
+  nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }
 
 // Welds the mesh, and parts it where it is to have more than a region's patches. patches: N, of the
-// whole. On success release with nsvcd__regions_free; 0 without memory, and nothing stays
-// allocated.
-static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches,
-                                const nsvcd_allocator *allocator, nsvcd__regions *r) {
+// whole. 0 without memory.
+static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__arena *arena,
+                                nsvcd__regions *r) {
+  nsvcd__arena scratch = nsvcd__arena_of(arena->allocator);
   nsvcd__topology topology;
-  if (!nsvcd__topology_build(mesh, allocator, &topology))
-    return 0;
   memset(r, 0, sizeof *r);
   r->mesh = mesh;
-  r->allocator = allocator;
-  r->component_count = topology.component_count;
-  r->seeds = topology.seen;
-  topology.seen = NULL;
-  r->count = 1;
-  if (patches > NSVCD_SMALL_PATCHES)
-    r->count = (patches + NSVCD__REGION_PATCHES - 1) / NSVCD__REGION_PATCHES;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     r->greatest = fmax(r->greatest, fabs((double)mesh->positions[i]));
+  r->count = 1;
   r->longest_edge = HUGE_VAL;
-  if (r->count > 1)
-    nsvcd__regions_limit(r);
+  if (patches > NSVCD_SMALL_PATCHES) {
+    r->count = (patches + NSVCD__REGION_PATCHES - 1) / NSVCD__REGION_PATCHES;
+    const double area = nsvcd__mesh_area(mesh);
+    const double triangles = (double)mesh->triangle_count;
+    const double most = triangles + NSVCD__HALVES_PER_REGION * (double)r->count;
+    const double edge = NSVCD__REGION_EDGE * sqrt(area / (double)r->count);
+    double pieces;
+    r->per_area = 0.5 / area;
+    r->longest_edge = nsvcd__raise_limit(mesh, edge, most, &pieces);
+    // Lengths of halves are found there by formulas and later from their corners: roundings may
+    // divide one more or less.
+    r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
+  }
 
-  const int ok = nsvcd__regions_alloc(r);
+  const int known = nsvcd__topology_build(mesh, &scratch, &topology);
+  const size_t most_triangles = mesh->triangle_count + r->most_cuts;
+  r->component_count = topology.component_count;
+  r->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  r->corners = NSVCD__TAKE(arena, uint32_t, 3 * most_triangles);
+  r->ids = NSVCD__TAKE(arena, uint32_t, most_triangles);
+  if (r->count > 1) {
+    r->cuts = NSVCD__TAKE(arena, nsvcd__d3, r->most_cuts);
+    r->order = NSVCD__TAKE(arena, uint32_t, most_triangles);
+    r->spare = NSVCD__TAKE(arena, uint32_t, most_triangles);
+    r->numbers = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count + r->most_cuts);
+    r->first = NSVCD__TAKE(arena, size_t, r->count + 1);
+  }
+  const int ok = known && !arena->failed;
+  if (ok) memcpy(r->seeds, topology.seen, mesh->vertex_count);
   for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
-    const nsvcd__face face = nsvcd__welded_face(&topology, t);
-    const int open = topology.open[topology.parents[face.a]];
+    uint32_t face[3];
+    nsvcd__welded_face(&topology, t, face);
+    const int open = topology.open[topology.parents[face[0]]];
     nsvcd__regions_add(r, face, (uint32_t)t | (open ? 0 : NSVCD__ENCLOSES));
   }
-  nsvcd__topology_free(&topology);
-  if (ok && r->count > 1)
-    nsvcd__regions_part_all(r);
-  if (!ok)
-    nsvcd__regions_free(r);
-  return ok;
+  nsvcd__arena_free(&scratch);
+  if (!ok || r->count == 1) return ok;
+
+  r->per_triangle = 0.5 / (double)r->triangle_count;
+  for (uint32_t t = 0; t < r->triangle_count; t++) r->order[t] = t;
+  nsvcd__regions_part(r, 0, r->triangle_count, r->count, 0);
+  r->first[r->count] = r->triangle_count;
+  return 1;
 }
 
-// Gives the points of a run of triangles their numbers within a region: those that are cuts, or
-// those that are not. count: of numbers given so far. Returns how many there are now.
-static size_t nsvcd__region_number(nsvcd__regions *r, nsvcd__run run, int cuts, size_t count,
-                                   uint32_t *vertices) {
-  for (size_t i = run.first; i < run.end; i++) {
-    const uint32_t *corners = r->corners + 3 * (size_t)r->order[i];
-    for (size_t k = 0; k < 3; k++) {
-      const uint32_t v = corners[k];
-      const int is_cut = v >= r->mesh->vertex_count;
-      if (is_cut != cuts || r->numbers[v] != NSVCD__NO_NUMBER)
-        continue;
-      r->numbers[v] = (uint32_t)count;
-      vertices[count++] = v;
-    }
-  }
-  return count;
-}
-
-// Fills a region, whose memory is there, from a run of triangles.
-static void nsvcd__region_fill(nsvcd__regions *r, nsvcd__run run, nsvcd__region *out) {
-  const size_t count = run.end - run.first;
-  nsvcd__d3 *cuts = (nsvcd__d3 *)out->memory;
-  uint32_t *corners = (uint32_t *)(void *)(cuts + 3 * count);
-  uint32_t *ids = corners + 3 * count;
-  uint32_t *vertices = ids + count;
-  float *positions = (float *)(void *)(vertices + 3 * count);
-  uint8_t *seeds = (uint8_t *)(positions + 9 * count);
-  const size_t firm = nsvcd__region_number(r, run, 0, 0, vertices);
-  const size_t all = nsvcd__region_number(r, run, 1, firm, vertices);
-  for (size_t v = 0; v < all; v++) {
-    const nsvcd__d3 at = nsvcd__regions_point(r, vertices[v]);
-    nsvcd__f3_store(nsvcd__f3_round(at), positions + 3 * v);
-    if (v >= firm)
-      cuts[v - firm] = at;
-    seeds[v] = v < firm && r->seeds[vertices[v]];
-  }
-  for (size_t i = 0; i < count; i++) {
-    const uint32_t t = r->order[run.first + i];
-    ids[i] = r->ids[t];
-    for (size_t k = 0; k < 3; k++)
-      corners[3 * i + k] = r->numbers[r->corners[3 * (size_t)t + k]];
-  }
-  for (size_t v = 0; v < all; v++)
-    r->numbers[vertices[v]] = NSVCD__NO_NUMBER;
-
-  out->vertices = vertices;
-  out->cuts = cuts;
-  out->cut_count = all - firm;
-  out->ids = ids;
-  out->seeds = seeds;
-  out->mesh.positions = positions;
-  out->mesh.indices = corners;
-  out->mesh.vertex_count = all;
-  out->mesh.triangle_count = count;
-}
-
-// One of the regions. EMPTY where it has no triangle; MEMORY. On success release with
-// nsvcd__region_end.
-static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__region *out) {
+// One of the regions. EMPTY where it has no triangle; MEMORY. After success: nsvcd__region_end.
+static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__arena *arena,
+                                        nsvcd__region *out) {
   memset(out, 0, sizeof *out);
   out->greatest = r->greatest;
   if (r->count == 1) {
@@ -4469,34 +3309,64 @@ static nsvcd_result nsvcd__region_begin(nsvcd__regions *r, size_t n, nsvcd__regi
     out->seeds = r->seeds;
     return NSVCD_OK;
   }
-  const nsvcd__run run = {r->first[n], r->first[n + 1]};
-  if (run.first == run.end)
-    return NSVCD_ERROR_EMPTY;
-  // For each triangle: up to three places of cuts; 16 numbers of four bytes, which are its corners,
-  // its id, and up to three vertices with their positions; up to three seeds.
-  const size_t size = 3 * sizeof(nsvcd__d3) + 16 * sizeof(uint32_t) + 3;
-  out->memory = nsvcd__alloc_array(r->allocator, run.end - run.first, size);
-  if (!out->memory)
-    return NSVCD_ERROR_MEMORY;
-  nsvcd__region_fill(r, run, out);
+  const uint32_t *order = r->order + r->first[n];
+  const size_t count = r->first[n + 1] - r->first[n];
+  if (count == 0) return NSVCD_ERROR_EMPTY;
+  out->mesh.triangle_count = count;
+  out->mesh.positions = NSVCD__TAKE(arena, float, 9 * count);
+  out->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  out->ids = NSVCD__TAKE(arena, uint32_t, count);
+  out->cuts = NSVCD__TAKE(arena, nsvcd__d3, 3 * count);
+  out->seeds = NSVCD__TAKE(arena, uint8_t, 3 * count);
+  out->vertices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  if (arena->failed) return NSVCD_ERROR_MEMORY;
+
+  // points get their numbers within the region: first those that are no cuts
+  size_t points = 0;
+  for (int cuts = 0; cuts < 2; cuts++) {
+    const size_t before = points;
+    for (size_t i = 0; i < 3 * count; i++) {
+      const uint32_t v = r->corners[3 * (size_t)order[i / 3] + i % 3];
+      const int is_cut = v >= r->mesh->vertex_count;
+      if (is_cut != cuts || r->numbers[v]) continue;
+      out->vertices[points++] = v;
+      r->numbers[v] = (uint32_t)points;
+    }
+    out->cut_count = points - before;
+  }
+  out->mesh.vertex_count = points;
+  const size_t firm = points - out->cut_count;
+  for (size_t i = 0; i < count; i++) {
+    out->ids[i] = r->ids[order[i]];
+    for (size_t k = 0; k < 3; k++)
+      out->mesh.indices[3 * i + k] = r->numbers[r->corners[3 * (size_t)order[i] + k]] - 1;
+  }
+  for (size_t v = 0; v < points; v++) {
+    const uint32_t from = out->vertices[v];
+    const nsvcd__d3 at = nsvcd__regions_point(r, from);
+    nsvcd__f3_store(nsvcd__f3_round(at), out->mesh.positions + 3 * v);
+    if (v < firm) out->seeds[v] = r->seeds[from];
+    if (v >= firm) out->cuts[v - firm] = at;
+    r->numbers[from] = 0;
+  }
   return NSVCD_OK;
 }
 
 // Keeps in mind which seeds patches have been given.
-static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
+static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
   const size_t firm = region->mesh.vertex_count - region->cut_count;
-  for (size_t v = 0; region->memory && v < firm; v++)
+  for (size_t v = 0; region->vertices && v < firm; v++)
     r->seeds[region->vertices[v]] = region->seeds[v];
-  nsvcd__free(r->allocator, region->memory);
 }
-
 #endif  // NSVCD_NO_ENCODER
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// ----------------------------------------------------------------------------------------- surface
-// In: a mesh, region by region, and the centres of each region's patches, N in all. Out:
-// nsvcd__surface: of every patch an outer description of the surface that belongs to it, and the
-// triangles of that surface. A proof of freedom of collision is built on it.
+// ====================================================== surface: each patch described from outside
+
+// ---------------------------------------------------------------------------------- surface/pieces
+// In: a mesh, region by region, and the centres of each region's patches, N in all. Out: pieces:
+// triangles, cut by the cells of the centres. From them nsvcd__surface is made (surface/surface):
+// of every patch an outer description of the surface that belongs to it, and the triangles of that
+// surface. A proof of freedom of collision is built on it.
 //
 // What holds. Every point of the mesh lies in a piece. Every piece is a convex part of one
 // triangle, and belongs to one patch. That patch lists the piece's triangle, or the piece itself
@@ -4510,6 +3380,7 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
@@ -4535,42 +3406,28 @@ static void nsvcd__region_end(nsvcd__regions *r, nsvcd__region *region) {
 
 // ---- lists that grow
 
+// As zeros it is empty.
 typedef struct nsvcd__list {
-  const nsvcd_allocator *allocator;
   void *items;
-  size_t item_size;
   size_t count, capacity;
 } nsvcd__list;
 
-static nsvcd__list nsvcd__list_of(size_t item_size, const nsvcd_allocator *allocator) {
-  const nsvcd__list out = {allocator, NULL, item_size, 0, 0};
-  return out;
-}
-static void nsvcd__list_free(nsvcd__list *list) {
-  nsvcd__free(list->allocator, list->items);
-}
-
-// Room for `more` items; 0 without memory, and the list is as it was.
-static int nsvcd__list_reserve(nsvcd__list *list, size_t more) {
-  if (list->capacity - list->count >= more)
-    return 1;
-  if (list->count > SIZE_MAX / 2 - more)
-    return 0;
+// Room for `more` items of so many bytes; 0 without memory, and the list is as it was.
+static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
+                               nsvcd__arena *arena) {
+  if (list->capacity - list->count >= more) return 1;
+  if (list->count > SIZE_MAX / 2 - more) return 0;
   const size_t capacity = list->count + more + list->count / 2;
-  void *items = nsvcd__alloc_array(list->allocator, capacity, list->item_size);
-  if (!items)
-    return 0;
-
-  if (list->count > 0)
-    memcpy(items, list->items, list->count * list->item_size);
-  nsvcd__free(list->allocator, list->items);
+  void *items = nsvcd__arena_grow(arena, list->items, list->count * size, capacity, size);
+  if (!items) return 0;
   list->items = items;
   list->capacity = capacity;
   return 1;
 }
 
 typedef struct nsvcd__surface {
-  const nsvcd_allocator *allocator;
+  // of all its arrays
+  nsvcd__arena *arena;
   size_t count;  // N, of which
   size_t done;   // so many are described by now
   // L, triangles listed, over all patches
@@ -4592,7 +3449,8 @@ typedef struct nsvcd__surface {
   float *quanta;
   // (N) 1..NSVCD__HULL; 0 where empty
   uint8_t *hull_counts;
-  uint32_t *first_vertex;    // (N + 1)
+  // (N + 1)
+  uint32_t *first_vertex;
   uint32_t *first_triangle;  // (N + 1)
   // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
   int16_t *vertices;
@@ -4613,9 +3471,9 @@ typedef struct nsvcd__surface {
 // ---- pieces: triangles cut by the cells of the centres
 
 // A convex part of one triangle that is being cut. Its corners are points by number: the mesh's
-// welded vertices, then those that cuts have made.
+// welded vertices, then those that cuts have made. While it is divided it may have too many.
 typedef struct nsvcd__convex {
-  uint32_t points[NSVCD__PIECE_CORNERS];
+  uint32_t points[2 * NSVCD__PIECE_CORNERS];
   size_t count;
 } nsvcd__convex;
 
@@ -4624,20 +3482,24 @@ typedef struct nsvcd__piece {
   uint32_t first;
   uint32_t triangle;
   uint16_t patch;
-  uint8_t count;   // of its corners
-  uint8_t parted;  // 1: its triangle is listed in parts
+  uint8_t count;  // of its corners
+  // 1: its triangle is listed in parts
+  uint8_t parted;
 } nsvcd__piece;
 
 #define NSVCD__WHOLE 0xffffffffu
 
 typedef struct nsvcd__pieces {
-  const nsvcd_allocator *allocator;
+  nsvcd__arena *arena;
   const nsvcd__region *region;
   const nsvcd__patches *patches;
-  nsvcd__list list;        // of nsvcd__piece, triangle by triangle
-  nsvcd__list corners;     // of uint32_t, numbers of points
-  nsvcd__list points;      // of nsvcd__d3: the points that cuts have made
-  nsvcd__convex *waiting;  // (NSVCD__WAITING)
+  // of nsvcd__piece, triangle by triangle
+  nsvcd__list list;
+  nsvcd__list corners;  // of uint32_t, numbers of points
+  // of nsvcd__d3: the points that cuts have made
+  nsvcd__list points;
+  // (NSVCD__WAITING)
+  nsvcd__convex *waiting;
   size_t waiting_count;
   size_t cuts_left;
   // metres: how far a piece may extend beyond its cell
@@ -4648,29 +3510,14 @@ typedef struct nsvcd__pieces {
   double margin;
 } nsvcd__pieces;
 
-static void nsvcd__pieces_free(nsvcd__pieces *pieces) {
-  nsvcd__list_free(&pieces->list);
-  nsvcd__list_free(&pieces->corners);
-  nsvcd__list_free(&pieces->points);
-  nsvcd__free(pieces->allocator, pieces->waiting);
-}
-
-static const nsvcd__piece *nsvcd__piece_at(const nsvcd__pieces *pieces, size_t i) {
-  return (const nsvcd__piece *)pieces->list.items + i;
-}
-
-static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces, uint32_t triangle) {
+static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces,
+                                               uint32_t triangle) {
   return pieces->region->mesh.indices + 3 * (size_t)triangle;
 }
 static const uint32_t *nsvcd__piece_corners(const nsvcd__pieces *pieces,
                                             const nsvcd__piece *piece) {
-  if (piece->first == NSVCD__WHOLE)
-    return nsvcd__triangle_corners(pieces, piece->triangle);
+  if (piece->first == NSVCD__WHOLE) return nsvcd__triangle_corners(pieces, piece->triangle);
   return (const uint32_t *)pieces->corners.items + piece->first;
-}
-
-static size_t nsvcd__point_count(const nsvcd__pieces *pieces) {
-  return pieces->region->mesh.vertex_count + pieces->points.count;
 }
 
 static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
@@ -4678,88 +3525,43 @@ static nsvcd__d3 nsvcd__point_at(const nsvcd__pieces *pieces, uint32_t number) {
   const nsvcd__d3 *made = (const nsvcd__d3 *)pieces->points.items;
   const size_t vertices = region->mesh.vertex_count;
   const size_t firm = vertices - region->cut_count;
-  if (number < firm)
-    return nsvcd__d3_row(region->mesh.positions, number);
-  if (number < vertices)
-    return region->cuts[number - firm];
+  if (number < firm) return nsvcd__d3_row(region->mesh.positions, number);
+  if (number < vertices) return region->cuts[number - firm];
   return made[number - vertices];
-}
-
-static nsvcd__d3 nsvcd__centre_at(const nsvcd__patches *patches, uint32_t i) {
-  return nsvcd__d3_widen(patches->centres[i]);
-}
-
-// The corners of one of the parts that a polygon is divided in.
-typedef struct nsvcd__part {
-  uint32_t points[2 * NSVCD__PIECE_CORNERS];
-  size_t count;
-} nsvcd__part;
-
-static void nsvcd__part_add(nsvcd__part *part, uint32_t point) {
-  part->points[part->count++] = point;
-}
-static int nsvcd__part_is_good(const nsvcd__part *part) {
-  return part->count >= 3 && part->count <= NSVCD__PIECE_CORNERS;
-}
-static void nsvcd__part_store(const nsvcd__part *part, nsvcd__convex *out) {
-  memcpy(out->points, part->points, part->count * sizeof *part->points);
-  out->count = part->count;
 }
 
 // Divides a polygon where `beyond`, a value at each of its corners, changes its sign: near_part is
 // where it is negative. There is room for the points that this makes. 0 if one of the parts has
 // less than three corners, which roundings can do, or too many.
-static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from, const double *beyond,
-                         nsvcd__convex *near_part, nsvcd__convex *far_part) {
+static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
+                         const double *beyond, nsvcd__convex *near_part,
+                         nsvcd__convex *far_part) {
   const uint32_t vertices = (uint32_t)pieces->region->mesh.vertex_count;
   const size_t made = pieces->points.count;
   nsvcd__d3 *points = (nsvcd__d3 *)pieces->points.items;
-  nsvcd__part near_by;
-  nsvcd__part far_off;
-  near_by.count = 0;
-  far_off.count = 0;
+  near_part->count = 0;
+  far_part->count = 0;
   for (size_t i = 0; i < from->count; i++) {
     const size_t j = (i + 1) % from->count;
-    if (beyond[i] <= 0)
-      nsvcd__part_add(&near_by, from->points[i]);
-    if (beyond[i] >= 0)
-      nsvcd__part_add(&far_off, from->points[i]);
+    if (beyond[i] <= 0) near_part->points[near_part->count++] = from->points[i];
+    if (beyond[i] >= 0) far_part->points[far_part->count++] = from->points[i];
     const int leaves = beyond[i] < 0 && beyond[j] > 0;
     const int enters = beyond[i] > 0 && beyond[j] < 0;
-    if (!leaves && !enters)
-      continue;
+    if (!leaves && !enters) continue;
     const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
     const uint32_t number = vertices + (uint32_t)pieces->points.count;
     const double share = beyond[i] / (beyond[i] - beyond[j]);
     points[pieces->points.count++] = nsvcd__d3_mix(a, b, share);
-    nsvcd__part_add(&near_by, number);
-    nsvcd__part_add(&far_off, number);
+    near_part->points[near_part->count++] = number;
+    far_part->points[far_part->count++] = number;
   }
-
-  if (!nsvcd__part_is_good(&near_by) || !nsvcd__part_is_good(&far_off)) {
-    pieces->points.count = made;
-    return 0;
-  }
-  nsvcd__part_store(&near_by, near_part);
-  nsvcd__part_store(&far_off, far_part);
-  return 1;
-}
-
-// How far each corner is beyond the plane midway between two centres. Returns the greatest of that.
-static double nsvcd__beyond(const nsvcd__pieces *pieces, const nsvcd__convex *convex, nsvcd__d3 own,
-                            nsvcd__d3 other, double *beyond) {
-  const nsvcd__d3 across = nsvcd__d3_sub(other, own);
-  const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
-  const double length = nsvcd__d3_length(across);
-  double most = -HUGE_VAL;
-  for (size_t i = 0; i < convex->count; i++) {
-    const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
-    const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
-    beyond[i] = length > 0 ? height / length : -1;
-    most = fmax(most, beyond[i]);
-  }
-  return most;
+  const size_t most = NSVCD__PIECE_CORNERS;
+  if (near_part->count >= 3 && near_part->count <= most && far_part->count >= 3 &&
+      far_part->count <= most)
+    return 1;
+  pieces->points.count = made;
+  return 0;
 }
 
 // Distance of the polygon's farthest corner.
@@ -4777,26 +3579,32 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
 // without memory.
 static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *convex) {
   const nsvcd__patches *patches = pieces->patches;
-  const nsvcd__d3 own = nsvcd__centre_at(patches, patch);
+  const nsvcd__d3 own = nsvcd__d3_widen(patches->centres[patch]);
   const size_t first = (size_t)patch * NSVCD__NEIGHBOURS;
   double reach = nsvcd__convex_reach(pieces, convex, own);
   for (size_t k = first; k < first + NSVCD__NEIGHBOURS; k++) {
     // The plane is half the gap away, and the planes of all that follow are farther.
     const double plane = sqrt((double)patches->quarter_squares[k]);
-    if (reach <= plane + pieces->overlap)
-      break;
-    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING)
-      break;
+    if (reach <= plane + pieces->overlap) break;
+    if (pieces->cuts_left == 0 || pieces->waiting_count == NSVCD__WAITING) break;
+    const nsvcd__d3 other = nsvcd__d3_widen(patches->centres[patches->neighbours[k]]);
+    const nsvcd__d3 across = nsvcd__d3_sub(other, own);
+    const nsvcd__d3 middle = nsvcd__d3_mix(own, other, 0.5);
+    const double length = nsvcd__d3_length(across);
     double beyond[NSVCD__PIECE_CORNERS];
-    const nsvcd__d3 other = nsvcd__centre_at(patches, patches->neighbours[k]);
-    if (nsvcd__beyond(pieces, convex, own, other, beyond) <= pieces->overlap)
-      continue;
-    if (!nsvcd__list_reserve(&pieces->points, convex->count))
-      return 0;
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < convex->count; i++) {
+      const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
+      const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
+      beyond[i] = length > 0 ? height / length : -1;
+      most = fmax(most, beyond[i]);
+    }
+    if (most <= pieces->overlap) continue;
+    nsvcd__list *points = &pieces->points;
+    if (!nsvcd__list_reserve(points, convex->count, sizeof own, pieces->arena)) return 0;
     nsvcd__convex near_part;
     nsvcd__convex *far_part = &pieces->waiting[pieces->waiting_count];
-    if (!nsvcd__divide(pieces, convex, beyond, &near_part, far_part))
-      continue;
+    if (!nsvcd__divide(pieces, convex, beyond, &near_part, far_part)) continue;
     *convex = near_part;
     pieces->waiting_count++;
     pieces->cuts_left--;
@@ -4805,162 +3613,87 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
   return 1;
 }
 
-// Keeps a polygon. piece: what is known of it but its corners. 0 without memory.
-static int nsvcd__add_piece(nsvcd__pieces *pieces, const nsvcd__convex *convex,
-                            nsvcd__piece piece) {
-  const uint32_t *triangle = nsvcd__triangle_corners(pieces, piece.triangle);
-  const int same = memcmp(convex->points, triangle, 3 * sizeof *triangle) == 0;
-  piece.count = (uint8_t)convex->count;
-  piece.first = NSVCD__WHOLE;
-  if (convex->count != 3 || !same) {
-    nsvcd__list *list = &pieces->corners;
-    if (list->count >= NSVCD__WHOLE - NSVCD__PIECE_CORNERS)
-      return 0;
-    if (!nsvcd__list_reserve(list, convex->count))
-      return 0;
-    uint32_t *corners = (uint32_t *)list->items + list->count;
-    memcpy(corners, convex->points, convex->count * sizeof *corners);
-    piece.first = (uint32_t)list->count;
-    list->count += convex->count;
-  }
-  if (!nsvcd__list_reserve(&pieces->list, 1))
-    return 0;
-  nsvcd__piece *items = (nsvcd__piece *)pieces->list.items;
-  items[pieces->list.count++] = piece;
-  return 1;
-}
-
-// The patch whose centre is nearest to the mean of the corners.
-static uint32_t nsvcd__convex_patch(const nsvcd__pieces *pieces, const nsvcd__convex *convex,
-                                    uint32_t guess) {
-  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i < convex->count; i++)
-    sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, convex->points[i]));
-  const nsvcd__d3 mean = nsvcd__d3_scale(sum, 1 / (double)convex->count);
-  return nsvcd__nearest_centre(pieces->patches, guess, nsvcd__d3_narrow(mean));
-}
-
-static double nsvcd__longest_edge(const nsvcd__pieces *pieces, const nsvcd__convex *convex) {
-  double squared = 0;
-  nsvcd__d3 a = nsvcd__point_at(pieces, convex->points[convex->count - 1]);
-  for (size_t i = 0; i < convex->count; i++) {
-    const nsvcd__d3 b = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_squared_distance(a, b));
-    a = b;
-  }
-  return sqrt(squared);
-}
-
 // Cuts one triangle into pieces. guess: the patch of the piece before. 0 without memory.
 static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *guess) {
   const uint32_t *corners = nsvcd__triangle_corners(pieces, triangle);
   nsvcd__piece piece = {NSVCD__WHOLE, triangle, 0, 0, 0};
-  nsvcd__convex *whole = &pieces->waiting[0];
-  memcpy(whole->points, corners, 3 * sizeof *corners);
-  whole->count = 3;
-  piece.parted = nsvcd__longest_edge(pieces, whole) > pieces->longest_edge;
+  double squared = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
+    const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
+    squared = fmax(squared, nsvcd__d3_squared_distance(a, b));
+    pieces->waiting[0].points[k] = corners[k];
+  }
+  piece.parted = sqrt(squared) > pieces->longest_edge;
+  pieces->waiting[0].count = 3;
   pieces->waiting_count = 1;
   while (pieces->waiting_count > 0) {
     nsvcd__convex convex = pieces->waiting[--pieces->waiting_count];
-    *guess = nsvcd__convex_patch(pieces, &convex, *guess);
+    nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+    for (size_t i = 0; i < convex.count; i++)
+      sum = nsvcd__d3_add(sum, nsvcd__point_at(pieces, convex.points[i]));
+    const nsvcd__d3 mean = nsvcd__d3_scale(sum, 1 / (double)convex.count);
+    *guess = nsvcd__nearest_centre(pieces->patches, *guess, nsvcd__d3_narrow(mean));
     piece.patch = (uint16_t)*guess;
-    if (!nsvcd__trim(pieces, piece.patch, &convex))
-      return 0;
-    if (!nsvcd__add_piece(pieces, &convex, piece))
-      return 0;
+    if (!nsvcd__trim(pieces, piece.patch, &convex)) return 0;
+
+    nsvcd__list *list = &pieces->corners;
+    const size_t bytes = convex.count * sizeof *corners;
+    piece.count = (uint8_t)convex.count;
+    piece.first = NSVCD__WHOLE;
+    if (convex.count != 3 || memcmp(convex.points, corners, bytes) != 0) {
+      if (list->count >= NSVCD__WHOLE - NSVCD__PIECE_CORNERS) return 0;
+      if (!nsvcd__list_reserve(list, convex.count, sizeof *corners, pieces->arena)) return 0;
+      memcpy((uint32_t *)list->items + list->count, convex.points, bytes);
+      piece.first = (uint32_t)list->count;
+      list->count += convex.count;
+    }
+    list = &pieces->list;
+    if (!nsvcd__list_reserve(list, 1, sizeof piece, pieces->arena)) return 0;
+    ((nsvcd__piece *)list->items)[list->count++] = piece;
   }
   return 1;
 }
 
-// Sets the lengths and the number of cuts that bound the cutting.
-static void nsvcd__pieces_measure(nsvcd__pieces *pieces) {
-  const size_t patches = pieces->patches->count;
-  const size_t triangles = pieces->region->mesh.triangle_count;
+// Cuts the whole region. 0 without memory.
+static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
+                               nsvcd__arena *arena, nsvcd__pieces *pieces) {
+  const size_t triangles = region->mesh.triangle_count;
   double size = 0;
-  for (size_t i = 0; i < patches; i++)
-    size += (double)pieces->patches->sample_radii[i];
-  size /= (double)patches;
-
-  pieces->margin = NSVCD__SURFACE_MARGIN * pieces->region->greatest + NSVCD__SURFACE_TINY;
+  for (size_t i = 0; i < patches->count; i++) size += (double)patches->sample_radii[i];
+  size /= (double)patches->count;
+  memset(pieces, 0, sizeof *pieces);
+  pieces->arena = arena;
+  pieces->region = region;
+  pieces->patches = patches;
+  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
   pieces->overlap = NSVCD__SURFACE_OVERLAP * size + pieces->margin;
   pieces->longest_edge = NSVCD__SURFACE_WHOLE * size;
-  pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches;
+  pieces->cuts_left = NSVCD__CUTS_PER_PATCH * patches->count;
   const size_t room = NSVCD__MAX_CUTS - pieces->cuts_left;
   const int many = triangles > room / NSVCD__CUTS_PER_TRIANGLE;
   pieces->cuts_left += many ? room : NSVCD__CUTS_PER_TRIANGLE * triangles;
-}
 
-// Cuts the whole region. On success release with nsvcd__pieces_free; 0 without memory.
-static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches *patches,
-                               const nsvcd_allocator *allocator, nsvcd__pieces *pieces) {
-  const size_t triangles = region->mesh.triangle_count;
-  memset(pieces, 0, sizeof *pieces);
-  pieces->allocator = allocator;
-  pieces->region = region;
-  pieces->patches = patches;
-  pieces->list = nsvcd__list_of(sizeof(nsvcd__piece), allocator);
-  pieces->corners = nsvcd__list_of(sizeof(uint32_t), allocator);
-  pieces->points = nsvcd__list_of(sizeof(nsvcd__d3), allocator);
-  nsvcd__pieces_measure(pieces);
-  const size_t bytes = NSVCD__WAITING * sizeof(nsvcd__convex);
-  pieces->waiting = (nsvcd__convex *)nsvcd__alloc(allocator, bytes);
-  int ok = pieces->waiting != NULL;
+  pieces->waiting = NSVCD__TAKE(arena, nsvcd__convex, NSVCD__WAITING);
   // Most triangles are one piece: with room for an eighth more the list seldom needs to grow, which
   // takes it twice.
-  ok = ok && nsvcd__list_reserve(&pieces->list, triangles + triangles / 8);
+  const size_t most = triangles + triangles / 8;
+  int ok =
+      pieces->waiting && nsvcd__list_reserve(&pieces->list, most, sizeof(nsvcd__piece), arena);
   uint32_t guess = 0;
-  for (uint32_t t = 0; ok && t < triangles; t++)
-    ok = nsvcd__cut_up(pieces, t, &guess);
-  if (!ok)
-    nsvcd__pieces_free(pieces);
+  for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(pieces, t, &guess);
   return ok;
 }
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
-// ---- rounding outwards
+// ----------------------------------------------------------------------------------- surface/balls
+// In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
+// to round outwards.
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
-}
-static float nsvcd__float_below(double x) {
-  return -nsvcd__float_above(-x);
-}
-
-// ---- small linear systems, for balls and for distances
-
-// Solves a x = b for a symmetric, positive definite matrix of n <= 3 rows; the answer replaces b. 0
-// if it is singular.
-static int nsvcd__solve(double a[3][3], double *b, size_t n) {
-  double first[3];
-  for (size_t i = 0; i < n; i++)
-    first[i] = a[i][i];
-  for (size_t i = 0; i < n; i++) {
-    if (!(a[i][i] > 1e-13 * first[i]))
-      return 0;
-    for (size_t j = i + 1; j < n; j++) {
-      const double factor = a[i][j] / a[i][i];
-      for (size_t k = j; k < n; k++)
-        a[j][k] -= factor * a[i][k];
-      b[j] -= factor * b[i];
-    }
-  }
-  for (size_t i = n; i-- > 0;) {
-    for (size_t j = i + 1; j < n; j++)
-      b[i] -= a[i][j] * b[j];
-    b[i] /= a[i][i];
-  }
-  return 1;
-}
-
-// Finds shares of up to 3 edges whose sum has the given products with the edges; the shares replace
-// the products. 0 if the edges are too much in line, or in a plane.
-static int nsvcd__solve_shares(const nsvcd__d3 *edges, double *shares, size_t count) {
-  double matrix[3][3];
-  for (size_t i = 0; i < count; i++) {
-    for (size_t j = 0; j < count; j++)
-      matrix[i][j] = nsvcd__d3_dot(edges[i], edges[j]);
-  }
-  return nsvcd__solve(matrix, shares, count);
 }
 
 // ---- balls: the least one that holds all points
@@ -4975,19 +3708,44 @@ typedef struct nsvcd__ball {
   double squared;  // radius
 } nsvcd__ball;
 
+// The edges from the first of 1 to 4 points to the others, and shares of them. The sum of the
+// shares leads from that point to the centre of the least ball with all points on its border; or,
+// where `ball` is 0, to the point nearest to the origin of the plane (line, point) through them. 0
+// if that is not known, for the points are too much in line, or in a plane.
+static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
+                               nsvcd__d3 *edges, double *b) {
+  const size_t n = count - 1;
+  double a[3][3];
+  double first[3];
+  for (size_t i = 0; i < n; i++) {
+    edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
+    first[i] = nsvcd__d3_dot(edges[i], edges[i]);
+    b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
+    for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
+  }
+  // The matrix is symmetric and positive definite: its upper half is enough, and no pivots.
+  for (size_t i = 0; i < n; i++) {
+    if (!(a[i][i] > 1e-13 * first[i])) return 0;
+    for (size_t j = i + 1; j < n; j++) {
+      const double factor = a[i][j] / a[i][i];
+      for (size_t k = j; k < n; k++) a[j][k] -= factor * a[i][k];
+      b[j] -= factor * b[i];
+    }
+  }
+  for (size_t i = n; i-- > 0;) {
+    for (size_t j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
+    b[i] /= a[i][i];
+  }
+  return 1;
+}
+
 // The least ball with all these 1 to 4 points on its border. 0 if there is none.
 static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
-  const size_t edge_count = count - 1;
   nsvcd__d3 edges[3];
   double shares[3];
-  for (size_t i = 0; i < edge_count; i++) {
-    edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
-    shares[i] = 0.5 * nsvcd__d3_dot(edges[i], edges[i]);
-  }
-  if (!nsvcd__solve_shares(edges, shares, edge_count))
-    return 0;
+  if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i < edge_count; i++)
+  for (size_t i = 0; i + 1 < count; i++)
     offset = nsvcd__d3_add_scaled(offset, shares[i], edges[i]);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
@@ -5000,45 +3758,35 @@ typedef struct nsvcd__border {
   size_t count;
 } nsvcd__border;
 
-// The points in a set of bits.
-static nsvcd__border nsvcd__border_of(const nsvcd__border *border, unsigned set) {
-  nsvcd__border out;
-  out.count = 0;
-  for (size_t i = 0; i < border->count; i++) {
-    if (set >> i & 1)
-      out.points[out.count++] = border->points[i];
-  }
-  return out;
-}
-
-static int nsvcd__ball_holds(const nsvcd__ball *ball, const nsvcd__border *border) {
-  const double most = ball->squared * (1 + 1e-9);
-  int holds = 1;
-  for (size_t i = 0; i < border->count; i++)
-    holds &= nsvcd__d3_squared_distance(border->points[i], ball->centre) <= most;
-  return holds;
-}
-
 // The least ball that holds the border (1 to 5 points) among those through the last of them and up
 // to three others. Keeps in the border only the points that it goes through. 0 if there is none.
-static int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
+static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
   for (unsigned set = last; set < 2 * last; set++) {
-    const nsvcd__border chosen = nsvcd__border_of(border, set);
+    nsvcd__border chosen;
     nsvcd__ball trial;
+    chosen.count = 0;
+    for (size_t i = 0; i < border->count; i++) {
+      if (set >> i & 1) chosen.points[chosen.count++] = border->points[i];
+    }
     if (chosen.count > 4 || !nsvcd__ball_through(chosen.points, chosen.count, &trial))
       continue;
-    if (best != 0 && trial.squared >= ball->squared)
-      continue;
-    if (!nsvcd__ball_holds(&trial, border))
-      continue;
+    int holds = !best || trial.squared < ball->squared;
+    const double most = trial.squared * (1 + 1e-9);
+    for (size_t i = 0; i < border->count; i++)
+      holds &= nsvcd__d3_squared_distance(border->points[i], trial.centre) <= most;
+    if (!holds) continue;
     best = set;
     *ball = trial;
   }
-  if (best != 0)
-    *border = nsvcd__border_of(border, best);
-  return best != 0;
+  if (!best) return 0;
+  size_t kept = 0;
+  for (size_t i = 0; i < border->count; i++) {
+    if (best >> i & 1) border->points[kept++] = border->points[i];
+  }
+  border->count = kept;
+  return 1;
 }
 
 // The centre of the least enclosing ball: the point farthest outside joins the border, until there
@@ -5055,25 +3803,25 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     size_t farthest = 0;
     for (size_t i = 0; i < points.count; i++) {
       const double square = nsvcd__d3_squared_distance(points.at[i], ball.centre);
-      if (square > most)
-        farthest = i;
+      if (square > most) farthest = i;
       most = fmax(most, square);
     }
-    if (most <= ball.squared * (1 + 1e-9))
-      break;
+    if (most <= ball.squared * (1 + 1e-9)) break;
     border.points[border.count++] = points.at[farthest];
     nsvcd__ball larger = ball;
-    if (!nsvcd__ball_of_few(&border, &larger))
-      break;
-    if (larger.squared <= ball.squared)
-      break;
+    if (!nsvcd__ball_of_few(&border, &larger)) break;
+    if (larger.squared <= ball.squared) break;
     ball = larger;
   }
   return ball.centre;
 }
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
-// ---- discs: a direction in which the points are thin
+// ----------------------------------------------------------------------------------- surface/discs
+// In: points. Out: a disc: a direction in which the points are thin, what they reach along it, and
+// across.
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // What points extend to along a direction.
 typedef struct nsvcd__range {
   double low, high;
@@ -5099,76 +3847,54 @@ static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
   const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
   const int y_least = fabs(n.y) <= fabs(n.z);
   nsvcd__d3 axis = nsvcd__d3_of(0, 0, 1);
-  if (y_least)
-    axis = nsvcd__d3_of(0, 1, 0);
-  if (x_least)
-    axis = nsvcd__d3_of(1, 0, 0);
+  if (y_least) axis = nsvcd__d3_of(0, 1, 0);
+  if (x_least) axis = nsvcd__d3_of(1, 0, 0);
   return nsvcd__d3_unit(nsvcd__d3_cross(n, axis), n);
 }
 
-// A symmetric matrix of 3 rows.
-typedef struct nsvcd__symmetric {
-  nsvcd__d3 x, y, z;
-} nsvcd__symmetric;
-
-static double nsvcd__trace(const nsvcd__symmetric *m) {
+static double nsvcd__trace(const nsvcd__dmat3 *m) {
   return m->x.x + m->y.y + m->z.z;
 }
 
-static nsvcd__d3 nsvcd__longest_row(const nsvcd__symmetric *m) {
+static nsvcd__d3 nsvcd__longest_row(const nsvcd__dmat3 *m) {
   const double x = nsvcd__d3_dot(m->x, m->x);
   const double y = nsvcd__d3_dot(m->y, m->y);
   const double z = nsvcd__d3_dot(m->z, m->z);
-  if (x >= y && x >= z)
-    return m->x;
+  if (x >= y && x >= z) return m->x;
   return y >= z ? m->y : m->z;
-}
-
-// The square of m, over the square of its trace.
-static nsvcd__symmetric nsvcd__square(const nsvcd__symmetric *m) {
-  const double trace = nsvcd__trace(m);
-  const double s = trace > 0 ? 1 / (trace * trace) : 0;
-  const double xy = s * nsvcd__d3_dot(m->x, m->y);
-  const double xz = s * nsvcd__d3_dot(m->x, m->z);
-  const double yz = s * nsvcd__d3_dot(m->y, m->z);
-  nsvcd__symmetric out;
-  out.x = nsvcd__d3_of(s * nsvcd__d3_dot(m->x, m->x), xy, xz);
-  out.y = nsvcd__d3_of(xy, s * nsvcd__d3_dot(m->y, m->y), yz);
-  out.z = nsvcd__d3_of(xz, yz, s * nsvcd__d3_dot(m->z, m->z));
-  return out;
-}
-
-static nsvcd__symmetric nsvcd__covariance(nsvcd__points points) {
-  const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
-  nsvcd__symmetric out = {zero, zero, zero};
-  nsvcd__d3 mean = zero;
-  for (size_t i = 0; i < points.count; i++)
-    mean = nsvcd__d3_add(mean, points.at[i]);
-  mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
-  for (size_t i = 0; i < points.count; i++) {
-    const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
-    out.x = nsvcd__d3_add_scaled(out.x, d.x, d);
-    out.y = nsvcd__d3_add_scaled(out.y, d.y, d);
-    out.z = nsvcd__d3_add_scaled(out.z, d.z, d);
-  }
-  return out;
 }
 
 // Near the direction in which the points vary least. The adjugate of the covariance has the same
 // axes, and the least becomes the largest: squaring that a few times leaves nothing else.
 static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
-  const nsvcd__symmetric c = nsvcd__covariance(points);
+  const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
+  nsvcd__dmat3 c = {zero, zero, zero};
+  nsvcd__d3 mean = zero;
+  for (size_t i = 0; i < points.count; i++) mean = nsvcd__d3_add(mean, points.at[i]);
+  mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
+  for (size_t i = 0; i < points.count; i++) {
+    const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
+    c.x = nsvcd__d3_add_scaled(c.x, d.x, d);
+    c.y = nsvcd__d3_add_scaled(c.y, d.y, d);
+    c.z = nsvcd__d3_add_scaled(c.z, d.z, d);
+  }
   const nsvcd__d3 z = nsvcd__d3_of(0, 0, 1);
   const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest_row(&c), z);
-  const double trace = nsvcd__trace(&c);
-  nsvcd__symmetric m;
+  const double size = nsvcd__trace(&c);
+  nsvcd__dmat3 m;
   m.x = nsvcd__d3_cross(c.y, c.z);
   m.y = nsvcd__d3_cross(c.z, c.x);
   m.z = nsvcd__d3_cross(c.x, c.y);
-  if (!(nsvcd__trace(&m) > 1e-14 * trace * trace))
-    return nsvcd__any_across(along);  // a line
-  for (size_t step = 0; step < 6; step++)
-    m = nsvcd__square(&m);
+  // a line
+  if (!(nsvcd__trace(&m) > 1e-14 * size * size)) return nsvcd__any_across(along);
+  for (size_t step = 0; step < 6; step++) {
+    const double trace = nsvcd__trace(&m);
+    nsvcd__dmat3 square;
+    square.x = nsvcd__dmat3_apply(&m, m.x);
+    square.y = nsvcd__dmat3_apply(&m, m.y);
+    square.z = nsvcd__dmat3_apply(&m, m.z);
+    m = nsvcd__dmat3_scale(&square, trace > 0 ? 1 / (trace * trace) : 0);
+  }
   return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
@@ -5183,8 +3909,7 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
       const nsvcd__d3 step = nsvcd__d3_scale(k < 2 ? u : v, k % 2 ? -turn : turn);
       const nsvcd__d3 trial = nsvcd__d3_unit(nsvcd__d3_add(middle, step), middle);
       const double thickness = nsvcd__thickness(points, trial);
-      if (thickness >= best)
-        continue;
+      if (thickness >= best) continue;
       best = thickness;
       direction = trial;
     }
@@ -5196,11 +3921,9 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
 static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
-  if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best))
-    best = mean;
+  if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best)) best = mean;
   best = nsvcd__thinner(points, best);
-  if (nsvcd__d3_dot(best, normal) < 0)
-    best = nsvcd__d3_scale(best, -1);
+  if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
 
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
@@ -5214,14 +3937,17 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
   const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
   nsvcd__disc disc;
   disc.normal = n;
-  disc.low = nsvcd__float_below(range.low - margin);
+  disc.low = -nsvcd__float_above(-(range.low - margin));
   disc.high = nsvcd__float_above(range.high + margin);
   disc.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
   return disc;
 }
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
-// ---- hulls
+// ----------------------------------------------------------------------------------- surface/hulls
+// In: points. Out: 16 of them whose hull, swollen by a slack, holds all.
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // The point of a simplex nearest to the origin: weights are positive and sum to 1.
 typedef struct nsvcd__simplex {
   nsvcd__d3 points[4];
@@ -5229,57 +3955,28 @@ typedef struct nsvcd__simplex {
   size_t count;
 } nsvcd__simplex;
 
-static nsvcd__d3 nsvcd__simplex_point(const nsvcd__simplex *s) {
-  nsvcd__d3 sum = nsvcd__d3_scale(s->points[0], s->weights[0]);
-  for (size_t i = 1; i < s->count; i++)
-    sum = nsvcd__d3_add_scaled(sum, s->weights[i], s->points[i]);
-  return sum;
-}
-
-// Weights, of any sign, of the point nearest to the origin in the plane (line, point) through the
-// simplex. 0 if that is not known, for the points are too much in line.
-static int nsvcd__plane_weights(const nsvcd__simplex *s, double *weights) {
-  const size_t edge_count = s->count - 1;
-  nsvcd__d3 edges[3];
-  double shares[3];
-  for (size_t i = 0; i < edge_count; i++) {
-    edges[i] = nsvcd__d3_sub(s->points[i + 1], s->points[0]);
-    shares[i] = -nsvcd__d3_dot(edges[i], s->points[0]);
-  }
-  if (!nsvcd__solve_shares(edges, shares, edge_count))
-    return 0;
-  weights[0] = 1;
-  for (size_t i = 0; i < edge_count; i++) {
-    weights[i + 1] = shares[i];
-    weights[0] -= shares[i];
-  }
-  return 1;
-}
-
 // Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
 // bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
 // the weights still are weights.
 static int nsvcd__simplex_settle(nsvcd__simplex *s) {
   for (;;) {
-    double target[4];
-    if (!nsvcd__plane_weights(s, target))
-      return 0;
+    // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
+    nsvcd__d3 edges[3];
+    double target[4] = {1};
+    if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
+    for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
     double way = 1;
     size_t blocks = s->count;
     for (size_t i = 0; i < s->count; i++) {
       const double weight = s->weights[i];
-      if (target[i] > 0)
-        continue;
+      if (target[i] > 0) continue;
       const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
-      if (to_zero > way)
-        continue;
+      if (to_zero > way) continue;
       way = to_zero;
       blocks = i;
     }
-    for (size_t i = 0; i < s->count; i++)
-      s->weights[i] += way * (target[i] - s->weights[i]);
-    if (blocks == s->count)
-      return 1;
+    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
+    if (blocks == s->count) return 1;
     s->count--;
     s->points[blocks] = s->points[s->count];
     s->weights[blocks] = s->weights[s->count];
@@ -5303,82 +4000,67 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     size_t support = 0;
     for (size_t i = 0; i < hull.count; i++) {
       const double at = nsvcd__d3_dot(hull.at[i], nearest) - offset;
-      if (at < least)
-        support = i;
+      if (at < least) support = i;
       least = at < least ? at : least;
     }
-    if (least >= 0.998 * best)
-      break;
+    if (least >= 0.998 * best) break;
     s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
     const int settled = nsvcd__simplex_settle(&s);
-    nearest = nsvcd__simplex_point(&s);
+    nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
+    for (size_t i = 1; i < s.count; i++)
+      nearest = nsvcd__d3_add_scaled(nearest, s.weights[i], s.points[i]);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!settled || squared >= best)
-      break;
+    if (!settled || squared >= best) break;
     best = squared;
   }
   return sqrt(best);
 }
 
-// The vertices of a hull.
-typedef struct nsvcd__hull {
-  nsvcd__d3 at[NSVCD__HULL];
-  // numbers of the points that they are
-  size_t chosen[NSVCD__HULL];
-  size_t count;
-  // the point farthest from the hull, and a bound on its distance
-  size_t next;
-  double farthest;
-} nsvcd__hull;
-
-// Finds the point farthest from the hull. bounds: the points' distances found before. A point that
-// was near enough stays so, for the hull only grows.
-static void nsvcd__hull_look(nsvcd__points points, double *bounds, nsvcd__hull *hull) {
-  const nsvcd__points vertices = {hull->at, hull->count};
-  size_t first = 0;
-  for (size_t i = 1; i < points.count; i++)
-    first = bounds[i] > bounds[first] ? i : first;
-  hull->farthest = 0;
-  for (size_t k = 0; k < points.count; k++) {
-    const size_t i = (first + k) % points.count;
-    if (bounds[i] <= hull->farthest)
-      continue;
-    const double distance = nsvcd__hull_distance(vertices, points.at[i], hull->farthest);
-    bounds[i] = fmin(bounds[i], distance);
-    if (bounds[i] <= hull->farthest)
-      continue;
-    hull->farthest = bounds[i];
-    hull->next = i;
-  }
-}
-
 // Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
 // one that is farthest from it. points: about the ball's centre. bounds: working memory, one a
-// point.
-static void nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
-                               nsvcd__hull *hull) {
-  hull->count = 0;
-  hull->next = 0;
-  hull->farthest = HUGE_VAL;
+// point: their distances found before. A point that was near enough stays so, for the hull only
+// grows. Writes the numbers of those chosen, and the distance of the farthest point; returns how
+// many they are.
+static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
+                                 size_t *chosen, double *farthest) {
+  nsvcd__d3 at[NSVCD__HULL];
+  nsvcd__points hull = {at, 0};
+  size_t next = 0;
+  double most = 0;
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
-    bounds[i] = nsvcd__d3_length(points.at[i]);
-    if (bounds[i] > bounds[hull->next])
-      hull->next = i;
-  }
-  for (size_t i = 0; i < points.count; i++)
+    const double distance = nsvcd__d3_length(points.at[i]);
+    if (distance > most) next = i;
+    most = fmax(most, distance);
     bounds[i] = HUGE_VAL;
-  while (hull->count < NSVCD__HULL && hull->farthest > enough) {
-    hull->at[hull->count] = points.at[hull->next];
-    hull->chosen[hull->count++] = hull->next;
-    bounds[hull->next] = 0;
-    nsvcd__hull_look(points, bounds, hull);
   }
+  *farthest = HUGE_VAL;
+  while (hull.count<NSVCD__HULL && * farthest> enough) {
+    at[hull.count] = points.at[next];
+    chosen[hull.count++] = next;
+    bounds[next] = 0;
+    size_t first = 0;
+    for (size_t i = 1; i < points.count; i++) first = bounds[i] > bounds[first] ? i : first;
+    *farthest = 0;
+    for (size_t k = 0; k < points.count; k++) {
+      const size_t i = (first + k) % points.count;
+      if (bounds[i] <= *farthest) continue;
+      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      if (bounds[i] <= *farthest) continue;
+      *farthest = bounds[i];
+      next = i;
+    }
+  }
+  return hull.count;
 }
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
-// ---- patch by patch
+// --------------------------------------------------------------------------------- surface/surface
+// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
+// triangles, all rounded outwards.
 
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
 // them: the hull's first, when vertices are stored.
 typedef struct nsvcd__sorted {
@@ -5386,115 +4068,66 @@ typedef struct nsvcd__sorted {
   size_t *first;  // (N + 1) pieces of a patch
   // (pieces) numbers of pieces, patch by patch, in a patch as they were made
   uint32_t *order;
-  // corners of the pieces of one patch, at most
-  size_t most;
   uint32_t pass;  // from 1
   // (points) the last pass that met a point, and its number in that pass
   uint32_t *stamps;
   uint32_t *numbers;
-  // (most) the points of the pass
+  // (met_count) the points of the pass
   uint32_t *met;
   size_t met_count;
-  nsvcd__d3 *places;  // (most) the points about the centre
-  double *bounds;     // (most)
+  nsvcd__d3 *places;  // the same, about the centre
+  double *bounds;     // of the same
   // (N, NSVCD__HULL) points that the hulls consist of
   uint32_t *hulls;
 } nsvcd__sorted;
 
-static void nsvcd__sorted_free(nsvcd__sorted *sorted) {
-  const nsvcd_allocator *allocator = sorted->pieces->allocator;
-  nsvcd__free(allocator, sorted->first);
-  nsvcd__free(allocator, sorted->order);
-  nsvcd__free(allocator, sorted->stamps);
-  nsvcd__free(allocator, sorted->numbers);
-  nsvcd__free(allocator, sorted->met);
-  nsvcd__free(allocator, sorted->places);
-  nsvcd__free(allocator, sorted->bounds);
-  nsvcd__free(allocator, sorted->hulls);
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
+  return (const nsvcd__piece *)sorted->pieces->list.items + sorted->order[k];
 }
 
-// All but `first`. 0 without memory; the caller frees.
-static int nsvcd__sorted_alloc(nsvcd__sorted *sorted) {
-  const nsvcd__pieces *pieces = sorted->pieces;
-  const nsvcd_allocator *allocator = pieces->allocator;
-  const size_t patches = pieces->patches->count;
-  const size_t points = nsvcd__point_count(pieces);
-  const size_t most = sorted->most;
-  sorted->order = nsvcd__alloc_words(allocator, pieces->list.count);
-  sorted->stamps = nsvcd__alloc_words(allocator, points);
-  sorted->numbers = nsvcd__alloc_words(allocator, points);
-  sorted->met = nsvcd__alloc_words(allocator, most);
-  sorted->places = nsvcd__alloc_d3s(allocator, most);
-  sorted->bounds = (double *)nsvcd__alloc_array(allocator, most, sizeof(double));
-  sorted->hulls = nsvcd__alloc_words(allocator, NSVCD__HULL * patches);
-  return sorted->order && sorted->stamps && sorted->numbers && sorted->met && sorted->places &&
-         sorted->bounds && sorted->hulls;
-}
-
-// Fills `first` and `order` (counting sort).
-static void nsvcd__sort_pieces(nsvcd__sorted *sorted) {
-  const nsvcd__pieces *pieces = sorted->pieces;
+// Sorts the pieces by patch (counting sort). 0 without memory.
+static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
+                               nsvcd__sorted *sorted) {
+  const nsvcd__piece *items = (const nsvcd__piece *)pieces->list.items;
   const size_t patches = pieces->patches->count;
   const size_t count = pieces->list.count;
-  size_t *first = sorted->first;
-  memset(first, 0, (patches + 1) * sizeof *first);
-  for (size_t k = 0; k < count; k++)
-    first[nsvcd__piece_at(pieces, k)->patch + 1]++;
-  for (size_t i = 0; i < patches; i++)
-    first[i + 1] += first[i];
-  for (size_t k = count; k-- > 0;) {
-    const uint32_t patch = nsvcd__piece_at(pieces, k)->patch;
-    sorted->order[--first[patch + 1]] = (uint32_t)k;
-  }
+  const size_t points = pieces->region->mesh.vertex_count + pieces->points.count;
+  size_t *first = NSVCD__TAKE(arena, size_t, patches + 1);
+  memset(sorted, 0, sizeof *sorted);
+  sorted->pieces = pieces;
+  sorted->first = first;
+  sorted->order = NSVCD__TAKE(arena, uint32_t, count);
+  sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
+  if (arena->failed) return 0;
+  for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
+  for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
+  for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
   // Now first[i + 1] is the start of patch i.
   memmove(first, first + 1, patches * sizeof *first);
   first[patches] = count;
-}
 
-// Sorts the pieces by patch. On success release with nsvcd__sorted_free; 0 without memory.
-static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__sorted *sorted) {
-  const size_t patches = pieces->patches->count;
-  memset(sorted, 0, sizeof *sorted);
-  sorted->pieces = pieces;
-  sorted->first = nsvcd__alloc_sizes(pieces->allocator, patches + 1);
-  if (!sorted->first)
-    return 0;
-
-  size_t *corners = sorted->first;  // of each patch, for now
-  memset(corners, 0, patches * sizeof *corners);
-  for (size_t k = 0; k < pieces->list.count; k++) {
-    const nsvcd__piece *piece = nsvcd__piece_at(pieces, k);
-    corners[piece->patch] += piece->count;
+  size_t most = 0;
+  for (size_t i = 0; i < patches; i++) {
+    // a hull's vertices need not be corners of what is listed
+    size_t corners = NSVCD__HULL;
+    for (size_t k = first[i]; k < first[i + 1]; k++)
+      corners += nsvcd__sorted_piece(sorted, k)->count;
+    most = corners > most ? corners : most;
   }
-  for (size_t i = 0; i < patches; i++)
-    sorted->most = corners[i] > sorted->most ? corners[i] : sorted->most;
-  // a hull's vertices need not be corners of what is listed
-  sorted->most += NSVCD__HULL;
-  if (!nsvcd__sorted_alloc(sorted)) {
-    nsvcd__sorted_free(sorted);
-    return 0;
-  }
-  memset(sorted->stamps, 0, nsvcd__point_count(pieces) * sizeof *sorted->stamps);
-  nsvcd__sort_pieces(sorted);
-  return 1;
-}
-
-static void nsvcd__begin_pass(nsvcd__sorted *sorted) {
-  sorted->pass++;
-  sorted->met_count = 0;
+  sorted->met = NSVCD__TAKE(arena, uint32_t, most);
+  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
+  sorted->bounds = NSVCD__TAKE(arena, double, most);
+  return !arena->failed;
 }
 
 // Gives a point a number in this pass, if it is met for the first time.
 static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
-  if (sorted->stamps[point] == sorted->pass)
-    return;
+  if (sorted->stamps[point] == sorted->pass) return;
   sorted->stamps[point] = sorted->pass;
   sorted->numbers[point] = (uint32_t)sorted->met_count;
   sorted->met[sorted->met_count++] = point;
-}
-
-static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
-  return nsvcd__piece_at(sorted->pieces, sorted->order[k]);
 }
 
 // The points of the pass, about a centre.
@@ -5507,60 +4140,37 @@ static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre
   return out;
 }
 
-// Twice the area times the normal.
-static nsvcd__d3 nsvcd__piece_normal(const nsvcd__pieces *pieces, const nsvcd__piece *piece) {
-  const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
-  const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
-  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t j = 2; j < piece->count; j++) {
-    const nsvcd__d3 a = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j - 1]), from);
-    const nsvcd__d3 b = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j]), from);
-    sum = nsvcd__d3_add(sum, nsvcd__d3_cross(a, b));
-  }
-  return sum;
-}
-
-// The least ball of the points of the pass, and the points about its centre.
-static nsvcd__sphere nsvcd__fit_ball(nsvcd__sorted *sorted, nsvcd__points *about) {
-  // From near by the centre is found without the roundings of what is far away.
-  const nsvcd__d3 from = nsvcd__point_at(sorted->pieces, sorted->met[0]);
-  const nsvcd__points near_by = nsvcd__place_points(sorted, from);
-  nsvcd__sphere ball;
-  ball.centre = nsvcd__f3_round(nsvcd__d3_add(from, nsvcd__ball_centre(near_by)));
-  *about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball.centre));
-  double radius = 0;
-  for (size_t j = 0; j < about->count; j++)
-    radius = fmax(radius, nsvcd__d3_length(about->at[j]));
-  ball.radius = nsvcd__float_above(radius + sorted->pieces->margin);
-  return ball;
-}
-
-// Gives a point to patch `to`, if it is the seed of a component that no patch has been given yet.
-static void nsvcd__take_seed(const nsvcd__region *region, uint32_t point, size_t to,
-                             nsvcd__surface *surface) {
-  if (point >= region->mesh.vertex_count || !region->seeds[point])
-    return;
-  region->seeds[point] = 0;
-  surface->seeds[surface->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
-  surface->seed_patches[surface->seed_count++] = (uint32_t)to;
-}
-
 // Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
 // by as integers is not in the slack yet.
-static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
+static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
   const nsvcd__pieces *pieces = sorted->pieces;
-  const size_t to = surface->done + i;
-  nsvcd__sphere *ball = &surface->balls[to];
+  const nsvcd__region *region = pieces->region;
+  const size_t to = s->done + i;
+  nsvcd__sphere *ball = &s->balls[to];
   nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
-  nsvcd__begin_pass(sorted);
+  sorted->pass++;
+  sorted->met_count = 0;
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
     const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+    const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
+    // twice the area times the normal
+    nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
     for (size_t j = 0; j < piece->count; j++) {
-      nsvcd__take_seed(pieces->region, corners[j], to, surface);
-      nsvcd__number_point(sorted, corners[j]);
+      const uint32_t point = corners[j];
+      nsvcd__number_point(sorted, point);
+      // of a component that no patch has been given yet?
+      if (point < region->mesh.vertex_count && region->seeds[point]) {
+        region->seeds[point] = 0;
+        s->seeds[s->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
+        s->seed_patches[s->seed_count++] = (uint32_t)to;
+      }
+      if (j < 2) continue;
+      const nsvcd__d3 a = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j - 1]), from);
+      const nsvcd__d3 b = nsvcd__d3_sub(nsvcd__point_at(pieces, point), from);
+      area = nsvcd__d3_add(area, nsvcd__d3_cross(a, b));
     }
-    normal = nsvcd__d3_add(normal, nsvcd__piece_normal(pieces, piece));
+    normal = nsvcd__d3_add(normal, area);
   }
   if (sorted->met_count == 0) {
     ball->centre = pieces->patches->centres[i];
@@ -5568,252 +4178,178 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
     return;
   }
 
-  nsvcd__points about;
-  nsvcd__hull hull;
-  *ball = nsvcd__fit_ball(sorted, &about);
-  surface->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
-  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
-  nsvcd__choose_hull(about, enough, sorted->bounds, &hull);
-  surface->slacks[to] = nsvcd__float_above(hull.farthest + pieces->margin);
-  surface->hull_counts[to] = (uint8_t)hull.count;
-  for (size_t k = 0; k < hull.count; k++)
-    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[hull.chosen[k]];
-}
+  // The least ball. From near by its centre is found without the roundings of what is far away.
+  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
+  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(sorted, from));
+  ball->centre = nsvcd__f3_round(nsvcd__d3_add(from, offset));
+  const nsvcd__points about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball->centre));
+  double radius = 0;
+  for (size_t j = 0; j < about.count; j++)
+    radius = fmax(radius, nsvcd__d3_length(about.at[j]));
+  ball->radius = nsvcd__float_above(radius + pieces->margin);
+  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
 
-// Pieces of one triangle follow each other in a patch: a whole triangle is listed with the first of
-// them.
-static int nsvcd__is_listed_already(const nsvcd__sorted *sorted, size_t i, size_t k) {
-  if (k == sorted->first[i])
-    return 0;
-  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
-  return nsvcd__sorted_piece(sorted, k - 1)->triangle == piece->triangle;
+  size_t chosen[NSVCD__HULL];
+  double farthest;
+  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
+  const size_t count = nsvcd__choose_hull(about, enough, sorted->bounds, chosen, &farthest);
+  s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
+  s->hull_counts[to] = (uint8_t)count;
+  for (size_t k = 0; k < count; k++)
+    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
 }
 
 // What patch i lists for its k-th piece: the piece's corners where its triangle is parted, else the
-// triangle's. Returns how many corners; 0: nothing more.
+// triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
+// other in a patch, and a whole triangle is listed with the first of them.
 static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
                                     const uint32_t **corners) {
   const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
   *corners = nsvcd__piece_corners(sorted->pieces, piece);
-  if (piece->parted)
-    return piece->count;
+  if (piece->parted) return piece->count;
   *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
-  return nsvcd__is_listed_already(sorted, i, k) ? 0 : 3;
+  const int first = k == sorted->first[i];
+  return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
 }
 
 // Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many
 // triangles it lists.
 static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, size_t hull_count) {
   size_t listed = 0;
-  nsvcd__begin_pass(sorted);
+  sorted->pass++;
+  sorted->met_count = 0;
   for (size_t k = 0; k < hull_count; k++)
     nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const uint32_t *corners;
     const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
-    for (size_t j = 0; j < count; j++)
-      nsvcd__number_point(sorted, corners[j]);
+    for (size_t j = 0; j < count; j++) nsvcd__number_point(sorted, corners[j]);
     listed += count ? count - 2 : 0;
   }
   return listed;
 }
 
-static int16_t nsvcd__to_integer(double x) {
-  const double nearest = floor(x + 0.5);
-  return (int16_t)fmin(fmax(nearest, -32767), 32767);
-}
-
-// Metres per integer, for the points to be within 16 bits.
-static float nsvcd__step_for(nsvcd__points points) {
+// Writes the vertices of patch i as integers, and its triangles.
+static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
+  const size_t to = s->done + i;
+  const size_t hull_count = s->hull_counts[to];
+  (void)nsvcd__number_vertices(sorted, i, hull_count);
+  const nsvcd__d3 centre = nsvcd__d3_widen(s->balls[to].centre);
+  const nsvcd__points points = nsvcd__place_points(sorted, centre);
   double greatest = NSVCD__SURFACE_TINY;
   for (size_t j = 0; j < points.count; j++) {
-    const nsvcd__d3 p = points.at[j];
-    greatest = fmax(greatest, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+    for (size_t k = 0; k < 3; k++)
+      greatest = fmax(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
   }
-  return nsvcd__float_above(greatest / 32767);
-}
-
-// Writes the vertices of patch i, which the pass has numbered, as integers.
-static void nsvcd__store_vertices(nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
-  const size_t to = surface->done + i;
-  const nsvcd__d3 centre = nsvcd__d3_widen(surface->balls[to].centre);
-  const nsvcd__points points = nsvcd__place_points(sorted, centre);
-  const float step = nsvcd__step_for(points);
-  const double metres = (double)step;
-  int16_t *x = surface->vertices + 3 * (size_t)surface->first_vertex[to];
-  int16_t *y = x + points.count;
-  int16_t *z = y + points.count;
+  s->steps[to] = nsvcd__float_above(greatest / 32767);
+  const double metres = (double)s->steps[to];
+  int16_t *vertices = s->vertices + 3 * (size_t)s->first_vertex[to];
   double worst = 0;
   double worst_of_hull = 0;
   for (size_t j = 0; j < points.count; j++) {
-    const nsvcd__d3 p = points.at[j];
-    x[j] = nsvcd__to_integer(p.x / metres);
-    y[j] = nsvcd__to_integer(p.y / metres);
-    z[j] = nsvcd__to_integer(p.z / metres);
-    const nsvcd__d3 stored = nsvcd__d3_scale(nsvcd__d3_of(x[j], y[j], z[j]), metres);
-    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(p, stored)));
-    if (j < surface->hull_counts[to])
-      worst_of_hull = worst;
+    nsvcd__d3 stored = {0, 0, 0};
+    for (size_t k = 0; k < 3; k++) {
+      const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
+      const double integer = fmin(fmax(nearest, -32767), 32767);
+      vertices[k * points.count + j] = (int16_t)integer;
+      nsvcd__d3_set_axis(&stored, k, metres * integer);
+    }
+    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
+    if (j < hull_count) worst_of_hull = worst;
   }
-  surface->steps[to] = step;
-  surface->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
+  s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
   // Each point of the hull is off by no more than its vertices are.
-  const double slack = (double)surface->slacks[to] + worst_of_hull;
-  surface->slacks[to] = nsvcd__float_above(slack);
-}
+  const double slack = (double)s->slacks[to] + worst_of_hull;
+  s->slacks[to] = nsvcd__float_above(slack);
 
-// Lists the triangles of patch i, whose points the pass has numbered.
-static void nsvcd__store_triangles(const nsvcd__sorted *sorted, size_t i, nsvcd__surface *surface) {
-  const uint32_t *numbers = sorted->numbers;
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
     const uint32_t *corners;
     const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
     for (size_t j = 2; j < count; j++) {
-      uint16_t *to = surface->corners + 3 * surface->listed;
-      to[0] = (uint16_t)numbers[corners[0]];
-      to[1] = (uint16_t)numbers[corners[j - 1]];
-      to[2] = (uint16_t)numbers[corners[j]];
-      surface->ids[surface->listed++] = sorted->pieces->region->ids[piece->triangle];
+      uint16_t *out = s->corners + 3 * s->listed;
+      out[0] = (uint16_t)sorted->numbers[corners[0]];
+      out[1] = (uint16_t)sorted->numbers[corners[j - 1]];
+      out[2] = (uint16_t)sorted->numbers[corners[j]];
+      s->ids[s->listed++] = sorted->pieces->region->ids[triangle];
     }
   }
 }
 
 // ---- all of it
 
-static void nsvcd__surface_free(nsvcd__surface *surface) {
-  const nsvcd_allocator *allocator = surface->allocator;
-  nsvcd__free(allocator, surface->balls);
-  nsvcd__free(allocator, surface->discs);
-  nsvcd__free(allocator, surface->steps);
-  nsvcd__free(allocator, surface->slacks);
-  nsvcd__free(allocator, surface->quanta);
-  nsvcd__free(allocator, surface->hull_counts);
-  nsvcd__free(allocator, surface->first_vertex);
-  nsvcd__free(allocator, surface->first_triangle);
-  nsvcd__list_free(&surface->vertex_list);
-  nsvcd__list_free(&surface->corner_list);
-  nsvcd__list_free(&surface->id_list);
-  nsvcd__free(allocator, surface->seeds);
-  nsvcd__free(allocator, surface->seed_patches);
-}
-
-// A surface of up to n patches, none of which is described yet. 0 without memory. In either case
-// release it with nsvcd__surface_free.
-static int nsvcd__surface_begin(size_t n, size_t components, const nsvcd_allocator *allocator,
+// A surface of up to n patches, none of which is described yet. 0 without memory.
+static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
-  s->allocator = allocator;
+  s->arena = arena;
   s->component_count = components;
-  s->vertex_list = nsvcd__list_of(3 * sizeof(int16_t), allocator);
-  s->corner_list = nsvcd__list_of(3 * sizeof(uint16_t), allocator);
-  s->id_list = nsvcd__list_of(sizeof(uint32_t), allocator);
-  s->balls = (nsvcd__sphere *)nsvcd__alloc_array(allocator, n, sizeof(nsvcd__sphere));
-  s->discs = (nsvcd__disc *)nsvcd__alloc_array(allocator, n, sizeof(nsvcd__disc));
-  s->steps = nsvcd__alloc_floats(allocator, n);
-  s->slacks = nsvcd__alloc_floats(allocator, n);
-  s->quanta = nsvcd__alloc_floats(allocator, n);
-  s->hull_counts = (uint8_t *)nsvcd__alloc(allocator, n);
-  s->first_vertex = nsvcd__alloc_words(allocator, n + 1);
-  s->first_triangle = nsvcd__alloc_words(allocator, n + 1);
-  s->seeds = nsvcd__alloc_f3s(allocator, components);
-  s->seed_patches = nsvcd__alloc_words(allocator, components);
-  int ok = s->balls && s->discs && s->steps && s->slacks && s->quanta && s->hull_counts;
-  ok = ok && s->first_vertex && s->first_triangle && s->seeds && s->seed_patches;
-  if (!ok)
-    return 0;
-  memset(s->discs, 0, n * sizeof *s->discs);
-  memset(s->steps, 0, n * sizeof *s->steps);
-  memset(s->slacks, 0, n * sizeof *s->slacks);
-  memset(s->quanta, 0, n * sizeof *s->quanta);
-  memset(s->hull_counts, 0, n);
-  return 1;
+  s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
+  s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
+  s->steps = NSVCD__TAKE(arena, float, n);
+  s->slacks = NSVCD__TAKE(arena, float, n);
+  s->quanta = NSVCD__TAKE(arena, float, n);
+  s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
+  s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->first_triangle = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->seeds = NSVCD__TAKE(arena, nsvcd__f3, components);
+  s->seed_patches = NSVCD__TAKE(arena, uint32_t, components);
+  return !arena->failed;
 }
 
-// Makes room for so many vertices and triangles in all. 0 without memory.
-static int nsvcd__surface_reserve(nsvcd__surface *surface, size_t vertices, size_t triangles) {
-  nsvcd__list *v = &surface->vertex_list;
-  nsvcd__list *c = &surface->corner_list;
-  nsvcd__list *ids = &surface->id_list;
-  const size_t listed = triangles - surface->listed;
-  if (!nsvcd__list_reserve(v, vertices - surface->vertex_count))
-    return 0;
-  if (!nsvcd__list_reserve(c, listed) || !nsvcd__list_reserve(ids, listed))
-    return 0;
-  v->count = vertices;
-  c->count = triangles;
-  ids->count = triangles;
-  surface->vertices = (int16_t *)v->items;
-  surface->corners = (uint16_t *)c->items;
-  surface->ids = (uint32_t *)ids->items;
-  surface->vertex_count = vertices;
-  return 1;
-}
-
-// Counts vertices and triangles of each patch of a region, and makes room for them. MEMORY,
-// TOO_LARGE.
-static nsvcd_result nsvcd__surface_count(nsvcd__sorted *sorted, nsvcd__surface *surface) {
-  size_t vertices = surface->vertex_count;
-  size_t triangles = surface->listed;
-  for (size_t i = surface->done; i < surface->count; i++) {
-    surface->first_vertex[i] = (uint32_t)vertices;
-    surface->first_triangle[i] = (uint32_t)triangles;
-    triangles += nsvcd__number_vertices(sorted, i - surface->done, surface->hull_counts[i]);
-    vertices += sorted->met_count;
-    if (sorted->met_count > NSVCD__PATCH_VERTICES)
-      return NSVCD_ERROR_TOO_LARGE;
+// Adds a region's patches, of which the surface has room for all: describes each, counts its
+// vertices and triangles, makes room for these, and writes them. spare: of what is only needed
+// meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or all have
+// too many: then the surface is of no use any more.
+static nsvcd_result nsvcd__surface_add(const nsvcd__region *region,
+                                       const nsvcd__patches *patches, nsvcd__arena *spare,
+                                       nsvcd__surface *s) {
+  nsvcd__pieces pieces;
+  nsvcd__sorted sorted;
+  if (!nsvcd__pieces_build(region, patches, spare, &pieces)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__sorted_build(&pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+  const size_t done = s->done;
+  size_t vertices = s->vertex_count;
+  size_t triangles = s->listed;
+  s->count = done + patches->count;
+  for (size_t i = done; i < s->count; i++) {
+    nsvcd__describe_patch(&sorted, i - done, s);
+    s->first_vertex[i] = (uint32_t)vertices;
+    s->first_triangle[i] = (uint32_t)triangles;
+    triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
+    vertices += sorted.met_count;
+    if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
-  surface->first_vertex[surface->count] = (uint32_t)vertices;
-  surface->first_triangle[surface->count] = (uint32_t)triangles;
-  const int ok = nsvcd__surface_reserve(surface, vertices, triangles);
-  return ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-}
-
-static nsvcd_result nsvcd__surface_fill(nsvcd__sorted *sorted, nsvcd__surface *surface) {
-  const size_t count = sorted->pieces->patches->count;
-  surface->count = surface->done + count;
-  for (size_t i = 0; i < count; i++)
-    nsvcd__describe_patch(sorted, i, surface);
-  const nsvcd_result result = nsvcd__surface_count(sorted, surface);
-  if (result)
-    return result;
-  for (size_t i = 0; i < count; i++) {
-    const size_t hull_count = surface->hull_counts[surface->done + i];
-    if (hull_count == 0)
-      continue;
-    (void)nsvcd__number_vertices(sorted, i, hull_count);
-    nsvcd__store_vertices(sorted, i, surface);
-    nsvcd__store_triangles(sorted, i, surface);
+  s->first_vertex[s->count] = (uint32_t)vertices;
+  s->first_triangle[s->count] = (uint32_t)triangles;
+  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
+  for (size_t k = 0; k < 3; k++) {
+    const size_t count = k == 0 ? vertices : triangles;
+    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
+    if (!nsvcd__list_reserve(lists[k], count - lists[k]->count, size, s->arena))
+      return NSVCD_ERROR_MEMORY;
+    lists[k]->count = count;
   }
-  surface->done = surface->count;
+  s->vertices = (int16_t *)s->vertex_list.items;
+  s->corners = (uint16_t *)s->corner_list.items;
+  s->ids = (uint32_t *)s->id_list.items;
+  s->vertex_count = vertices;
+  for (size_t i = done; i < s->count; i++) {
+    if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
+  }
+  s->done = s->count;
   return NSVCD_OK;
-}
-
-// Adds a region's patches, of which the surface has room for all. MEMORY; TOO_LARGE if a patch has
-// more than NSVCD__PATCH_VERTICES vertices, or all have too many: then the surface is only fit to
-// be freed.
-static nsvcd_result nsvcd__surface_add(const nsvcd__region *region, const nsvcd__patches *patches,
-                                       nsvcd__surface *surface) {
-  nsvcd__pieces pieces;
-  nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(region, patches, surface->allocator, &pieces))
-    return NSVCD_ERROR_MEMORY;
-  nsvcd_result result = NSVCD_ERROR_MEMORY;
-  if (nsvcd__sorted_build(&pieces, &sorted)) {
-    result = nsvcd__surface_fill(&sorted, surface);
-    nsvcd__sorted_free(&sorted);
-  }
-  nsvcd__pieces_free(&pieces);
-  return result;
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
-#ifndef NSVCD_NO_NETWORK
-// ----------------------------------------------------------------------------------------- weights
-// Generated by train/: matrices are (inputs, outputs).
+// ====================================================== encoder: what the network keeps of a patch
 
+// ----------------------------------------------------------------------------------- encoder/model
+// In: weights.h, which train/ generates. Out: its arrays: matrices are (inputs, outputs).
+
+#ifndef NSVCD_NO_NETWORK
 // A decoder: `layers` linear layers with ReLU between them, sizes multiples of 4 and, but for the
 // inputs, of 16. Offsets instead of pointers: nothing needs relocation, so that all of it stays in
 // read-only memory.
@@ -5832,9 +4368,9 @@ typedef struct nsvcd__decoder {
 #include "weights.h"
 
 #define NSVCD__LATENT (8 * NSVCD_W_CHANNELS + NSVCD_W_SCALARS)
+#endif  // NSVCD_NO_NETWORK
 
-#ifndef NSVCD_NO_ENCODER
-// ----------------------------------------------------------------------------------------- encoder
+// --------------------------------------------------------------------------------- encoder/encoder
 // In: the samples of one patch, its centre and the radius of its ball. Out: its latent
 // (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
 // NSVCD_W_SCALARS invariants.
@@ -5844,6 +4380,8 @@ typedef struct nsvcd__decoder {
 // gates computed from invariants, so turning the samples by R turns the latent by D(R). Dividing by
 // the radius makes it independent of scale.
 
+#ifndef NSVCD_NO_NETWORK
+#ifndef NSVCD_NO_ENCODER
 // channels after pooling
 #define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)
 // of each sample
@@ -5852,27 +4390,12 @@ typedef struct nsvcd__decoder {
 #define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
 #define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
 
-// A linear layer. It is a sum of rows, which compilers vectorise.
-typedef struct nsvcd__encoder_layer {
-  const float *w;     // (inputs, outputs)
-  const float *bias;  // (outputs) or NULL
-  size_t inputs, outputs;
-} nsvcd__encoder_layer;
-
-// Filled at run time: a table of pointers would be data that a loader writes to.
-static nsvcd__encoder_layer nsvcd__encoder_layer_of(const float *w, const float *bias,
-                                                    size_t inputs, size_t outputs) {
-  const nsvcd__encoder_layer out = {w, bias, inputs, outputs};
-  return out;
-}
-
-// y = w^T x + bias; x (inputs), y (outputs), apart from each other.
-static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) {
-  const size_t outputs = layer.outputs;
-  const float *w = layer.w;
-  size_t left = layer.inputs;
-  for (size_t o = 0; o < outputs; o++)
-    y[o] = layer.bias ? layer.bias[o] : 0;
+// A linear layer: y = w^T x + bias; w (inputs, outputs), bias (outputs) or NULL, x (inputs),
+// y (outputs), apart from each other. It is a sum of rows, which compilers vectorise.
+static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
+                          const float *x, float *y) {
+  size_t left = inputs;
+  for (size_t o = 0; o < outputs; o++) y[o] = bias ? bias[o] : 0;
   // four rows at a time: reading and writing y takes longest
   for (; left >= 4; left -= 4) {
     const float *r1 = w + outputs;
@@ -5888,16 +4411,14 @@ static void nsvcd__linear(nsvcd__encoder_layer layer, const float *x, float *y) 
     x += 4;
   }
   for (; left > 0; left--) {
-    for (size_t o = 0; o < outputs; o++)
-      y[o] += w[o] * x[0];
+    for (size_t o = 0; o < outputs; o++) y[o] += w[o] * x[0];
     w += outputs;
     x++;
   }
 }
 
 static void nsvcd__relu(size_t count, float *x) {
-  for (size_t i = 0; i < count; i++)
-    x[i] = x[i] > 0 ? x[i] : 0;
+  for (size_t i = 0; i < count; i++) x[i] = x[i] > 0 ? x[i] : 0;
 }
 
 // A vector of degree 2, in the basis of the real spherical harmonics xy, yz, zz, xz, xx-yy.
@@ -5943,8 +4464,10 @@ static nsvcd__f5 nsvcd__degree2(nsvcd__f3 a, nsvcd__f3 b) {
 
 // The samples of a patch, in its frame.
 typedef struct nsvcd__encoded {
-  const nsvcd__f3 *samples;  // (count)
-  const nsvcd__f3 *normals;  // (count)
+  // (count)
+  const nsvcd__f3 *samples;
+  // (count)
+  const nsvcd__f3 *normals;
   size_t count;
   nsvcd__f3 centre;
   float inverse_radius;
@@ -5952,9 +4475,11 @@ typedef struct nsvcd__encoded {
 
 // One sample: its vectors of degree 1 and 2.
 typedef struct nsvcd__feature {
-  nsvcd__f3 u, n;           // place over the radius; unit normal
-  float uu, un;             // |u|^2, u.n
-  nsvcd__f5 quu, qun, qnn;  // degree2 of both
+  // place over the radius; unit normal
+  nsvcd__f3 u, n;
+  float uu, un;  // |u|^2, u.n
+  // degree2 of both
+  nsvcd__f5 quu, qun, qnn;
 } nsvcd__feature;
 
 static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
@@ -6008,7 +4533,8 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
 }
 
 // The sample network: invariants of one sample -> its gates, (5 POOLED + POOLED_SCALARS).
-static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context, float *gates) {
+static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context,
+                         float *gates) {
   const size_t hidden = NSVCD_W_POINT_HIDDEN;
   const nsvcd__f3 *c1 = context->degree1 + NSVCD_W_POOLED;
   const nsvcd__f5 *c2 = context->degree2 + NSVCD_W_POOLED;
@@ -6023,72 +4549,15 @@ static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context
     to[3 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qun, c2[c]);
     to[4 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qnn, c2[c]);
   }
-  const nsvcd__encoder_layer first =
-      nsvcd__encoder_layer_of(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, hidden);
-  const nsvcd__encoder_layer second =
-      nsvcd__encoder_layer_of(nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden);
-  const nsvcd__encoder_layer last =
-      nsvcd__encoder_layer_of(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES);
-  nsvcd__linear(first, x, h1);
+  nsvcd__linear(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, hidden, x, h1);
   nsvcd__relu(hidden, h1);
-  nsvcd__linear(second, h1, h2);
+  nsvcd__linear(nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden, h1, h2);
   nsvcd__relu(hidden, h2);
-  nsvcd__linear(last, h2, gates);
+  nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES, h2, gates);
 }
 
-// Adds a share of a sample to what is pooled.
-static void nsvcd__pool(const nsvcd__feature *f, const float *gates, float share,
-                        nsvcd__channels *out) {
-  const size_t pooled = NSVCD_W_POOLED;
-  for (size_t c = 0; c < pooled; c++) {
-    const float *gate = gates + c;
-    nsvcd__f3 a1 = nsvcd__f3_scale(f->u, gate[0]);
-    a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f->n, gate[pooled]));
-    nsvcd__f5 a2 = nsvcd__f5_scale(f->quu, gate[2 * pooled]);
-    a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f->qun, gate[3 * pooled]));
-    a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f->qnn, gate[4 * pooled]));
-    out->degree1[c] = nsvcd__f3_add_scaled(out->degree1[c], share, a1);
-    out->degree2[c] = nsvcd__f5_add(out->degree2[c], nsvcd__f5_scale(a2, share));
-  }
-  for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
-    out->scalars[c] += gates[5 * pooled + c] * share;
-}
-
-// The last layer, for one degree.
-typedef struct nsvcd__mixer {
-  const float *mix;   // (WIDE, HIDDEN)
-  const float *gate;  // (HIDDEN)
-  const float *out;   // (HIDDEN, CHANNELS)
-  size_t size;        // 3 or 5, components
-} nsvcd__mixer;
-
-// a (WIDE, size) is mixed into HIDDEN channels, gated, and mixed into z (size, CHANNELS).
-static void nsvcd__mix(nsvcd__mixer by, const float *a, float *z) {
-  const nsvcd__encoder_layer mix =
-      nsvcd__encoder_layer_of(by.mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN);
-  const nsvcd__encoder_layer out =
-      nsvcd__encoder_layer_of(by.out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS);
-  for (size_t k = 0; k < by.size; k++) {
-    float x[NSVCD__WIDE], h[NSVCD_W_HIDDEN];
-    for (size_t c = 0; c < NSVCD__WIDE; c++)
-      x[c] = a[c * by.size + k];
-    nsvcd__linear(mix, x, h);
-    for (size_t c = 0; c < NSVCD_W_HIDDEN; c++)
-      h[c] *= by.gate[c];
-    nsvcd__linear(out, h, z + NSVCD_W_CHANNELS * k);
-  }
-  // shortened to less than 1, so that int8 holds it
-  for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-    float square = 0;
-    for (size_t k = 0; k < by.size; k++)
-      square += z[NSVCD_W_CHANNELS * k + c] * z[NSVCD_W_CHANNELS * k + c];
-    const float scale = 1 / sqrtf(1 + square);
-    for (size_t k = 0; k < by.size; k++)
-      z[NSVCD_W_CHANNELS * k + c] *= scale;
-  }
-}
-
-// The patch network: the channels -> the latent.
+// The patch network: the channels -> the latent. Of each degree the channels are mixed, gated and
+// mixed once more.
 static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
   const size_t hidden = NSVCD_W_PATCH_HIDDEN;
   float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
@@ -6097,143 +4566,74 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
     x[NSVCD__WIDE + c] = nsvcd__f5_dot(a->degree2[c], a->degree2[c]);
   }
   memcpy(x + 2 * NSVCD__WIDE, a->scalars, sizeof a->scalars);
-  const nsvcd__encoder_layer first =
-      nsvcd__encoder_layer_of(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden);
-  const nsvcd__encoder_layer last =
-      nsvcd__encoder_layer_of(nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT);
-  nsvcd__linear(first, x, h);
+  nsvcd__linear(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden, x, h);
   nsvcd__relu(hidden, h);
-  nsvcd__linear(last, h, y);
+  nsvcd__linear(nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT, h, y);
 
-  const nsvcd__mixer mixer1 = {nsvcd_w_mix1, y, nsvcd_w_out1, 3};
-  const nsvcd__mixer mixer2 = {nsvcd_w_mix2, y + NSVCD_W_HIDDEN, nsvcd_w_out2, 5};
+  for (size_t degree = 1; degree <= 2; degree++) {
+    const void *channels = degree == 1 ? (const void *)a->degree1 : (const void *)a->degree2;
+    // (WIDE, size)
+    const float *from = (const float *)channels;
+    const float *mix = degree == 1 ? nsvcd_w_mix1 : nsvcd_w_mix2;
+    const float *out = degree == 1 ? nsvcd_w_out1 : nsvcd_w_out2;
+    const float *gates = y + NSVCD_W_HIDDEN * (degree - 1);
+    const size_t size = 2 * degree + 1;
+    for (size_t k = 0; k < size; k++) {
+      float mixed[NSVCD__WIDE], gated[NSVCD_W_HIDDEN];
+      for (size_t c = 0; c < NSVCD__WIDE; c++) mixed[c] = from[c * size + k];
+      nsvcd__linear(mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN, mixed, gated);
+      for (size_t c = 0; c < NSVCD_W_HIDDEN; c++) gated[c] *= gates[c];
+      float *z = latent + NSVCD_W_CHANNELS * k;
+      nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, gated, z);
+    }
+    // shortened to less than 1, so that int8 holds it
+    for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
+      float *z = latent + c;
+      float square = 0;
+      for (size_t k = 0; k < size; k++)
+        square += z[NSVCD_W_CHANNELS * k] * z[NSVCD_W_CHANNELS * k];
+      const float scale = 1 / sqrtf(1 + square);
+      for (size_t k = 0; k < size; k++) z[NSVCD_W_CHANNELS * k] *= scale;
+    }
+    latent += NSVCD_W_CHANNELS * size;
+  }
   const float *scalars = y + 2 * NSVCD_W_HIDDEN;
-  nsvcd__mix(mixer1, (const float *)(const void *)a->degree1, latent);
-  latent += 3 * NSVCD_W_CHANNELS;
-  nsvcd__mix(mixer2, (const float *)(const void *)a->degree2, latent);
-  latent += 5 * NSVCD_W_CHANNELS;
-  for (size_t c = 0; c < NSVCD_W_SCALARS; c++)
-    latent[c] = tanhf(scalars[c]);
+  for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[c] = tanhf(scalars[c]);
 }
 
 // The latent (LATENT) of a patch of one sample or more: degree 1 (3, CHANNELS), degree 2 (5,
 // CHANNELS), scalars.
 static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
+  const size_t pooled = NSVCD_W_POOLED;
   const float share = 1 / (float)patch->count;
-  nsvcd__channels channels;
-  memset(&channels, 0, sizeof channels);
-  nsvcd__context(patch, &channels);
+  nsvcd__channels all;
+  memset(&all, 0, sizeof all);
+  nsvcd__context(patch, &all);
   for (size_t i = 0; i < patch->count; i++) {
     const nsvcd__feature f = nsvcd__feature_of(patch, i);
     float gates[NSVCD__GATES];
-    nsvcd__gates(&f, &channels, gates);
-    nsvcd__pool(&f, gates, share, &channels);
+    nsvcd__gates(&f, &all, gates);
+    for (size_t c = 0; c < pooled; c++) {
+      const float *gate = gates + c;
+      nsvcd__f3 a1 = nsvcd__f3_scale(f.u, gate[0]);
+      a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f.n, gate[pooled]));
+      nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
+      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
+      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
+      all.degree1[c] = nsvcd__f3_add_scaled(all.degree1[c], share, a1);
+      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
+    }
+    for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
+      all.scalars[c] += gates[5 * pooled + c] * share;
   }
-  nsvcd__finish_latent(&channels, latent);
+  nsvcd__finish_latent(&all, latent);
 }
 #endif  // NSVCD_NO_ENCODER
 #endif  // NSVCD_NO_NETWORK
-#endif  // NSVCD__ISA
 
-#ifndef NSVCD_NO_NETWORK
-// --------------------------------------------------------------------------------- latent rotation
-// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
-// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
-// be improper (a mirror): both degrees are polynomial.
+// ================================================================================== body: the blob
 
-// numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
-#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
-// numbers of D: (3, 3), then (5, 5)
-#define NSVCD__WIGNER 34
-// of a stored latent's numbers
-#define NSVCD__LATENT_STEP (1.0f / 127)
-
-// The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
-static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
-  const nsvcd__v xx = nsvcd__v_mul(a.x, b.x);
-  const nsvcd__v yy = nsvcd__v_mul(a.y, b.y);
-  const nsvcd__v zz = nsvcd__v_mul(a.z, b.z);
-  const nsvcd__v xy = nsvcd__v_fma(a.x, b.y, nsvcd__v_mul(a.y, b.x));
-  const nsvcd__v yz = nsvcd__v_fma(a.y, b.z, nsvcd__v_mul(a.z, b.y));
-  const nsvcd__v xz = nsvcd__v_fma(a.x, b.z, nsvcd__v_mul(a.z, b.x));
-  q[0] = nsvcd__v_mul(half_root3, xy);
-  q[1] = nsvcd__v_mul(half_root3, yz);
-  q[2] = nsvcd__v_sub(zz, nsvcd__v_mul(half, nsvcd__v_fma(a.x, b.x, yy)));
-  q[3] = nsvcd__v_mul(half_root3, xz);
-  q[4] = nsvcd__v_mul(half_root3, nsvcd__v_sub(xx, yy));
-}
-
-// D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
-// is the image of basis vector k, a degree 2 of m's columns.
-static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
-  const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
-  const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
-  const nsvcd__v twice = nsvcd__v_add(root, root);
-  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
-  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
-  nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__v3_store_rows(scaled.x, out[0], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.y, out[3], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.z, out[6], NSVCD__SLICE);
-  nsvcd__v_degree2(columns.x, columns.y, xy);
-  nsvcd__v_degree2(columns.y, columns.z, yz);
-  nsvcd__v_degree2(columns.x, columns.z, xz);
-  nsvcd__v_degree2(columns.x, columns.x, xx);
-  nsvcd__v_degree2(columns.y, columns.y, yy);
-  nsvcd__v_degree2(columns.z, columns.z, zz);
-  for (size_t k = 0; k < 5; k++) {
-    float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
-    const nsvcd__v rest = nsvcd__v_add(xx[k], yy[k]);
-    const nsvcd__v upright = nsvcd__v_sub(nsvcd__v_add(zz[k], zz[k]), rest);
-    nsvcd__v_store(row[0], nsvcd__v_mul(twice, xy[k]));
-    nsvcd__v_store(row[1], nsvcd__v_mul(twice, yz[k]));
-    nsvcd__v_store(row[2], nsvcd__v_mul(third, upright));
-    nsvcd__v_store(row[3], nsvcd__v_mul(twice, xz[k]));
-    nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(xx[k], yy[k])));
-  }
-}
-
-// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
-// CHANNELS).
-NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD__SLICE], size_t l,
-                                        size_t size, float *out) {
-  for (size_t i = 0; i < size; i++) {
-    float sum[NSVCD_W_CHANNELS] = {0};
-    for (size_t k = 0; k < size; k++) {
-      const float m = turn[size * i + k][l];
-      for (size_t c = 0; c < NSVCD_W_CHANNELS; c++)
-        sum[c] += m * latent[NSVCD_W_CHANNELS * k + c];
-    }
-    memcpy(out + NSVCD_W_CHANNELS * i, sum, sizeof sum);
-  }
-}
-
-// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
-// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
-                                 size_t place, float *row) {
-  float *vectors = row + NSVCD__VECTORS * place;
-  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
-  // one after the other: it is the deepest place of a query
-  float degree[5 * NSVCD_W_CHANNELS];
-  for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++)
-    degree[k] = (float)z[k];
-  nsvcd__rotate_degree(degree, turn, l, 3, vectors);
-  z += 3 * NSVCD_W_CHANNELS;
-  for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++)
-    degree[k] = (float)z[k];
-  nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
-  z += 5 * NSVCD_W_CHANNELS;
-  for (size_t k = 0; k < NSVCD_W_SCALARS; k++)
-    scalars[k] = (float)z[k] * NSVCD__LATENT_STEP;
-}
-
-#endif  // NSVCD_NO_NETWORK
-
-#ifndef NSVCD__ISA
-// -------------------------------------------------------------------------------------------- body
+// --------------------------------------------------------------------------------------- body/body
 // In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
 // neighbours, each group with a sphere over its members. Where there are many groups, there are
 // levels of spheres above them: the broad phase's tree. There are two kinds of bodies, which begin
@@ -6254,7 +4654,7 @@ static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], s
 //   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
 //                        the members of the spheres above
 //   latents      (N, NSVCD__LATENT)  int8, free of scale
-// and a body of triangles, for the proof, with what section *facets* says. A body that has both is
+// and a body of triangles, for the proof, with what body/facets says. A body that has both is
 // one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
 // and patches have the same numbers in both. Each part ends in zeros up to a multiple of
 // NSVCD_ALIGNMENT.
@@ -6303,7 +4703,8 @@ static size_t nsvcd__group_slots(size_t padded) {
 typedef struct nsvcd__level {
   size_t count;  // spheres
   size_t slots;  // the same, rounded up to 16
-  size_t first;  // float, from the body's first: x (slots), y, z, r
+  // float, from the body's first: x (slots), y, z, r
+  size_t first;
 } nsvcd__level;
 
 static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
@@ -6319,10 +4720,8 @@ static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
 // How many levels there are: none above the groups where these can be searched all at once.
 static size_t nsvcd__level_count(size_t padded) {
   size_t levels = 1;
-  if (padded / NSVCD__GROUP <= NSVCD__TILE)
-    return 1;
-  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP)
-    levels++;
+  if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
+  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP) levels++;
   return levels;
 }
 
@@ -6350,6 +4749,11 @@ static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
   return out;
 }
 
+// The same place of a body that is being written.
+static void *nsvcd__writable(nsvcd_body *body, const void *place) {
+  return (char *)body + ((const char *)place - (const char *)body);
+}
+
 // Spheres with their padding: of the patches and all levels.
 static size_t nsvcd__sphere_slots(size_t padded) {
   const size_t levels = nsvcd__level_count(padded);
@@ -6367,13 +4771,10 @@ static size_t nsvcd__spheres_size(size_t padded) {
 static size_t nsvcd__area_slots(size_t padded) {
   return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
 }
-static const float *nsvcd__body_areas(const nsvcd_body *body) {  // (3, P)
+// (3, P)
+static const float *nsvcd__body_areas(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
   return (const float *)(const void *)at;
-}
-static float *nsvcd__areas_to_write(nsvcd_body *body) {
-  char *at = (char *)body + nsvcd__spheres_size(body->padded);
-  return (float *)(void *)at;
 }
 // Bytes of a body of latents up to these.
 static size_t nsvcd__areas_end(size_t padded) {
@@ -6386,15 +4787,15 @@ static size_t nsvcd__areas_end(size_t padded) {
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
-static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {  // (N, LATENT)
+// (N, LATENT)
+static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
   return (const int8_t *)(nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded));
 }
 #endif
 
 #ifndef NSVCD_NO_NETWORK
 NSVCDDEF size_t nsvcd_body_size(size_t patches) {
-  if (patches < 1 || patches > NSVCD_MAX_PATCHES)
-    return 0;
+  if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t latents = patches * NSVCD__LATENT;
   return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
@@ -6417,45 +4818,40 @@ static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
 #ifndef NSVCD_NO_ENCODER
 // Numbers of patches that are being sorted.
 typedef struct nsvcd__ordering {
-  const nsvcd__f3 *centres;  // of all patches
-  uint16_t *order;           // (count)
-  uint16_t *spare;           // (count), working memory
+  // of all patches
+  const nsvcd__f3 *centres;
+  uint16_t *order;  // (count)
+  // (count), working memory
+  uint16_t *spare;
   size_t count;
 } nsvcd__ordering;
 
-static float nsvcd__f3_axis(nsvcd__f3 a, size_t axis) {
-  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
-}
-
-// Merges two runs that are sorted along an axis; of equal ones the left run's come first.
-static void nsvcd__merge_runs(nsvcd__ordering all, size_t axis, size_t first, size_t run) {
-  const size_t middle = first + run < all.count ? first + run : all.count;
-  const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
-  size_t left = first;
-  size_t right = middle;
-  for (size_t to = first; to < end; to++) {
-    int from_right = left == middle;
-    if (left < middle && right < end) {
-      const nsvcd__f3 a = all.centres[all.order[left]];
-      const nsvcd__f3 b = all.centres[all.order[right]];
-      from_right = nsvcd__f3_axis(b, axis) < nsvcd__f3_axis(a, axis);
-    }
-    all.spare[to] = from_right ? all.order[right++] : all.order[left++];
-  }
-}
-
-// Sorts patches by a coordinate of their centres. Equal ones keep their order, so that the result
-// is the same everywhere.
+// Sorts patches by a coordinate of their centres, merging ever longer runs. Equal ones keep their
+// order, so that the result is the same everywhere.
 static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
+  const float *at = (const float *)(const void *)all.centres + axis;
   for (size_t run = 1; run < all.count; run *= 2) {
-    for (size_t first = 0; first < all.count; first += 2 * run)
-      nsvcd__merge_runs(all, axis, first, run);
+    for (size_t first = 0; first < all.count; first += 2 * run) {
+      const size_t middle = first + run < all.count ? first + run : all.count;
+      const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
+      size_t left = first;
+      size_t right = middle;
+      for (size_t to = first; to < end; to++) {
+        int from_right = left == middle;
+        if (left < middle && right < end)
+          from_right = at[3 * all.order[right]] < at[3 * all.order[left]];
+        all.spare[to] = from_right ? all.order[right++] : all.order[left++];
+      }
+    }
     memcpy(all.order, all.spare, all.count * sizeof *all.order);
   }
 }
 
-// The longest axis of the box of the centres.
-static size_t nsvcd__longest_axis(nsvcd__ordering all) {
+// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
+// across the longest axis of the centres' box, the left part a multiple of 16, or of 256 and so on
+// where there are more than a tile's.
+static void nsvcd__body_order(nsvcd__ordering all) {
+  if (all.count <= NSVCD__GROUP) return;
   nsvcd__f3 low = all.centres[all.order[0]];
   nsvcd__f3 high = low;
   for (size_t i = 1; i < all.count; i++) {
@@ -6464,19 +4860,10 @@ static size_t nsvcd__longest_axis(nsvcd__ordering all) {
   }
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
   const size_t axis = size.y > size.x ? 1 : 0;
-  return size.z > nsvcd__f3_axis(size, axis) ? 2 : axis;
-}
-
-// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
-// across the longest axis, the left part a multiple of 16, or of 256 and so on where there are more
-// than a tile's.
-static void nsvcd__body_order(nsvcd__ordering all) {
-  if (all.count <= NSVCD__GROUP)
-    return;
-  nsvcd__sort_along(all, nsvcd__longest_axis(all));
+  const int is_z = size.z > (axis ? size.y : size.x);
+  nsvcd__sort_along(all, is_z ? 2 : axis);
   size_t unit = NSVCD__GROUP;
-  while (2 * NSVCD__GROUP * unit < all.count)
-    unit *= NSVCD__GROUP;
+  while (2 * NSVCD__GROUP * unit < all.count) unit *= NSVCD__GROUP;
   nsvcd__ordering left = all;
   nsvcd__ordering right = all;
   left.count = nsvcd__round_up(all.count / 2, unit);
@@ -6498,8 +4885,7 @@ static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, 
   b->padded = (uint32_t)nsvcd__round_up(patches, NSVCD__GROUP);
   b->open = open != 0;
   float *radii = (float *)(b + 1) + 3 * b->padded;
-  for (size_t i = patches; i < b->padded; i++)
-    radii[i] = NSVCD__NOWHERE;
+  for (size_t i = patches; i < b->padded; i++) radii[i] = NSVCD__NOWHERE;
   return b;
 }
 #endif
@@ -6512,10 +4898,8 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
   for (size_t i = 0; i < count; i++) {
     const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
     const float end = nsvcd__f3_length(offset) + all.r[i];
-    if (end > reach) {
-      reach = end;
-      *farthest = i;
-    }
+    if (end > reach) *farthest = i;
+    reach = end > reach ? end : reach;
   }
   return reach;
 }
@@ -6532,9 +4916,7 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
     low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
     high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
   }
-  low = nsvcd__f3_scale(low, 0.5f);
-  high = nsvcd__f3_scale(high, 0.5f);
-  nsvcd__f3 centre = nsvcd__f3_add(low, high);
+  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   nsvcd__sphere best = {centre, HUGE_VALF};
   for (int step = 0; step < 32; step++) {
     size_t farthest = 0;
@@ -6553,21 +4935,6 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills the spheres of a level, (4, slots), from those that they are over: 16 each, of which
-// `members` exist.
-static void nsvcd__level_finish(nsvcd__spheres below, size_t members, nsvcd__level level,
-                                float *out) {
-  for (size_t g = 0; g < level.slots; g++) {
-    nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
-    const size_t i = g * NSVCD__GROUP;
-    const size_t left = i >= members ? 0 : members - i;
-    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
-    if (count)
-      sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-    nsvcd__sphere_store(sphere, out, level.slots, g);
-  }
-}
-
 // Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
 // whose patches are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
@@ -6576,7 +4943,15 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   size_t members = body->patches;
   for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    nsvcd__level_finish(below, members, level, (float *)(body + 1) + level.first);
+    float *out = (float *)(body + 1) + level.first;
+    for (size_t g = 0; g < level.slots; g++) {
+      nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
+      const size_t i = g * NSVCD__GROUP;
+      const size_t left = i >= members ? 0 : members - i;
+      const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+      if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+      nsvcd__sphere_store(sphere, out, level.slots, g);
+    }
     below = nsvcd__level_spheres(body, level);
     members = level.count;
   }
@@ -6590,7 +4965,78 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   body->checksum = nsvcd__body_checksum(body);
 }
 
-// ---- a walk through the groups of a body
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
+
+// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
+// holds under -ffast-math too.
+static int nsvcd__within(const float *values, size_t count, float most) {
+  for (size_t i = 0; i < count; i++) {
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
+  }
+  return 1;
+}
+
+// Are the area vectors of a body of latents in range?
+static int nsvcd__areas_are_sound(const nsvcd_body *body) {
+  return nsvcd__within(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
+                       NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+}
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
+// What a body of latents is built of.
+typedef struct nsvcd__latents_source {
+  size_t count;              // N
+  const nsvcd__f3 *centres;  // (N)
+  const float *radii;        // (N)
+  const nsvcd__f3 *areas;    // (N)
+  const int8_t *latents;     // (N, LATENT)
+  // (N) of the patches
+  const uint16_t *order;
+  int open;
+} nsvcd__latents_source;
+
+// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of
+// bounds, EMPTY if it is too small.
+static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory) {
+  const size_t count = source->count;
+  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, source->open);
+  const size_t padded = b->padded;
+  b->weights_id = NSVCD_WEIGHTS_ID;
+  float *spheres = (float *)(b + 1);
+  float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
+  for (size_t i = 0; i < count; i++) {
+    const size_t from = source->order[i];
+    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
+    nsvcd__sphere_store(sphere, spheres, padded, i);
+    nsvcd__f3_put(source->areas[from], areas + i, padded);
+    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
+    latents += NSVCD__LATENT;
+  }
+  // The levels, if there are any above the groups, have the sums over what is below.
+  const size_t levels = nsvcd__level_count(padded);
+  const float *below = areas;
+  size_t stride = padded;
+  for (size_t n = 0; levels > 1 && n < levels; n++) {
+    const nsvcd__level level = nsvcd__level_of(padded, n);
+    float *sums = areas + level.first / 4 * 3;
+    for (size_t i = 0; i < 3 * stride; i++)
+      sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
+    below = sums;
+    stride = level.slots;
+  }
+  int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
+  sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
+  if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
+  nsvcd__body_finish(b);
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+}
+#endif
+
+// --------------------------------------------------------------------------------------- body/walk
+// In: a body and a filter of spheres. Out: the groups whose spheres pass.
 
 // Which of 16 spheres are of interest? Bits of lanes.
 typedef uint32_t nsvcd__filter(const void *what, nsvcd__spheres spheres);
@@ -6633,8 +5079,7 @@ static void nsvcd__walk_begin(nsvcd__walk *walk, const nsvcd_body *body, nsvcd__
 static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
   for (;;) {
     while (!walk->left[walk->level]) {
-      if (walk->level + 1 == walk->levels)
-        return 0;
+      if (walk->level + 1 == walk->levels) return 0;
       walk->level++;
     }
     uint32_t *left = &walk->left[walk->level];
@@ -6650,218 +5095,9 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
   }
 }
 
-static int nsvcd__is_aligned(const void *memory) {
-  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
-}
-
-// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
-// holds under -ffast-math too.
-static int nsvcd__all_within(const float *values, size_t count, float most) {
-  for (size_t i = 0; i < count; i++) {
-    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most)
-      return 0;
-  }
-  return 1;
-}
-
-// Numbers in the area vectors.
-static size_t nsvcd__area_numbers(const nsvcd_body *body) {
-  return 3 * nsvcd__area_slots(body->padded);
-}
-
-// Are the area vectors of a body of latents in range?
-static int nsvcd__areas_are_sound(const nsvcd_body *body) {
-  return nsvcd__all_within(nsvcd__body_areas(body), nsvcd__area_numbers(body),
-                           NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
-}
-
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
-// Fills the area vectors of the levels from those of the patches.
-static void nsvcd__sum_areas(nsvcd_body *body) {
-  float *areas = nsvcd__areas_to_write(body);
-  const size_t levels = nsvcd__level_count(body->padded);
-  const float *below = areas;
-  size_t stride = body->padded;
-  for (size_t n = 0; levels > 1 && n < levels; n++) {
-    const nsvcd__level level = nsvcd__level_of(body->padded, n);
-    float *sums = areas + level.first / 4 * 3;
-    for (size_t i = 0; i < 3 * stride; i++)
-      sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
-    below = sums;
-    stride = level.slots;
-  }
-}
-
-// What a body of latents is built of.
-typedef struct nsvcd__latents_source {
-  size_t count;              // N
-  const nsvcd__f3 *centres;  // (N)
-  const float *radii;        // (N)
-  const nsvcd__f3 *areas;    // (N)
-  const int8_t *latents;     // (N, LATENT)
-  const uint16_t *order;     // (N) of the patches
-  uint32_t weights_id;
-  int open;
-} nsvcd__latents_source;
-
-// Are all numbers within the bounds of a body?
-static int nsvcd__source_is_sound(const nsvcd__latents_source *source) {
-  const float *centres = (const float *)(const void *)source->centres;
-  const float *areas = (const float *)(const void *)source->areas;
-  const size_t count = source->count;
-  if (!nsvcd__all_within(centres, 3 * count, NSVCD_MAX_COORDINATE))
-    return 0;
-  if (!nsvcd__all_within(source->radii, count, 4 * NSVCD_MAX_COORDINATE))
-    return 0;
-  if (!nsvcd__all_within(areas, 3 * count, NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH))
-    return 0;
-  for (size_t i = 0; i < count; i++) {
-    if (source->radii[i] < 0)
-      return 0;
-  }
-  return 1;
-}
-
-// Builds a body of latents in `memory`. On success it is *body. NUMBER if something is out of
-// bounds, EMPTY if it is too small.
-static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory,
-                                      size_t capacity, const nsvcd_body **body) {
-  const size_t size = nsvcd_body_size(source->count);
-  if (size == 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (capacity < size || !nsvcd__is_aligned(memory))
-    return NSVCD_ERROR_WORKSPACE;
-  if (!nsvcd__source_is_sound(source))
-    return NSVCD_ERROR_NUMBER;
-
-  nsvcd_body *b = nsvcd__body_begin(memory, size, source->count, source->open);
-  const size_t padded = b->padded;
-  b->weights_id = source->weights_id;
-  float *areas = nsvcd__areas_to_write(b);
-  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
-  for (size_t i = 0; i < source->count; i++) {
-    const size_t from = source->order[i];
-    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
-    nsvcd__sphere_store(sphere, (float *)(b + 1), padded, i);
-    nsvcd__f3_put(source->areas[from], areas + i, padded);
-    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
-    latents += NSVCD__LATENT;
-  }
-  nsvcd__sum_areas(b);
-  if (!nsvcd__areas_are_sound(b))
-    return NSVCD_ERROR_NUMBER;
-  nsvcd__body_finish(b);
-  if (b->radius < NSVCD_MIN_RADIUS)
-    return NSVCD_ERROR_EMPTY;
-  *body = b;
-  return NSVCD_OK;
-}
-#endif
-
-// Does a sphere contain `count` spheres?
-static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
-  size_t farthest = 0;
-  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
-}
-
-// Are the spheres `from` to `to` - 1 exactly what padding is?
-static int nsvcd__is_padding(nsvcd__spheres all, size_t from, size_t to) {
-  for (size_t i = from; i < to; i++) {
-    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0)
-      return 0;
-    if (all.r[i] != NSVCD__NOWHERE)
-      return 0;
-  }
-  return 1;
-}
-
-// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
-// and the others padding? most: of the coordinates.
-static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
-  if (!nsvcd__all_within(all.x, 3 * slots, most))
-    return 0;
-  if (!nsvcd__all_within(all.r, count, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(all.r, slots, -NSVCD__NOWHERE))
-    return 0;
-  for (size_t i = 0; i < count; i++) {
-    if (all.r[i] < 0)
-      return 0;
-  }
-  return nsvcd__is_padding(all, count, slots);
-}
-
-// Does each sphere of a level contain its 16, of which `members` exist?
-static int nsvcd__level_covers(nsvcd__spheres above, size_t count, nsvcd__spheres below,
-                               size_t members) {
-  for (size_t g = 0; g < count; g++) {
-    const size_t i = g * NSVCD__GROUP;
-    const size_t left = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
-    const nsvcd__sphere sphere = nsvcd__sphere_of(above, g);
-    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), left))
-      return 0;
-  }
-  return 1;
-}
-
-// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
-// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
-// a lying sphere would hide collisions.
-static int nsvcd__spheres_are_sound(const nsvcd_body *body) {
-  const nsvcd__spheres patches = nsvcd__body_patches(body);
-  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), body->extent};
-  if (!nsvcd__are_spheres(patches, body->patches, body->padded, NSVCD_MAX_COORDINATE))
-    return 0;
-  if (!nsvcd__all_within(body->centre, 3, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(&body->radius, 1, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(&body->extent, 1, NSVCD__MAX_LENGTH))
-    return 0;
-  if (body->radius < NSVCD_MIN_RADIUS)
-    return 0;
-  nsvcd__spheres below = patches;
-  size_t members = body->patches;
-  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
-    const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    const nsvcd__spheres above = nsvcd__level_spheres(body, level);
-    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH))
-      return 0;
-    if (!nsvcd__level_covers(above, level.count, below, members))
-      return 0;
-    below = above;
-    members = level.count;
-  }
-  return nsvcd__covers(nsvcd__body_sphere(body), patches, body->patches) &&
-         nsvcd__covers(about_origin, patches, body->patches);
-}
-
-// Multiplies the patches' spheres, with which both kinds of bodies begin.
-static void nsvcd__scale_spheres(nsvcd_body *body, float scale) {
-  float *floats = (float *)(body + 1);
-  for (size_t i = 0; i < 3 * (size_t)body->padded; i++)
-    floats[i] *= scale;
-  for (size_t i = 0; i < body->patches; i++)
-    floats[3 * body->padded + i] *= scale;
-}
-
-// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
-// products may overflow a float.
-static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
-  const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
-  const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  if ((double)body->radius < least)
-    return 0;
-  for (size_t i = 0; i < 3 * (size_t)body->padded; i++) {
-    if (fabs((double)nsvcd__body_patches(body).x[i]) > most)
-      return 0;
-  }
-  // Twice the extent is over every radius and centre of a group.
-  return 2 * (double)body->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
-}
-
-#ifndef NSVCD_NO_PROOF
-// ------------------------------------------------------------------------------------------ facets
+// ------------------------------------------------------------------------------------- body/facets
+// In: the surface of each patch. Out: the blob of the proof, and what it says of a patch.
+//
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
@@ -6890,6 +5126,7 @@ static int nsvcd__spheres_fit(const nsvcd_body *body, float scale) {
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
 
+#ifndef NSVCD_NO_PROOF
 #define NSVCD__FACET_COUNTS 8
 #define NSVCD__FACET_BOX 8  // with the greatest quantum
 
@@ -6899,7 +5136,8 @@ typedef struct nsvcd__facet_counts {
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
-  const nsvcd_body *body;  // of triangles
+  // of triangles
+  const nsvcd_body *body;
   const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
   const uint32_t *first_vertex, *first_triangle, *first_byte, *first_seed;
   const float *seeds;
@@ -6909,46 +5147,10 @@ typedef struct nsvcd__facets {
   size_t listed, vertex_count, components, listings_size;
 } nsvcd__facets;
 
-// The same place of a body that is being written.
-static void *nsvcd__writable(nsvcd_body *body, const void *place) {
-  return (char *)body + ((const char *)place - (const char *)body);
-}
-static float *nsvcd__writable_floats(nsvcd_body *body, const float *place) {
-  return (float *)nsvcd__writable(body, place);
-}
-#ifndef NSVCD_NO_ENCODER
-static uint32_t *nsvcd__writable_words(nsvcd_body *body, const uint32_t *place) {
-  return (uint32_t *)nsvcd__writable(body, place);
-}
-#endif
-
 // The body of triangles in a body, or NULL.
 static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
-  if (body->triangles == 0 || body->weights_id == 0)
-    return body->triangles ? body : NULL;
+  if (body->triangles == 0 || body->weights_id == 0) return body->triangles ? body : NULL;
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
-}
-
-// Bytes of a body of triangles; 0 if they cannot be counted in 32 bits. patches: N.
-static size_t nsvcd__facets_size(size_t patches, const nsvcd__facet_counts *counts) {
-  const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
-  uint64_t size = nsvcd__spheres_size(padded);
-  size += sizeof *counts + 4 * NSVCD__FACET_BOX;
-  // discs, steps, slacks, quanta
-  size += 36 * padded;
-  // group discs
-  size += 24 * nsvcd__group_slots(padded);
-  // first_vertex, first_triangle, first_byte; first_seed
-  size += 12 * (patches + 1);
-  size += 4 * (padded / NSVCD__GROUP + 1);
-  // seeds, vertices, listings
-  size += (uint64_t)12 * counts->components;
-  size += 2 * ((uint64_t)3 * counts->vertices + NSVCD__LANES);
-  size += counts->listings_size;
-  // hull_counts, and zeros
-  size += patches + NSVCD_ALIGNMENT;
-  size -= size % NSVCD_ALIGNMENT;
-  return size > 0xffffffffu ? 0 : (size_t)size;
 }
 
 static const nsvcd__facet_counts *nsvcd__facet_counts_of(const nsvcd_body *body) {
@@ -6956,29 +5158,48 @@ static const nsvcd__facet_counts *nsvcd__facet_counts_of(const nsvcd_body *body)
   return (const nsvcd__facet_counts *)(const void *)at;
 }
 
+// The next `count` numbers in a body, or, where that is NULL, only counts them.
+#define NSVCD__PASS(type, count) ((const type *)nsvcd__pass(body, &at, count, sizeof(type)))
+static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t count,
+                               size_t size) {
+  const void *out = body ? (const char *)body + *at : NULL;
+  *at += count * size;
+  return out;
+}
+
+// Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
+// its bytes; 0 if they cannot be counted in 32 bits.
+static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
+                                const nsvcd__facet_counts *counts, nsvcd__facets *f) {
+  const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
+  const size_t starts = patches + 1;
+  uint64_t at = nsvcd__spheres_size(padded) + sizeof *counts;
+  f->body = body;
+  f->listed = counts->listed;
+  f->vertex_count = counts->vertices;
+  f->components = counts->components;
+  f->listings_size = counts->listings_size;
+  f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
+  f->discs = NSVCD__PASS(float, 6 * padded);
+  f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
+  f->steps = NSVCD__PASS(float, padded);
+  f->slacks = NSVCD__PASS(float, padded);
+  f->quanta = NSVCD__PASS(float, padded);
+  f->first_vertex = NSVCD__PASS(uint32_t, starts);
+  f->first_triangle = NSVCD__PASS(uint32_t, starts);
+  f->first_byte = NSVCD__PASS(uint32_t, starts);
+  f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
+  f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
+  f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
+  f->listings = NSVCD__PASS(unsigned char, f->listings_size);
+  f->hull_counts = NSVCD__PASS(uint8_t, patches);
+  at += NSVCD_ALIGNMENT - at % NSVCD_ALIGNMENT;
+  return at > 0xffffffffu ? 0 : (size_t)at;
+}
+
 static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
-  const size_t padded = body->padded;
-  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(body);
   nsvcd__facets f;
-  f.body = body;
-  f.listed = counts->listed;
-  f.vertex_count = counts->vertices;
-  f.components = counts->components;
-  f.listings_size = counts->listings_size;
-  f.box = (const float *)(const void *)(counts + 1);
-  f.discs = f.box + NSVCD__FACET_BOX;
-  f.group_discs = f.discs + 6 * padded;
-  f.steps = f.group_discs + 6 * nsvcd__group_slots(padded);
-  f.slacks = f.steps + padded;
-  f.quanta = f.slacks + padded;
-  f.first_vertex = (const uint32_t *)(const void *)(f.quanta + padded);
-  f.first_triangle = f.first_vertex + body->patches + 1;
-  f.first_byte = f.first_triangle + body->patches + 1;
-  f.first_seed = f.first_byte + body->patches + 1;
-  f.seeds = (const float *)(const void *)(f.first_seed + nsvcd__body_groups(body) + 1);
-  f.vertices = (const int16_t *)(const void *)(f.seeds + 3 * f.components);
-  f.listings = (const unsigned char *)(f.vertices + 3 * f.vertex_count + NSVCD__LANES);
-  f.hull_counts = f.listings + f.listings_size;
+  (void)nsvcd__facets_lay(body, body->patches, nsvcd__facet_counts_of(body), &f);
   return f;
 }
 
@@ -6990,7 +5211,8 @@ static float nsvcd__widest_quantum(const nsvcd__facets *f) {
 
 // The vertices of a patch: integers, in steps from its centre.
 typedef struct nsvcd__vertices {
-  const int16_t *x, *y, *z;  // (count) each
+  // (count) each
+  const int16_t *x, *y, *z;
   size_t count;
 } nsvcd__vertices;
 
@@ -7007,28 +5229,16 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// How many listings a patch has.
-static size_t nsvcd__listing_count(const nsvcd__facets *f, size_t patch) {
-  return f->first_triangle[patch + 1] - f->first_triangle[patch];
-}
-
 // Bytes of a corner in a patch of so many vertices.
 static size_t nsvcd__corner_bytes(size_t vertices) {
   return vertices <= 256 ? 1 : 2;
-}
-
-// Bytes of the corners of a patch.
-static size_t nsvcd__corners_size(const nsvcd__facets *f, size_t patch) {
-  const size_t bytes = nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count);
-  return 3 * nsvcd__listing_count(f, patch) * bytes;
 }
 
 // The vertex, of its patch, of corner k (0..2) of listing n.
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
   const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
-  if (nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count) == 1)
-    return corners[at];
+  if (nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count) == 1) return corners[at];
   uint16_t corner;
   memcpy(&corner, corners + 2 * at, sizeof corner);
   return corner;
@@ -7043,8 +5253,7 @@ static uint32_t nsvcd__read_code(const unsigned char **at) {
   for (unsigned shift = 0; shift < 35; shift += 7) {
     const uint32_t byte = *(*at)++;
     code |= (byte & 0x7f) << shift;
-    if (!(byte & 0x80))
-      break;
+    if (!(byte & 0x80)) break;
   }
   return code;
 }
@@ -7054,12 +5263,15 @@ typedef struct nsvcd__numbers {
   const unsigned char *at;
   size_t next;      // listing
   uint32_t number;  // of the one before
-  int encloses;     // does it belong to a closed component?
+  // does it belong to a closed component?
+  int encloses;
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count);
+  const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
-  out.at = f->listings + f->first_byte[patch] + nsvcd__corners_size(f, patch);
+  out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
   out.encloses = 0;
@@ -7140,411 +5352,299 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
   return slab;
 }
 
-// Directions in which a group may be thin: the mean of its members' normals, then these.
-static void nsvcd__group_normals(const nsvcd__facets *f, size_t g, nsvcd__d3 *normals) {
-  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
-  for (size_t k = 0; k < NSVCD__GROUP; k++) {
-    const float *n = f->discs + NSVCD__GROUP * g + k;
-    const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, f->body->padded));
-    normals[1 + k] = normal;
-    const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
-    sum = nsvcd__d3_add_scaled(sum, sign, normal);
-  }
-  normals[0] = sum;
-}
-
 // Writes a group's disc. Its normal is the mean of the members', or that of every fourth member:
 // the one in which the group is thinnest.
-static void nsvcd__finish_group(nsvcd_body *body, size_t g) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  nsvcd__d3 normals[1 + NSVCD__GROUP];
+static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  nsvcd__d3 normals[1 + NSVCD__GROUP] = {{0, 0, 0}};
+  for (size_t k = 0; k < NSVCD__GROUP; k++) {
+    const float *n = f.discs + NSVCD__GROUP * g + k;
+    const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, b->padded));
+    normals[1 + k] = normal;
+    const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
+    normals[0] = nsvcd__d3_add_scaled(normals[0], sign, normal);
+  }
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__slab thinnest = {0, HUGE_VAL, 0};
-  nsvcd__group_normals(&f, g, normals);
   for (size_t k = 0; k < 1 + NSVCD__GROUP; k += k == 0 ? 1 : 4) {
     const double length = nsvcd__d3_length(normals[k]);
-    if (!(length > 1e-3))
-      continue;
+    if (!(length > 1e-3)) continue;
     // As it is stored, and no longer than 1.
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
     const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
-    if (!(slab.high - slab.low < thinnest.high - thinnest.low))
-      continue;
+    if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
     thinnest = slab;
     best = unit;
   }
   // float rounding, and that `across` takes |n| to be 1
-  const double margin = 1e-6 * (double)body->extent;
+  const double margin = 1e-6 * (double)b->extent;
   nsvcd__disc disc;
   disc.normal = nsvcd__f3_round(best);
   disc.low = (float)(thinnest.low - margin);
   disc.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
   disc.across = nsvcd__round_outward(thinnest.across + margin);
-  float *discs = nsvcd__writable_floats(body, f.group_discs);
-  nsvcd__disc_store(disc, discs, nsvcd__group_slots(body->padded), g);
+  float *discs = (float *)nsvcd__writable(b, f.group_discs);
+  nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
 }
 
-static nsvcd__d3 nsvcd__d3_all(double x) {
-  return nsvcd__d3_of(x, x, x);
-}
-
-// Writes the box, and the greatest of the quanta.
-static void nsvcd__finish_box(nsvcd_body *body) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  float *box = nsvcd__writable_floats(body, f.box);
-  nsvcd__d3 low = nsvcd__d3_all(HUGE_VAL);
-  nsvcd__d3 high = nsvcd__d3_all(-HUGE_VAL);
+// What is computed from the patches of a body of triangles, when these are in place: the spheres
+// above them, the box with the greatest of the quanta, and the groups' discs.
+static void nsvcd__facets_finish(nsvcd_body *b) {
+  nsvcd__body_finish(b);
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__d3 all = {1, 1, 1};
+  nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
-  for (size_t i = 0; i < body->patches; i++) {
+  for (size_t i = 0; i < b->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
-    const nsvcd__d3 quantum = nsvcd__d3_all((double)f.quanta[i]);
-    const double step = (double)f.steps[i];
+    const double quantum = (double)f.quanta[i];
     for (size_t k = 0; k < vertices.count; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 at = nsvcd__d3_add_scaled(origin, step, vertex);
-      low = nsvcd__d3_min(low, nsvcd__d3_sub(at, quantum));
-      high = nsvcd__d3_max(high, nsvcd__d3_add(at, quantum));
+      const nsvcd__d3 at = nsvcd__d3_add_scaled(origin, (double)f.steps[i], vertex);
+      low = nsvcd__d3_min(low, nsvcd__d3_add_scaled(at, -quantum, all));
+      high = nsvcd__d3_max(high, nsvcd__d3_add_scaled(at, quantum, all));
     }
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
   // float rounding
-  const nsvcd__d3 margin = nsvcd__d3_all(1e-6 * (double)body->extent);
-  low = nsvcd__d3_sub(low, margin);
-  high = nsvcd__d3_add(high, margin);
-  nsvcd__f3_store(nsvcd__d3_narrow(low), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(high), box + 3);
+  const double margin = 1e-6 * (double)b->extent;
+  float *box = (float *)nsvcd__writable(b, f.box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(low, -margin, all)), box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(high, margin, all)), box + 3);
   box[6] = widest;
   box[7] = 0;
-}
-
-// What is computed from the patches of a body of triangles, when these are in place.
-static void nsvcd__facets_finish(nsvcd_body *body) {
-  nsvcd__body_finish(body);
-  nsvcd__finish_box(body);
-  for (size_t g = 0; g < nsvcd__body_groups(body); g++)
-    nsvcd__finish_group(body, g);
-  body->checksum = nsvcd__body_checksum(body);
+  for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
+  b->checksum = nsvcd__body_checksum(b);
 }
 
 #ifndef NSVCD_NO_ENCODER
 // ---- writing
 
-// The code of a triangle (an id of a surface) after another, and the bytes that it takes.
-static uint32_t nsvcd__code_of(uint32_t id, uint32_t last) {
-  const uint32_t more = (id - last) & ~NSVCD__ENCLOSES;
-  return more << 1 | id >> 31;
-}
-static size_t nsvcd__code_bytes(uint32_t code) {
-  size_t bytes = 1;
-  for (; code > 0x7f; code >>= 7)
-    bytes++;
-  return bytes;
-}
-// Writes a code; returns the byte behind it.
-static unsigned char *nsvcd__write_code(uint32_t code, unsigned char *to) {
-  for (; code > 0x7f; code >>= 7)
-    *to++ = (unsigned char)(code | 0x80);
-  *to++ = (unsigned char)code;
-  return to;
-}
-
-// Bytes of the numbers of patch i.
-static size_t nsvcd__numbers_size(const nsvcd__surface *surface, size_t i) {
+// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
+static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
   size_t size = 0;
   uint32_t last = 0;
-  for (size_t n = surface->first_triangle[i]; n < surface->first_triangle[i + 1]; n++) {
-    size += nsvcd__code_bytes(nsvcd__code_of(surface->ids[n], last));
-    last = surface->ids[n];
+  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
+    const uint32_t id = s->ids[n];
+    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
+    for (int more = 1; more; code >>= 7) {
+      more = code > 0x7f;
+      if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
+      size++;
+    }
+    last = id;
   }
   return size;
 }
 
 // The counts of the body of triangles that a surface makes.
-static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *surface) {
+static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *s) {
   nsvcd__facet_counts counts;
   memset(&counts, 0, sizeof counts);
-  counts.listed = (uint32_t)surface->listed;
-  counts.vertices = (uint32_t)surface->vertex_count;
-  counts.components = (uint32_t)surface->seed_count;
+  counts.listed = (uint32_t)s->listed;
+  counts.vertices = (uint32_t)s->vertex_count;
+  counts.components = (uint32_t)s->seed_count;
   uint64_t bytes = 0;
-  for (size_t i = 0; i < surface->count; i++) {
-    const size_t vertices = surface->first_vertex[i + 1] - surface->first_vertex[i];
-    const size_t triangles = surface->first_triangle[i + 1] - surface->first_triangle[i];
-    const uint64_t corners = (uint64_t)3 * triangles;
-    bytes += corners * nsvcd__corner_bytes(vertices) + nsvcd__numbers_size(surface, i);
+  for (size_t i = 0; i < s->count; i++) {
+    const size_t vertices = s->first_vertex[i + 1] - s->first_vertex[i];
+    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
+    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+    bytes += nsvcd__numbers_write(s, i, NULL);
   }
   // then the body is refused as too large
   counts.listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
   return counts;
 }
 
-// Writes sphere, disc, step, slack, quantum and the hull's count of patch `to`, from patch `from`
-// of a surface. centre: for a patch without surface.
-static void nsvcd__shape_write(const nsvcd__surface *surface, size_t from, nsvcd__f3 centre,
-                               nsvcd_body *body, size_t to) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  const nsvcd__disc none = {{0, 0, 0}, 0, 0, 0};
-  const size_t padded = body->padded;
-  const int empty = surface->hull_counts[from] == 0;
-  const nsvcd__sphere at_centre = {centre, 0};
-  const nsvcd__sphere ball = empty ? at_centre : surface->balls[from];
-  const nsvcd__disc disc = empty ? none : surface->discs[from];
-  nsvcd__sphere_store(ball, (float *)(body + 1), padded, to);
-  nsvcd__disc_store(disc, nsvcd__writable_floats(body, f.discs), padded, to);
-  *nsvcd__writable_floats(body, f.steps + to) = empty ? 0 : surface->steps[from];
-  *nsvcd__writable_floats(body, f.slacks + to) = empty ? 0 : surface->slacks[from];
-  *nsvcd__writable_floats(body, f.quanta + to) = empty ? 0 : surface->quanta[from];
-  uint8_t *hull_count = (uint8_t *)nsvcd__writable(body, f.hull_counts + to);
-  *hull_count = surface->hull_counts[from];
-}
+// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
+static void nsvcd__patch_write(const nsvcd__surface *s, size_t from, nsvcd_body *b,
+                               size_t to) {
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  const size_t padded = b->padded;
+  nsvcd__sphere ball = s->balls[from];
+  if (s->hull_counts[from] == 0) ball.radius = 0;
+  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
+  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
+  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
+  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
+  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
+  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
 
-// Writes vertices and listings of patch `to`, from patch `from` of a surface.
-static void nsvcd__listings_write(const nsvcd__surface *surface, size_t from, nsvcd_body *body,
-                                  size_t to) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t vertex = surface->first_vertex[from];
-  const size_t vertices = surface->first_vertex[from + 1] - vertex;
-  const size_t first = surface->first_triangle[from];
-  const size_t end = surface->first_triangle[from + 1];
-  uint32_t *first_vertex = nsvcd__writable_words(body, f.first_vertex + to);
-  uint32_t *first_triangle = nsvcd__writable_words(body, f.first_triangle + to);
-  uint32_t *first_byte = nsvcd__writable_words(body, f.first_byte + to);
-  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
-  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
-
-  void *integers = nsvcd__writable(body, f.vertices + 3 * (size_t)first_vertex[0]);
-  memcpy(integers, surface->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(body, f.listings + first_byte[0]);
+  const size_t vertex = s->first_vertex[from];
+  const size_t vertices = s->first_vertex[from + 1] - vertex;
+  const size_t first = s->first_triangle[from];
+  const size_t end = s->first_triangle[from + 1];
+  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
+  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
+  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
+  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
+  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
+  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
   unsigned char *at = begin;
   const size_t bytes = nsvcd__corner_bytes(vertices);
   for (size_t n = 3 * first; n < 3 * end; n++) {
-    const uint16_t corner = surface->corners[n];
-    if (bytes == 1)
-      at[0] = (unsigned char)corner;
-    if (bytes == 2)
-      memcpy(at, &corner, 2);
+    const uint16_t corner = s->corners[n];
+    if (bytes == 1) at[0] = (unsigned char)corner;
+    if (bytes == 2) memcpy(at, &corner, 2);
     at += bytes;
   }
-  uint32_t last = 0;
-  for (size_t n = first; n < end; n++) {
-    at = nsvcd__write_code(nsvcd__code_of(surface->ids[n], last), at);
-    last = surface->ids[n];
-  }
+  at += nsvcd__numbers_write(s, from, at);
+  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
+  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
   first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
 }
 
 // Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *surface, const uint16_t *order,
-                               nsvcd_body *body) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  uint32_t *first_seed = nsvcd__writable_words(body, f.first_seed);
-  float *seeds = nsvcd__writable_floats(body, f.seeds);
+static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
+  float *seeds = (float *)nsvcd__writable(b, f.seeds);
   // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = nsvcd__writable_words(body, f.first_vertex);
-  const size_t groups = nsvcd__body_groups(body);
-  for (size_t i = 0; i < body->patches; i++)
-    places[order[i]] = (uint32_t)i;
-  for (size_t n = 0; n < surface->seed_count; n++) {
-    const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
+  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
+  const size_t groups = nsvcd__body_groups(b);
+  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
+  for (size_t n = 0; n < s->seed_count; n++) {
+    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
     first_seed[g + 1]++;
   }
-  for (size_t g = 0; g < groups; g++)
-    first_seed[g + 1] += first_seed[g];
-  for (size_t n = surface->seed_count; n-- > 0;) {
-    const size_t g = places[surface->seed_patches[n]] / NSVCD__GROUP;
+  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+  for (size_t n = s->seed_count; n-- > 0;) {
+    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
     const size_t to = --first_seed[g + 1];
-    nsvcd__f3_store(surface->seeds[n], seeds + 3 * to);
+    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
   }
   // Now first_seed[g + 1] is where group g begins.
   memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
-  first_seed[groups] = (uint32_t)surface->seed_count;
-  memset(places, 0, body->patches * sizeof *places);
+  first_seed[groups] = (uint32_t)s->seed_count;
+  memset(places, 0, b->patches * sizeof *places);
 }
 
-// What a body of triangles is built of.
-typedef struct nsvcd__facets_source {
-  const nsvcd__surface *surface;
-  nsvcd__facet_counts counts;  // of the surface
-  size_t triangles;            // of the mesh
-  const nsvcd__f3 *centres;    // (N) for patches without surface
-  const uint16_t *order;       // (N) of the patches
-  int open;
-} nsvcd__facets_source;
-
-// Builds a body of triangles of `size` bytes in `memory`. NUMBER if it would be too large, EMPTY if
-// it would be too small.
-static nsvcd_result nsvcd__facets_build(const nsvcd__facets_source *source, void *memory,
+// Builds a body of triangles of `size` bytes in `memory`. triangles: of the mesh. order: (N) of the
+// patches. NUMBER if it would be too large, EMPTY if it would be too small.
+static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
+                                        const nsvcd__facet_counts *counts, size_t triangles,
+                                        const uint16_t *order, int open, void *memory,
                                         size_t size) {
-  const nsvcd__surface *surface = source->surface;
-  nsvcd_body *b = nsvcd__body_begin(memory, size, surface->count, source->open);
-  b->triangles = (uint32_t)source->triangles;
-  char *counts = (char *)memory + nsvcd__spheres_size(b->padded);
-  memcpy(counts, &source->counts, sizeof source->counts);
-
-  nsvcd__seeds_write(surface, source->order, b);
-  for (size_t i = 0; i < surface->count; i++) {
-    const size_t from = source->order[i];
-    nsvcd__shape_write(surface, from, source->centres[from], b, i);
-    nsvcd__listings_write(surface, from, b, i);
-  }
-  if (!nsvcd__all_within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
+  nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
+  b->triangles = (uint32_t)triangles;
+  memcpy(nsvcd__writable(b, nsvcd__facet_counts_of(b)), counts, sizeof *counts);
+  nsvcd__seeds_write(s, order, b);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, i);
+  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
+#endif  // NSVCD_NO_PROOF
 
-// ---- checking
+// -------------------------------------------------------------------------------------- body/trust
+// In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
+// or could have it.
 
-// Are there just as many codes from one byte of the listings to another, and all of triangles that
-// there are?
-static int nsvcd__numbers_are_sound(const nsvcd__facets *f, size_t from, size_t to, size_t count) {
-  const unsigned char *at = f->listings + from;
-  const unsigned char *end = f->listings + to;
-  uint32_t number = 0;
-  for (size_t n = 0; n < count; n++) {
-    const size_t left = (size_t)(end - at);
-    size_t bytes = 1;
-    while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80)
-      bytes++;
-    if (at >= end || at[bytes - 1] & 0x80)
-      return 0;
-    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
-    if (number >= f->body->triangles)
-      return 0;
-  }
-  return at == end;
+// ---- the spheres, with which both kinds of bodies begin
+
+// Does a sphere contain `count` spheres?
+static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
+  size_t farthest = 0;
+  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
 }
 
+// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
+// and the others exactly what padding is? most: of the coordinates.
+static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
+  if (!nsvcd__within(all.x, 3 * slots, most)) return 0;
+  if (!nsvcd__within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(all.r, slots, -NSVCD__NOWHERE)) return 0;
+  for (size_t i = 0; i < count; i++) {
+    if (all.r[i] < 0) return 0;
+  }
+  for (size_t i = count; i < slots; i++) {
+    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
+    if (all.r[i] != NSVCD__NOWHERE) return 0;
+  }
+  return 1;
+}
+
+// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
+// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
+// a lying sphere would hide collisions.
+static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
+  const nsvcd__spheres patches = nsvcd__body_patches(b);
+  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
+  if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
+  if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (b->radius < NSVCD_MIN_RADIUS) return 0;
+  nsvcd__spheres below = patches;
+  size_t members = b->patches;
+  for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(b->padded, k);
+    const nsvcd__spheres above = nsvcd__level_spheres(b, level);
+    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
+    for (size_t i = 0; i < members; i += NSVCD__GROUP) {
+      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+      const nsvcd__sphere sphere = nsvcd__sphere_of(above, i / NSVCD__GROUP);
+      if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+    }
+    below = above;
+    members = level.count;
+  }
+  return nsvcd__covers(nsvcd__body_sphere(b), patches, b->patches) &&
+         nsvcd__covers(about_origin, patches, b->patches);
+}
+
+// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
+// products may overflow a float.
+static int nsvcd__spheres_fit(const nsvcd_body *b, float scale) {
+  const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
+  const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
+  if ((double)b->radius < least) return 0;
+  for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
+    if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
+  }
+  // Twice the extent is over every radius and centre of a group.
+  return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
+}
+
+// ---- the triangles
+
+#ifndef NSVCD_NO_PROOF
 // Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
   const uint32_t *triangle = f->first_triangle + i;
-  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count)
-    return 0;
-  if (triangle[1] < triangle[0] || triangle[1] > f->listed)
-    return 0;
-  const size_t vertices = nsvcd__vertices_of(f, i).count;
-  const size_t triangles = nsvcd__listing_count(f, i);
+  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
+  if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
+  const size_t vertices = vertex[1] - vertex[0];
+  const size_t triangles = triangle[1] - triangle[0];
   const size_t hull_count = f->hull_counts[i];
-  if (hull_count > NSVCD__HULL || hull_count > vertices)
-    return 0;
-  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0))
-    return 0;
+  if (hull_count > NSVCD__HULL || hull_count > vertices) return 0;
+  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
 
-  const size_t end = f->first_byte[i + 1];
   const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
   const uint64_t corners_end = f->first_byte[i] + corners;
-  if (corners_end > end || end > f->listings_size)
-    return 0;
-  if (!nsvcd__numbers_are_sound(f, (size_t)corners_end, end, triangles))
-    return 0;
+  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices)
-      return 0;
+    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices) return 0;
   }
-  return 1;
-}
-
-// Is the layout right: sizes, counts, indices? A body of triangles of at most `size` bytes, at
-// least a header.
-static int nsvcd__facets_are_laid_out(const nsvcd_body *body, size_t size) {
-  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(body);
-  if (nsvcd__spheres_size(body->padded) + sizeof *counts > size)
-    return 0;
-  const uint32_t *zeros = counts->zeros;
-  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || body->triangles == 0)
-    return 0;
-  if (body->size != nsvcd__facets_size(body->patches, counts) || body->size > size)
-    return 0;
-
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t patches = body->patches;
-  const size_t groups = nsvcd__body_groups(body);
-  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0)
-    return 0;
-  if (f.first_byte[0] != 0 || f.first_seed[0] != 0)
-    return 0;
-  for (size_t i = 0; i < patches; i++) {
-    if (!nsvcd__patch_is_laid_out(&f, i))
-      return 0;
+  // Behind them are just as many codes, and all of triangles that there are.
+  const unsigned char *at = f->listings + (size_t)corners_end;
+  const unsigned char *end = f->listings + f->first_byte[i + 1];
+  uint32_t number = 0;
+  for (size_t n = 0; n < triangles; n++) {
+    const size_t left = (size_t)(end - at);
+    size_t bytes = 1;
+    while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80) bytes++;
+    if (at >= end || at[bytes - 1] & 0x80) return 0;
+    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
+    if (number >= f->body->triangles) return 0;
   }
-  for (size_t g = 0; g < groups; g++) {
-    if (f.first_seed[g + 1] < f.first_seed[g])
-      return 0;
-  }
-  if (f.first_byte[patches] != f.listings_size)
-    return 0;
-  if (f.first_seed[groups] != f.components)
-    return 0;
-  if (f.first_vertex[patches] != f.vertex_count)
-    return 0;
-  return f.first_triangle[patches] == f.listed;
-}
-
-// Are discs in range? Of (6, stride).
-static int nsvcd__discs_are_sound(const float *discs, size_t stride) {
-  const float *extents = discs + 3 * stride;
-  return nsvcd__all_within(discs, 3 * stride, 1.000001f) &&
-         nsvcd__all_within(extents, 3 * stride, NSVCD__MAX_LENGTH);
-}
-
-// Are the numbers in range? They may lie about the surface, but nothing that is computed from them
-// overflows.
-static int nsvcd__facets_are_sound(const nsvcd_body *body) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded;
-  if (!nsvcd__all_within(f.box, NSVCD__FACET_BOX, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__discs_are_sound(f.discs, padded))
-    return 0;
-  if (!nsvcd__discs_are_sound(f.group_discs, nsvcd__group_slots(padded)))
-    return 0;
-  if (!nsvcd__all_within(f.steps, padded, NSVCD__MAX_LENGTH / 32768))
-    return 0;
-  if (!nsvcd__all_within(f.slacks, padded, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(f.quanta, padded, NSVCD__MAX_LENGTH))
-    return 0;
-  if (!nsvcd__all_within(f.seeds, 3 * f.components, NSVCD__MAX_LENGTH))
-    return 0;
-  for (size_t i = 0; i < padded; i++) {
-    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
-    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0)
-      return 0;
-    if (f.quanta[i] > nsvcd__widest_quantum(&f))
-      return 0;
-  }
-  return 1;
-}
-
-// Multiplies what stands behind the spheres. What rounding does to a vertex goes to the slacks and
-// quanta.
-static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
-  const nsvcd__facets f = nsvcd__facets_of(body);
-  const size_t padded = body->padded;
-  const double by = (double)scale;
-  float *discs = nsvcd__writable_floats(body, f.discs);
-  float *steps = nsvcd__writable_floats(body, f.steps);
-  float *slacks = nsvcd__writable_floats(body, f.slacks);
-  float *quanta = nsvcd__writable_floats(body, f.quanta);
-  float *seeds = nsvcd__writable_floats(body, f.seeds);
-  for (size_t i = 0; i < body->patches; i++) {
-    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
-    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
-    steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
-    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
-    disc.low = (float)((double)disc.low * by - rounding);
-    disc.high = (float)((double)disc.high * by + rounding);
-    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
-    nsvcd__disc_store(disc, discs, padded, i);
-  }
-  for (size_t i = 0; i < 3 * f.components; i++)
-    seeds[i] *= scale;
+  return at == end;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -7552,44 +5652,65 @@ static void nsvcd__scale_facets(nsvcd_body *body, float scale) {
 
 // Is this the beginning of a blob of ours, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
-  if (size < sizeof *b)
-    return 0;
-  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION)
-    return 0;
-  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES)
-    return 0;
-  if (b->open > 1 || b->size > size)
-    return 0;
-  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP))
-    return 0;
+  if (size < sizeof *b) return 0;
+  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
+  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES) return 0;
+  if (b->open > 1 || b->size > size) return 0;
+  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP)) return 0;
   return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
 }
 
-// Is all of a body of triangles sound? It has at most `size` bytes, and a sound header.
+// Is all of a body of triangles sound: the spheres; the layout, which is sizes, counts and indices;
+// and are the numbers in range? They may lie about the surface, but nothing that is computed from
+// them overflows. It has at most `size` bytes, and a sound header.
 static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 #ifndef NSVCD_NO_PROOF
-  if (b->inner != 0 || !nsvcd__spheres_are_sound(b))
+  if (b->inner != 0 || !nsvcd__spheres_are_sound(b)) return 0;
+  const size_t patches = b->patches;
+  const size_t padded = b->padded;
+  const size_t groups = nsvcd__body_groups(b);
+  const size_t slots = nsvcd__group_slots(padded);
+  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(b);
+  if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
+  const uint32_t *zeros = counts->zeros;
+  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || b->triangles == 0) return 0;
+  nsvcd__facets f;
+  if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
+
+  f = nsvcd__facets_of(b);
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
+  for (size_t i = 0; i < patches; i++) {
+    if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
+  }
+  for (size_t g = 0; g < groups; g++) {
+    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
+  }
+  if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
     return 0;
-  return nsvcd__facets_are_laid_out(b, size) && nsvcd__facets_are_sound(b);
+  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+    return 0;
+
+  const float most = NSVCD__MAX_LENGTH;
+  if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
+  if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
+  if (!nsvcd__within(f.discs + 3 * padded, 3 * padded, most)) return 0;
+  if (!nsvcd__within(f.group_discs, 3 * slots, 1.000001f)) return 0;
+  if (!nsvcd__within(f.group_discs + 3 * slots, 3 * slots, most)) return 0;
+  if (!nsvcd__within(f.steps, padded, most / 32768)) return 0;
+  if (!nsvcd__within(f.slacks, padded, most)) return 0;
+  if (!nsvcd__within(f.quanta, padded, most)) return 0;
+  if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
+  for (size_t i = 0; i < padded; i++) {
+    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
+    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
+  }
 #else
   (void)b;
-  (void)size;
-  return 1;  // never looked at
+  (void)size;  // never looked at
 #endif
-}
-
-// Is the body of triangles within a body of latents sound?
-static int nsvcd__inner_is_sound(const nsvcd_body *b) {
-  const char *at = (const char *)b + b->inner;
-  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
-  const size_t left = b->size - b->inner;
-  if (!nsvcd__header_is_sound(within, left) || within->size != left)
-    return 0;
-  if (within->weights_id != 0 || within->open != b->open)
-    return 0;
-  if (within->patches != b->patches || within->triangles != b->triangles)
-    return 0;
-  return nsvcd__triangles_are_sound(within, left);
+  return 1;
 }
 
 // Is all of a body sound, but for the checksum? Its header is.
@@ -7601,108 +5722,116 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (b->size < nsvcd__areas_end(b->padded))
-    return 0;
-  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b))
-    return 0;
+  if (b->size < nsvcd__areas_end(b->padded)) return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
 #ifndef NSVCD_NO_NETWORK
-  if (b->weights_id != NSVCD_WEIGHTS_ID)
-    return 0;
+  if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents)
-    return 0;
-  if (b->inner == 0)
-    return b->size == latents && b->triangles == 0;
-  if (b->inner != latents)
-    return 0;
+  if (b->size < latents) return 0;
+  if (b->inner == 0) return b->size == latents && b->triangles == 0;
+  if (b->inner != latents) return 0;
 #else
-  if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size)
-    return 0;
-  if (b->inner < nsvcd__areas_end(b->padded))
-    return 0;
+  if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
+  if (b->inner < nsvcd__areas_end(b->padded)) return 0;
 #endif
-  return nsvcd__inner_is_sound(b);
+  // the body of triangles within
+  const char *at = (const char *)b + b->inner;
+  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
+  const size_t left = b->size - b->inner;
+  if (!nsvcd__header_is_sound(within, left) || within->size != left) return 0;
+  if (within->weights_id != 0 || within->open != b->open) return 0;
+  if (within->patches != b->patches || within->triangles != b->triangles) return 0;
+  return nsvcd__triangles_are_sound(within, left);
 }
 
-NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size, const nsvcd_body **body) {
-  if (!memory || !body)
-    return NSVCD_ERROR_ARGUMENT;
+NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
+                                       const nsvcd_body **body) {
+  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size))
-    return NSVCD_ERROR_BODY;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
+#endif
+  *body = b;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
+                                      const nsvcd_body **body) {
+  const nsvcd_body *b = NULL;
+  const nsvcd_result result = nsvcd_body_trust(memory, size, body ? &b : NULL);
+  if (result) return result;
   if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b))
     return NSVCD_ERROR_BODY;
   *body = b;
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size, const nsvcd_body **body) {
-  if (!memory || !body)
-    return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size))
-    return NSVCD_ERROR_BODY;
-#ifndef NSVCD_NO_NETWORK
-  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID)
-    return NSVCD_ERROR_BODY;
-#endif
-  *body = b;
-  return NSVCD_OK;
-}
-
-// Would a body, multiplied, still be within the limits of nsvcd_body_load?
-static int nsvcd__body_fits(const nsvcd_body *body, float scale) {
-  if (!nsvcd__spheres_fit(body, scale))
-    return 0;
-  const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
-  for (size_t i = 0; body->weights_id && i < nsvcd__area_numbers(body); i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most)
-      return 0;
-  }
-#ifndef NSVCD_NO_PROOF
-  const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, scale))
-    return 0;
-#endif
-  return 1;
-}
-
 // Multiplies a body of triangles; one of latents without what is within it.
 static void nsvcd__scale_part(nsvcd_body *b, float scale) {
-  nsvcd__scale_spheres(b, scale);
-  if (b->weights_id == 0) {
-#ifndef NSVCD_NO_PROOF
-    nsvcd__scale_facets(b, scale);
-    nsvcd__facets_finish(b);
-#endif
+  const size_t padded = b->padded;
+  float *spheres = (float *)(b + 1);
+  for (size_t i = 0; i < 3 * padded + b->patches; i++) spheres[i] *= scale;
+  if (b->weights_id != 0) {
+    float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+    for (size_t i = 0; i < 3 * nsvcd__area_slots(padded); i++) {
+      areas[i] *= scale;
+      areas[i] *= scale;
+    }
+    nsvcd__body_finish(b);
     return;
   }
-  float *areas = nsvcd__areas_to_write(b);
-  for (size_t i = 0; i < nsvcd__area_numbers(b); i++) {
-    areas[i] *= scale;
-    areas[i] *= scale;
+#ifndef NSVCD_NO_PROOF
+  // What rounding does to a vertex goes to the slacks and quanta.
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  const double by = (double)scale;
+  float *discs = (float *)nsvcd__writable(b, f.discs);
+  float *steps = (float *)nsvcd__writable(b, f.steps);
+  float *slacks = (float *)nsvcd__writable(b, f.slacks);
+  float *quanta = (float *)nsvcd__writable(b, f.quanta);
+  float *seeds = (float *)nsvcd__writable(b, f.seeds);
+  for (size_t i = 0; i < b->patches; i++) {
+    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
+    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    steps[i] *= scale;
+    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
+    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
+    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
+    disc.low = (float)((double)disc.low * by - rounding);
+    disc.high = (float)((double)disc.high * by + rounding);
+    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
+    nsvcd__disc_store(disc, discs, padded, i);
   }
-  nsvcd__body_finish(b);
+  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  nsvcd__facets_finish(b);
+#endif
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
   if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (capacity < body->size || !nsvcd__is_aligned(memory))
-    return NSVCD_ERROR_WORKSPACE;
+  if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
 #ifdef NSVCD_NO_PROOF
   // The triangles would keep their size; nor were they looked at when the body was loaded.
-  if (body->triangles)
-    return NSVCD_ERROR_BODY;
+  if (body->triangles) return NSVCD_ERROR_BODY;
 #endif
-  if (!nsvcd__body_fits(body, scale))
-    return NSVCD_ERROR_ARGUMENT;
-  memmove(memory, body, body->size);  // in place is allowed
+  // Would it still be within the limits of nsvcd_body_load?
+  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+  const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
+  const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
+  for (size_t i = 0; i < numbers; i++) {
+    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_ARGUMENT;
+  }
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+#endif
+  // in place is allowed
+  memmove(memory, body, body->size);
   nsvcd_body *b = (nsvcd_body *)memory;
 #ifndef NSVCD_NO_PROOF
-  if (b->inner)
-    nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
+  if (b->inner) nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
 #endif
   nsvcd__scale_part(b, scale);
   *scaled = b;
@@ -7733,38 +5862,31 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius) {
-  if (!body || patch >= body->patches)
-    return 0;
+  if (!body || patch >= body->patches) return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
   *radius = sphere.radius;
   return 1;
 }
 
-// ---------------------------------------------------------------------------------------- encoding
+// ------------------------------------------------------------------------------------- body/encode
 // In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
 // and triangles; then all of them become one blob, neighbours side by side.
 
 #ifndef NSVCD_NO_ENCODER
-// What is to be encoded, and how, with the defaults filled in.
-typedef struct nsvcd__encode_settings {
-  const nsvcd_mesh *mesh;
-  const nsvcd_allocator *allocator;
-  size_t patches;  // N
-  int open, latents, triangles;
-  nsvcd_progress *progress;
-  void *user;
-} nsvcd__encode_settings;
-
 // What a body is built of.
 typedef struct nsvcd__parts {
-  const nsvcd__encode_settings *settings;
+  const nsvcd_mesh *mesh;
+  // with the defaults filled in: `patches` is not 0, `latents` says whether there are to be any
+  const nsvcd_encode_options *options;
+  // of all the arrays
+  nsvcd__arena arena;
   size_t count;        // N
   nsvcd__f3 *centres;  // (N)
   // bytes; 0: without
   size_t latents_size, facets_size;
 #ifndef NSVCD_NO_NETWORK
-  // Of a body with latents, else NULL:
+  // Of a body with latents, else empty:
   float *radii;      // (N)
   nsvcd__f3 *areas;  // (N)
   int8_t *latents;   // (N, LATENT)
@@ -7775,226 +5897,146 @@ typedef struct nsvcd__parts {
 #endif
 } nsvcd__parts;
 
-static void nsvcd__parts_free(nsvcd__parts *parts) {
-  const nsvcd_allocator *allocator = parts->settings->allocator;
-#ifndef NSVCD_NO_NETWORK
-  nsvcd__free(allocator, parts->radii);
-  nsvcd__free(allocator, parts->areas);
-  nsvcd__free(allocator, parts->latents);
-#endif
-#ifndef NSVCD_NO_PROOF
-  nsvcd__surface_free(&parts->surface);
-#endif
-  nsvcd__free(allocator, parts->centres);
+static int nsvcd__is_cancelled(const nsvcd_encode_options *options, double done) {
+  return options->progress && options->progress((float)done, options->user);
 }
-
-static int nsvcd__is_cancelled(const nsvcd__encode_settings *settings, double done) {
-  return settings->progress && settings->progress((float)done, settings->user);
-}
-
-// Room for all patches; 0 without memory, and the caller frees.
-static int nsvcd__parts_alloc(nsvcd__parts *parts, size_t components) {
-  const nsvcd__encode_settings *settings = parts->settings;
-  const nsvcd_allocator *allocator = settings->allocator;
-  parts->centres = nsvcd__alloc_f3s(allocator, settings->patches);
-  if (!parts->centres)
-    return 0;
-#ifndef NSVCD_NO_NETWORK
-  if (settings->latents) {
-    parts->radii = nsvcd__alloc_floats(allocator, settings->patches);
-    parts->areas = nsvcd__alloc_f3s(allocator, settings->patches);
-    parts->latents = (int8_t *)nsvcd__alloc_array(allocator, settings->patches, NSVCD__LATENT);
-    if (!parts->radii || !parts->areas || !parts->latents)
-      return 0;
-  }
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (settings->triangles)
-    return nsvcd__surface_begin(settings->patches, components, allocator, &parts->surface);
-#endif
-  (void)components;
-  return 1;
-}
-
-#ifndef NSVCD_NO_NETWORK
-// Adds the latents of one region's patches. margin: metres by which the surface may stick out of
-// their balls.
-static void nsvcd__parts_add_latents(const nsvcd__patches *patches, double margin,
-                                     nsvcd__parts *parts) {
-  float *radii = parts->radii + parts->count;
-  nsvcd__f3 *areas = parts->areas + parts->count;
-  int8_t *latents = parts->latents + NSVCD__LATENT * parts->count;
-  memcpy(areas, patches->area_vectors, patches->count * sizeof *areas);
-  for (size_t i = 0; i < patches->count; i++) {
-    const float radius = patches->radii[i];
-    const size_t first = patches->offsets[i];
-    nsvcd__encoded patch;
-    patch.samples = patches->samples + first;
-    patch.normals = patches->normals + first;
-    patch.count = patches->offsets[i + 1] - first;
-    patch.centre = patches->centres[i];
-    patch.inverse_radius = radius > 0 ? 1 / radius : 0;
-    float latent[NSVCD__LATENT];
-    nsvcd__encode_patch(&patch, latent);
-    for (size_t k = 0; k < NSVCD__LATENT; k++)
-      latents[NSVCD__LATENT * i + k] = (int8_t)lrintf(127 * latent[k]);
-    radii[i] = radius;
-    if (margin > 0)
-      radii[i] = (float)(((double)radius + margin) * (1 + 1e-7));
-  }
-}
-#endif
 
 // Adds the patches of region n, at most so many.
 static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *regions, size_t n,
                                      size_t most) {
   nsvcd__region region;
   nsvcd__patches patches;
-  nsvcd_result result = nsvcd__region_begin(regions, n, &region);
-  if (result)
-    return result == NSVCD_ERROR_EMPTY ? NSVCD_OK : result;
-  result = nsvcd__patches_build(&region.mesh, most, regions->allocator, &patches);
-  if (!result) {
-    nsvcd__f3 *centres = parts->centres + parts->count;
-    memcpy(centres, patches.centres, patches.count * sizeof *centres);
-#ifndef NSVCD_NO_PROOF
-    if (parts->settings->triangles)
-      result = nsvcd__surface_add(&region, &patches, &parts->surface);
-#endif
+  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
+  nsvcd_result result = nsvcd__region_begin(regions, n, &spare, &region);
+  if (result == NSVCD_ERROR_EMPTY) return NSVCD_OK;
+  if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
+  const size_t count = result ? 0 : patches.count;
+  for (size_t i = 0; i < count; i++) parts->centres[parts->count + i] = patches.centres[i];
 #ifndef NSVCD_NO_NETWORK
-    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most.
-    const double margin = region.cut_count > 0 ? 1.1e-7 * region.greatest : 0;
-    if (parts->settings->latents)
-      nsvcd__parts_add_latents(&patches, margin, parts);
-#endif
-    parts->count += patches.count;
-    nsvcd__patches_free(&patches, regions->allocator);
+  for (size_t i = 0; parts->options->latents && i < count; i++) {
+    const size_t to = parts->count + i;
+    const float radius = patches.radii[i];
+    const size_t first = patches.offsets[i];
+    nsvcd__encoded patch;
+    patch.samples = patches.samples + first;
+    patch.normals = patches.normals + first;
+    patch.count = patches.offsets[i + 1] - first;
+    patch.centre = patches.centres[i];
+    patch.inverse_radius = radius > 0 ? 1 / radius : 0;
+    float latent[NSVCD__LATENT];
+    nsvcd__encode_patch(&patch, latent);
+    for (size_t k = 0; k < NSVCD__LATENT; k++)
+      parts->latents[NSVCD__LATENT * to + k] = (int8_t)lrintf(127 * latent[k]);
+    // The mesh has the cuts rounded: each coordinate by half a unit in the last place, at most. By
+    // so much the surface may stick out of the balls.
+    const double margin = 1.1e-7 * region.greatest;
+    const double wider = ((double)radius + margin) * (1 + 1e-7);
+    parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
+    parts->areas[to] = patches.area_vectors[i];
   }
-  nsvcd__region_end(regions, &region);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!result && !parts->options->no_triangles)
+    result = nsvcd__surface_add(&region, &patches, &spare, &parts->surface);
+#endif
+  parts->count += count;
+  if (!result) nsvcd__region_end(regions, &region);
+  nsvcd__arena_free(&spare);
   return result;
 }
 
-// Everything but the blob, region by region.
-static nsvcd_result nsvcd__parts_describe(nsvcd__parts *parts, nsvcd__regions *regions) {
-  const nsvcd__encode_settings *settings = parts->settings;
-  const size_t count = regions->count;
-  if (!nsvcd__parts_alloc(parts, regions->component_count))
-    return NSVCD_ERROR_MEMORY;
-  for (size_t n = 0; n < count; n++) {
-    if (nsvcd__is_cancelled(settings, (double)(n + 1) / (double)(count + 2)))
-      return NSVCD_ERROR_CANCELLED;
-    const size_t before = settings->patches * n / count;
-    const size_t most = settings->patches * (n + 1) / count - before;
-    const nsvcd_result result = nsvcd__parts_add(parts, regions, n, most);
-    if (result)
-      return result;
-  }
-#ifndef NSVCD_NO_NETWORK
-  if (settings->latents)
-    parts->latents_size = nsvcd_body_size(parts->count);
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (!settings->triangles)
-    return NSVCD_OK;
-  parts->counts = nsvcd__facets_count(&parts->surface);
-  parts->facets_size = nsvcd__facets_size(parts->count, &parts->counts);
-  if (!parts->facets_size)
-    return NSVCD_ERROR_TOO_LARGE;
-#endif
-  return NSVCD_OK;
-}
-
-// On success release with nsvcd__parts_free. MEMORY, CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd__encode_settings *settings,
-                                       nsvcd__parts *parts) {
+// Everything but the blob, region by region. On success release with nsvcd__arena_free. MEMORY,
+// CANCELLED, TOO_LARGE.
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
+                                       const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  const size_t patches = options->patches;
+  nsvcd__arena spare = nsvcd__arena_of(allocator);
+  nsvcd__arena *arena = &parts->arena;
   nsvcd__regions regions;
   memset(parts, 0, sizeof *parts);
-  parts->settings = settings;
-  if (nsvcd__is_cancelled(settings, 0))
-    return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(settings->mesh, settings->patches, settings->allocator, &regions))
+  parts->mesh = mesh;
+  parts->options = options;
+  parts->arena = spare;
+  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
+  if (!nsvcd__regions_build(mesh, patches, &spare, &regions)) {
+    nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
-  const nsvcd_result result = nsvcd__parts_describe(parts, &regions);
-  nsvcd__regions_free(&regions);
-  if (result)
-    nsvcd__parts_free(parts);
+  }
+  parts->centres = NSVCD__TAKE(arena, nsvcd__f3, patches);
+#ifndef NSVCD_NO_NETWORK
+  const size_t latents = options->latents ? patches : 0;
+  parts->radii = NSVCD__TAKE(arena, float, latents);
+  parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
+  parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!options->no_triangles)
+    (void)nsvcd__surface_begin(patches, regions.component_count, arena, &parts->surface);
+#endif
+  const size_t count = regions.count;
+  nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
+  for (size_t n = 0; !result && n < count; n++) {
+    const size_t most = patches * (n + 1) / count - patches * n / count;
+    const double done = (double)(n + 1) / (double)(count + 2);
+    const int stop = nsvcd__is_cancelled(options, done);
+    result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__parts_add(parts, &regions, n, most);
+  }
+  nsvcd__arena_free(&spare);
+#ifndef NSVCD_NO_NETWORK
+  if (!result && options->latents) parts->latents_size = nsvcd_body_size(parts->count);
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!result && !options->no_triangles) {
+    nsvcd__facets none;
+    parts->counts = nsvcd__facets_count(&parts->surface);
+    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->counts, &none);
+    if (!parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
+  }
+#endif
+  if (result) nsvcd__arena_free(arena);
   return result;
 }
 
-#ifndef NSVCD_NO_NETWORK
-// Writes the body of latents to the beginning of the blob, its patches in the given order (N).
-static nsvcd_result nsvcd__parts_write_latents(const nsvcd__parts *parts, const uint16_t *order,
-                                               void *memory) {
-  nsvcd__latents_source source;
-  const nsvcd_body *built;
-  source.count = parts->count;
-  source.centres = parts->centres;
-  source.radii = parts->radii;
-  source.areas = parts->areas;
-  source.latents = parts->latents;
-  source.order = order;
-  source.weights_id = NSVCD_WEIGHTS_ID;
-  source.open = parts->settings->open;
-  return nsvcd__body_build(&source, memory, parts->latents_size, &built);
-}
-#endif
-
-#ifndef NSVCD_NO_PROOF
-// Writes the body of triangles behind that.
-static nsvcd_result nsvcd__parts_write_facets(const nsvcd__parts *parts, const uint16_t *order,
-                                              void *memory) {
-  nsvcd__facets_source source;
-  source.surface = &parts->surface;
-  source.counts = parts->counts;
-  source.triangles = parts->settings->mesh->triangle_count;
-  source.centres = parts->centres;
-  source.order = order;
-  source.open = parts->settings->open;
-  void *to = (char *)memory + parts->latents_size;
-  return nsvcd__facets_build(&source, to, parts->facets_size);
-}
-#endif
-
-// Writes the blob, (latents_size + facets_size) bytes.
-static nsvcd_result nsvcd__parts_write(const nsvcd__parts *parts, const uint16_t *order,
-                                       void *memory, const nsvcd_body **body) {
-  nsvcd_body *b = (nsvcd_body *)memory;
-  nsvcd_result result = NSVCD_OK;
-#ifndef NSVCD_NO_NETWORK
-  if (parts->latents_size)
-    result = nsvcd__parts_write_latents(parts, order, memory);
-#endif
-#ifndef NSVCD_NO_PROOF
-  if (!result && parts->facets_size)
-    result = nsvcd__parts_write_facets(parts, order, memory);
-#endif
-  if (result)
-    return result;
-  if (parts->latents_size && parts->facets_size) {
-    b->triangles = (uint32_t)parts->settings->mesh->triangle_count;
-    b->inner = (uint32_t)parts->latents_size;
-    b->size = (uint32_t)(parts->latents_size + parts->facets_size);
-    b->checksum = nsvcd__body_checksum(b);
-  }
-  *body = b;
-  return NSVCD_OK;
-}
-
-// Puts the patches in order and writes the blob. MEMORY if there is none for that.
-static nsvcd_result nsvcd__parts_order_and_write(const nsvcd__parts *parts, void *memory,
-                                                 const nsvcd_body **body) {
-  const nsvcd_allocator *allocator = parts->settings->allocator;
+// Puts the patches in order and writes the blob, (latents_size + facets_size) bytes: the body of
+// latents, then the body of triangles. MEMORY, NUMBER, EMPTY.
+static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
   const size_t count = parts->count;
-  uint16_t *order = (uint16_t *)nsvcd__alloc_array(allocator, 2 * count, sizeof(uint16_t));
-  if (!order)
-    return NSVCD_ERROR_MEMORY;
-  for (size_t i = 0; i < count; i++)
-    order[i] = (uint16_t)i;
+  const size_t triangles = parts->mesh->triangle_count;
+  const int open = parts->options->open;
+  nsvcd_body *b = (nsvcd_body *)memory;
+  uint16_t *order = NSVCD__TAKE(&parts->arena, uint16_t, 2 * count);
+  if (!order) return NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
   const nsvcd__ordering all = {parts->centres, order, order + count, count};
   nsvcd__body_order(all);
-  const nsvcd_result result = nsvcd__parts_write(parts, order, memory, body);
-  nsvcd__free(allocator, order);
-  return result;
+  nsvcd_result result = NSVCD_OK;
+#ifndef NSVCD_NO_NETWORK
+  if (parts->latents_size) {
+    nsvcd__latents_source source;
+    source.count = count;
+    source.centres = parts->centres;
+    source.radii = parts->radii;
+    source.areas = parts->areas;
+    source.latents = parts->latents;
+    source.order = order;
+    source.open = open;
+    result = nsvcd__body_build(&source, memory);
+  }
+#endif
+#ifndef NSVCD_NO_PROOF
+  if (!result && parts->facets_size) {
+    void *to = (char *)memory + parts->latents_size;
+    result = nsvcd__facets_build(&parts->surface, &parts->counts, triangles, order, open, to,
+                                 parts->facets_size);
+  }
+#endif
+  if (result || !parts->latents_size || !parts->facets_size) return result;
+  b->triangles = (uint32_t)triangles;
+  b->inner = (uint32_t)parts->latents_size;
+  b->size = (uint32_t)(parts->latents_size + parts->facets_size);
+  b->checksum = nsvcd__body_checksum(b);
+  return NSVCD_OK;
 }
 
 // How many patches, where the options do not say. area: of the mesh, square metres.
@@ -8008,70 +6050,49 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
     const double count = ceil(0.45 * area / square);
     return (size_t)fmin(fmax(count, 1), most);
   }
-  if (!triangles)
-    return NSVCD_DEFAULT_NETWORK_PATCHES;
-  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES)
-    return NSVCD_DEFAULT_PATCHES;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES)
-    return NSVCD_SMALL_PATCHES;
+  if (!triangles) return NSVCD_DEFAULT_NETWORK_PATCHES;
+  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_PATCHES;
+  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_PATCHES;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
   return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
 }
 
-// Checks mesh and options (NULL: none), and fills in the defaults; all but the allocator.
-static nsvcd_result nsvcd__encode_settings_of(const nsvcd_mesh *mesh,
-                                              const nsvcd_encode_options *options,
-                                              nsvcd__encode_settings *settings) {
-  nsvcd_encode_options o;
-  memset(&o, 0, sizeof o);
-  if (options)
-    o = *options;
-  memset(settings, 0, sizeof *settings);
-  settings->mesh = mesh;
-  settings->open = o.open;
-  settings->progress = o.progress;
-  settings->user = o.user;
-#ifndef NSVCD_NO_PROOF
-  settings->triangles = !o.no_triangles;
+// Checks mesh and options, and fills in the defaults.
+static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
+  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
+#ifdef NSVCD_NO_PROOF
+  o->no_triangles = 1;
 #endif
-#ifndef NSVCD_NO_NETWORK
-  settings->latents = !o.no_latents;
+#ifdef NSVCD_NO_NETWORK
+  o->no_latents = 1;
 #endif
-  if (!settings->triangles && !settings->latents)
-    return NSVCD_ERROR_ARGUMENT;  // nothing would be left
-  if (!nsvcd__is_finite(o.patch_radius) || o.patch_radius < 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (o.patches > NSVCD_MAX_PATCHES || (o.latents && o.no_latents))
-    return NSVCD_ERROR_ARGUMENT;
+  // nothing would be left
+  if (o->no_triangles && o->no_latents) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
+  if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
-  if (checked)
-    return checked;
+  if (checked) return checked;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0))
-    return NSVCD_ERROR_EMPTY;
-  settings->patches = o.patches;
-  if (settings->patches == 0)
-    settings->patches = nsvcd__patches_for(mesh, o.patch_radius, area, settings->triangles);
-  if (settings->triangles && settings->patches > NSVCD_SMALL_PATCHES)
-    settings->latents = settings->latents && o.latents;
+  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  if (o->patches == 0)
+    o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
+  const int any = o->no_triangles || o->patches <= NSVCD_SMALL_PATCHES || o->latents;
+  o->latents = any && !o->no_latents;
   return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory, size_t capacity,
-                                   const nsvcd_body **body) {
-  if (!body)
-    return NSVCD_ERROR_ARGUMENT;
-  if (memory && !nsvcd__is_aligned(memory))
-    return NSVCD_ERROR_WORKSPACE;
-  nsvcd__encode_settings settings;
+                                   const nsvcd_allocator *allocator, void *memory,
+                                   size_t capacity, const nsvcd_body **body) {
+  if (!body) return NSVCD_ERROR_ARGUMENT;
+  if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  nsvcd_encode_options o;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
   nsvcd__parts parts;
-  nsvcd_result result = nsvcd__encode_settings_of(mesh, options, &settings);
-  settings.allocator = allocator;
-  if (!result)
-    result = nsvcd__parts_build(&settings, &parts);
-  if (result)
-    return result;
+  nsvcd_result result = nsvcd__encode_settle(mesh, &o);
+  if (!result) result = nsvcd__parts_build(mesh, &o, allocator, &parts);
+  if (result) return result;
 
   const int fits = parts.facets_size <= 0xffffffffu - parts.latents_size;
   const size_t size = parts.latents_size + parts.facets_size;
@@ -8083,11 +6104,11 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   } else if ((memory && capacity < size) || !nsvcd__is_aligned(to)) {
     result = NSVCD_ERROR_WORKSPACE;
   } else {
-    result = nsvcd__parts_order_and_write(&parts, to, body);
+    result = nsvcd__parts_write(&parts, to);
   }
-  if (result && !memory)
-    nsvcd__free(allocator, to);
-  nsvcd__parts_free(&parts);
+  if (!result) *body = (const nsvcd_body *)to;
+  if (result && !memory) nsvcd__free(allocator, to);
+  nsvcd__arena_free(&parts.arena);
   return result;
 }
 
@@ -8097,11 +6118,463 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
   memcpy(&memory, &body, sizeof memory);
   nsvcd__free(allocator, memory);
 }
-#endif
+#endif  // NSVCD_NO_ENCODER
 
 #endif  // NSVCD__ISA
 
-// ------------------------------------------------------------------------------------------ motion
+// ===================================================================== lanes: 16 numbers at a time
+
+// ------------------------------------------------------------------------------------- lanes/lanes
+// In, out: a slice of 16 lanes: as many floats as a register holds. v is such a slice, v3 a vector
+// of three, lane by lane.
+
+// ---- what each set of instructions calls its operations; what they mean, plain C says. Names, not
+// functions, so that the sets of x86 are one text: entry/processor takes it in three times.
+
+#undef NSVCD__OP
+#undef NSVCD__OF_ALL
+#undef NSVCD__FMA
+#undef NSVCD__LE
+#undef NSVCD__LT
+#undef NSVCD__BITS
+#undef NSVCD__SELECT
+
+#if NSVCD__SLICE == 1
+typedef float nsvcd__v;
+#define nsvcd__v_load(p) (*(p))
+#define nsvcd__v_store(p, a) (*(p) = (a))
+#define nsvcd__v_set(x) ((float)(x))
+#define nsvcd__v_add(a, b) ((float)((a) + (b)))
+#define nsvcd__v_sub(a, b) ((float)((a) - (b)))
+#define nsvcd__v_mul(a, b) ((float)((a) * (b)))
+#define nsvcd__v_div(a, b) ((float)((a) / (b)))
+#define NSVCD__MIN(a, b) (a < b ? a : b)
+#define NSVCD__MAX(a, b) (a > b ? a : b)
+#define nsvcd__v_sqrt sqrtf
+#define NSVCD__LE(a, b) ((a) <= (b))
+#define NSVCD__LT(a, b) ((a) < (b))
+#define NSVCD__BITS(mask) (mask)
+#define NSVCD__SELECT(mask, x, y) (mask ? x : y)
+#else
+#define nsvcd__v_add NSVCD__OP(add)
+#define nsvcd__v_sub NSVCD__OP(sub)
+#define nsvcd__v_mul NSVCD__OP(mul)
+#define nsvcd__v_div NSVCD__OP(div)
+#endif
+
+#if defined(__wasm_simd128__) && NSVCD__SLICE == 4
+typedef v128_t nsvcd__v;
+#define NSVCD__OP(name) wasm_f32x4_##name
+#define nsvcd__v_load wasm_v128_load
+#define nsvcd__v_store wasm_v128_store
+#define nsvcd__v_set NSVCD__OP(splat)
+// pmin(b, a) is a < b ? a : b, one instruction of x86; min, which minds NaN and -0, is many.
+#define NSVCD__MIN(a, b) NSVCD__OP(pmin)(b, a)
+#define NSVCD__MAX(a, b) NSVCD__OP(pmax)(b, a)
+#define nsvcd__v_sqrt NSVCD__OP(sqrt)
+#define NSVCD__LE(a, b) NSVCD__OP(le)(a, b)
+#define NSVCD__LT(a, b) NSVCD__OP(lt)(a, b)
+#define NSVCD__BITS(mask) wasm_i32x4_bitmask(mask)
+#define NSVCD__SELECT(mask, x, y) wasm_v128_bitselect(x, y, mask)
+
+#elif defined(__aarch64__) && NSVCD__SLICE == 4
+typedef float32x4_t nsvcd__v;
+#define NSVCD__OP(name) v##name##q_f32
+#define nsvcd__v_load vld1q_f32
+#define nsvcd__v_store vst1q_f32
+#define nsvcd__v_set vdupq_n_f32
+#define NSVCD__FMA(a, b, c) vfmaq_f32(c, a, b)
+#define NSVCD__MIN(a, b) NSVCD__OP(min)(a, b)
+#define NSVCD__MAX(a, b) NSVCD__OP(max)(a, b)
+#define nsvcd__v_sqrt NSVCD__OP(sqrt)
+#define NSVCD__LE(a, b) NSVCD__OP(cle)(a, b)
+#define NSVCD__LT(a, b) NSVCD__OP(clt)(a, b)
+#define NSVCD__BITS(mask) nsvcd__v_bits(mask)
+#define NSVCD__SELECT(mask, x, y) NSVCD__OP(bsl)(mask, x, y)
+static inline uint32_t nsvcd__v_bits(uint32x4_t lanes) {
+  static const uint32_t bit[4] = {1, 2, 4, 8};
+  return vaddvq_u32(vandq_u32(lanes, vld1q_u32(bit)));
+}
+
+#elif NSVCD__SLICE > 1  // x86
+#define nsvcd__v_load NSVCD__OP(loadu)
+#define nsvcd__v_store NSVCD__OP(storeu)
+#define nsvcd__v_set NSVCD__OP(set1)
+#define NSVCD__MIN(a, b) NSVCD__OF_ALL(min, a, b)
+#define NSVCD__MAX(a, b) NSVCD__OF_ALL(max, a, b)
+#define nsvcd__v_sqrt(a) NSVCD__OF_ALL(sqrt, a)
+#endif
+
+#if NSVCD__SLICE == 16
+typedef __m512 nsvcd__v;
+#define NSVCD__OP(name) _mm512_##name##_ps
+// Masked, by a mask that takes all: without one gcc's own header warns, in C++.
+#define NSVCD__ALL ((__mmask16)0xffff)
+#define NSVCD__OF_ALL(name, ...) _mm512_maskz_##name##_ps(NSVCD__ALL, __VA_ARGS__)
+#define NSVCD__FMA(a, b, c) _mm512_fmadd_ps(a, b, c)
+#define NSVCD__LE(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ)
+#define NSVCD__LT(a, b) _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ)
+#define NSVCD__BITS(mask) mask
+#define NSVCD__SELECT(mask, x, y) _mm512_mask_blend_ps(mask, y, x)
+#elif NSVCD__SLICE == 8
+typedef __m256 nsvcd__v;
+#define NSVCD__OP(name) _mm256_##name##_ps
+#define NSVCD__OF_ALL(name, ...) _mm256_##name##_ps(__VA_ARGS__)
+#define NSVCD__FMA(a, b, c) _mm256_fmadd_ps(a, b, c)
+#define NSVCD__LE(a, b) _mm256_cmp_ps(a, b, _CMP_LE_OQ)
+#define NSVCD__LT(a, b) _mm256_cmp_ps(a, b, _CMP_LT_OQ)
+#define NSVCD__BITS(mask) _mm256_movemask_ps(mask)
+#define NSVCD__SELECT(mask, x, y) _mm256_blendv_ps(y, x, mask)
+#elif NSVCD__SLICE == 4 && !defined(NSVCD__OP)
+typedef __m128 nsvcd__v;
+#define NSVCD__OP(name) _mm_##name##_ps
+#define NSVCD__OF_ALL(name, ...) _mm_##name##_ps(__VA_ARGS__)
+#define NSVCD__LE(a, b) _mm_cmple_ps(a, b)
+#define NSVCD__LT(a, b) _mm_cmplt_ps(a, b)
+#define NSVCD__BITS(mask) _mm_movemask_ps(mask)
+#define NSVCD__SELECT(mask, x, y) _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y))
+#endif
+
+#ifndef NSVCD__FMA
+#define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
+#endif
+#define nsvcd__v_fma(a, b, c) NSVCD__FMA(a, b, c)  // a b + c
+// Bit i is set where a <= b in lane i of the slice, or a < b.
+#define nsvcd__v_le(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LE(a, b)))
+#define nsvcd__v_lt(a, b) ((uint32_t)NSVCD__BITS(NSVCD__LT(a, b)))
+static inline nsvcd__v nsvcd__v_min(nsvcd__v a, nsvcd__v b) {
+  return NSVCD__MIN(a, b);
+}
+static inline nsvcd__v nsvcd__v_max(nsvcd__v a, nsvcd__v b) {
+  return NSVCD__MAX(a, b);
+}
+// a <= b ? x : y.
+static inline nsvcd__v nsvcd__v_pick(nsvcd__v a, nsvcd__v b, nsvcd__v x, nsvcd__v y) {
+  return NSVCD__SELECT(NSVCD__LE(a, b), x, y);
+}
+// The least of all lanes.
+static inline float nsvcd__v_least(nsvcd__v a) {
+#if NSVCD__SLICE == 1
+  return a;
+#elif defined(__aarch64__)
+  return vminvq_f32(a);
+#elif defined(__wasm_simd128__)
+  const nsvcd__v two = nsvcd__v_min(a, wasm_i32x4_shuffle(a, a, 2, 3, 0, 1));
+  return wasm_f32x4_extract_lane(nsvcd__v_min(two, wasm_i32x4_shuffle(two, two, 1, 0, 3, 2)),
+                                 0);
+#else
+#if NSVCD__SLICE == 4
+  const __m128 four = a;
+#else
+#if NSVCD__SLICE == 8
+  const __m256 eight = a;
+#else
+  const __m512d whole = _mm512_castps_pd(a);
+  const __m256d low = _mm512_maskz_extractf64x4_pd(0xf, whole, 0);
+  const __m256d high = _mm512_maskz_extractf64x4_pd(0xf, whole, 1);
+  const __m256 eight = _mm256_min_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high));
+#endif
+  const __m128 four =
+      _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+#endif
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+#endif
+}
+static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
+#if NSVCD__SLICE == 1
+  return (float)*p;
+#elif defined(__aarch64__)
+  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+#elif defined(__wasm_simd128__)
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
+#elif NSVCD__SLICE == 4
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(packed, packed), 16));
+#elif NSVCD__SLICE == 8
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(packed));
+#else
+  const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
+  const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
+#endif
+}
+
+#define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
+#define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)
+
+static inline nsvcd__v nsvcd__v_clamp(nsvcd__v a, float low, float high) {
+  return nsvcd__v_min(nsvcd__v_max(a, nsvcd__v_set(low)), nsvcd__v_set(high));
+}
+// All lanes times a number, and plus a number.
+static inline nsvcd__v nsvcd__v_scale(nsvcd__v a, float s) {
+  return nsvcd__v_mul(a, nsvcd__v_set(s));
+}
+static inline nsvcd__v nsvcd__v_plus(nsvcd__v a, float s) {
+  return nsvcd__v_add(a, nsvcd__v_set(s));
+}
+static inline nsvcd__v nsvcd__v_negate(nsvcd__v a) {
+  return nsvcd__v_sub(nsvcd__v_set(0), a);
+}
+
+static inline nsvcd__v nsvcd__v_abs(nsvcd__v a) {
+  return nsvcd__v_max(a, nsvcd__v_negate(a));
+}
+
+// A slice of vectors as a value, lane by lane.
+typedef struct nsvcd__v3 {
+  nsvcd__v x, y, z;
+} nsvcd__v3;
+
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_of(nsvcd__v x, nsvcd__v y, nsvcd__v z) {
+  const nsvcd__v3 out = {x, y, z};
+  return out;
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_set(nsvcd__f3 a) {
+  return nsvcd__v3_of(nsvcd__v_set(a.x), nsvcd__v_set(a.y), nsvcd__v_set(a.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_add(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_add(a.x, b.x), nsvcd__v_add(a.y, b.y), nsvcd__v_add(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_sub(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_sub(a.x, b.x), nsvcd__v_sub(a.y, b.y), nsvcd__v_sub(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_negate(nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_negate(a.x), nsvcd__v_negate(a.y), nsvcd__v_negate(a.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_min(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_min(a.x, b.x), nsvcd__v_min(a.y, b.y), nsvcd__v_min(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_max(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_max(a.x, b.x), nsvcd__v_max(a.y, b.y), nsvcd__v_max(a.z, b.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_scale(nsvcd__v3 a, nsvcd__v s) {
+  return nsvcd__v3_of(nsvcd__v_mul(s, a.x), nsvcd__v_mul(s, a.y), nsvcd__v_mul(s, a.z));
+}
+// a + s b.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_fma(nsvcd__v s, nsvcd__v3 b, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v_fma(s, b.x, a.x), nsvcd__v_fma(s, b.y, a.y),
+                      nsvcd__v_fma(s, b.z, a.z));
+}
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v_fma(a.x, b.x, nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.z, b.z)));
+}
+// s + a b.
+NSVCD__INLINE nsvcd__v nsvcd__v3_dot_add(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v s) {
+  const nsvcd__v sum = nsvcd__v_fma(a.x, b.x, s);
+  return nsvcd__v_fma(a.z, b.z, nsvcd__v_fma(a.y, b.y, sum));
+}
+NSVCD__INLINE nsvcd__v nsvcd__v3_length(nsvcd__v3 a) {
+  return nsvcd__v_sqrt(nsvcd__v3_dot(a, a));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_cross(nsvcd__v3 a, nsvcd__v3 b) {
+  return nsvcd__v3_of(nsvcd__v_sub(nsvcd__v_mul(a.y, b.z), nsvcd__v_mul(a.z, b.y)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.z, b.x), nsvcd__v_mul(a.x, b.z)),
+                      nsvcd__v_sub(nsvcd__v_mul(a.x, b.y), nsvcd__v_mul(a.y, b.x)));
+}
+// The centres of a slice of spheres, from l on.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_centres(nsvcd__spheres all, size_t l) {
+  return nsvcd__v3_of(nsvcd__v_load(all.x + l), nsvcd__v_load(all.y + l),
+                      nsvcd__v_load(all.z + l));
+}
+// Rows of x, y and z, so many numbers apart.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
+                      nsvcd__v_load(p + 2 * stride));
+}
+NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
+  nsvcd__v_store(p, a.x);
+  nsvcd__v_store(p + stride, a.y);
+  nsvcd__v_store(p + 2 * stride, a.z);
+}
+// From three rows of 16 numbers.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_rows(const float *p) {
+  return nsvcd__v3_load_rows(p, NSVCD__LANES);
+}
+// Lanes l .. l + SLICE - 1 of p (3, LANES).
+NSVCD__INLINE void nsvcd__v3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__v3 a) {
+  nsvcd__v3_store_rows(a, p[0] + l, NSVCD__LANES);
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load(float (*p)[NSVCD__LANES], size_t l) {
+  return nsvcd__v3_load_rows(p[0] + l, NSVCD__LANES);
+}
+
+// One lane alone: the vector in lane l of (3, LANES).
+static inline nsvcd__f3 nsvcd__lane_of(float (*lanes)[NSVCD__LANES], size_t l) {
+  return nsvcd__f3_get(lanes[0] + l, NSVCD__LANES);
+}
+static inline void nsvcd__lane_set(nsvcd__f3 a, float (*lanes)[NSVCD__LANES], size_t l) {
+  nsvcd__f3_put(a, lanes[0] + l, NSVCD__LANES);
+}
+// Vectors over their lengths; the x axis where that is 0.
+static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v least = nsvcd__v_set(1e-18f);
+  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v inverse = nsvcd__v_div(one, nsvcd__v_max(length, least));
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
+  return nsvcd__v3_of(nsvcd__v_pick(length, least, one, unit.x),
+                      nsvcd__v_pick(length, least, zero, unit.y),
+                      nsvcd__v_pick(length, least, zero, unit.z));
+}
+
+// ------------------------------------------------------------------------------------- lanes/turns
+// In, out: rotations, lane by lane: vquat and vmat3 are a slice of quaternions and of matrices.
+
+typedef struct nsvcd__vquat {
+  nsvcd__v x, y, z, w;
+} nsvcd__vquat;
+
+// Matrices by their rows.
+typedef struct nsvcd__vmat3 {
+  nsvcd__v3 x, y, z;
+} nsvcd__vmat3;
+
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_of(nsvcd__v3 axis, nsvcd__v w) {
+  const nsvcd__vquat out = {axis.x, axis.y, axis.z, w};
+  return out;
+}
+// times the sine of half the angle
+NSVCD__INLINE nsvcd__v3 nsvcd__vquat_axis(nsvcd__vquat q) {
+  return nsvcd__v3_of(q.x, q.y, q.z);
+}
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
+  return nsvcd__vquat_of(nsvcd__v3_set(nsvcd__f3_of(q.x, q.y, q.z)), nsvcd__v_set(q.w));
+}
+// Rows of x, y, z and w, so many numbers apart.
+NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
+  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+}
+NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
+  nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
+  nsvcd__v_store(p + 3 * stride, q.w);
+}
+static inline nsvcd__v nsvcd__vquat_dot(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v sum = nsvcd__v_fma(a.y, b.y, nsvcd__v_mul(a.x, b.x));
+  return nsvcd__v_fma(a.w, b.w, nsvcd__v_fma(a.z, b.z, sum));
+}
+// a + s b.
+static inline nsvcd__vquat nsvcd__vquat_fma(nsvcd__v s, nsvcd__vquat b, nsvcd__vquat a) {
+  return nsvcd__vquat_of(nsvcd__v3_fma(s, nsvcd__vquat_axis(b), nsvcd__vquat_axis(a)),
+                         nsvcd__v_fma(s, b.w, a.w));
+}
+static inline nsvcd__vquat nsvcd__vquat_unit(nsvcd__vquat q) {
+  const nsvcd__v length = nsvcd__v_sqrt(nsvcd__vquat_dot(q, q));
+  const nsvcd__vquat out = {nsvcd__v_div(q.x, length), nsvcd__v_div(q.y, length),
+                            nsvcd__v_div(q.z, length), nsvcd__v_div(q.w, length)};
+  return out;
+}
+// of unit ones
+static inline nsvcd__vquat nsvcd__vquat_inverse(nsvcd__vquat q) {
+  return nsvcd__vquat_of(nsvcd__v3_negate(nsvcd__vquat_axis(q)), q.w);
+}
+static inline nsvcd__vquat nsvcd__vquat_mul(nsvcd__vquat a, nsvcd__vquat b) {
+  const nsvcd__v3 u = nsvcd__vquat_axis(a);
+  const nsvcd__v3 v = nsvcd__vquat_axis(b);
+  const nsvcd__v3 along = nsvcd__v3_fma(a.w, v, nsvcd__v3_scale(u, b.w));
+  const nsvcd__v cosines = nsvcd__v_mul(a.w, b.w);
+  return nsvcd__vquat_of(nsvcd__v3_add(nsvcd__v3_cross(u, v), along),
+                         nsvcd__v_sub(cosines, nsvcd__v3_dot(u, v)));
+}
+
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_rows(nsvcd__v3 x, nsvcd__v3 y, nsvcd__v3 z) {
+  const nsvcd__vmat3 out = {x, y, z};
+  return out;
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
+  return nsvcd__vmat3_rows(nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z));
+}
+// The matrix in lane l of p (9, LANES), row-major.
+static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
+  const nsvcd__mat3 out = {nsvcd__lane_of(p, l), nsvcd__lane_of(p + 3, l),
+                           nsvcd__lane_of(p + 6, l)};
+  return out;
+}
+// p: (9, LANES), row-major.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_load(float (*p)[NSVCD__LANES], size_t l) {
+  return nsvcd__vmat3_rows(nsvcd__v3_load(p, l), nsvcd__v3_load(p + 3, l),
+                           nsvcd__v3_load(p + 6, l));
+}
+NSVCD__INLINE void nsvcd__vmat3_store(float (*p)[NSVCD__LANES], size_t l, nsvcd__vmat3 m) {
+  nsvcd__v3_store(p, l, m.x);
+  nsvcd__v3_store(p + 3, l, m.y);
+  nsvcd__v3_store(p + 6, l, m.z);
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_scale(nsvcd__vmat3 m, nsvcd__v s) {
+  return nsvcd__vmat3_rows(nsvcd__v3_scale(m.x, s), nsvcd__v3_scale(m.y, s),
+                           nsvcd__v3_scale(m.z, s));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_sub(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  return nsvcd__vmat3_rows(nsvcd__v3_sub(a.x, b.x), nsvcd__v3_sub(a.y, b.y),
+                           nsvcd__v3_sub(a.z, b.z));
+}
+// a + s b.
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_fma(nsvcd__v s, nsvcd__vmat3 b, nsvcd__vmat3 a) {
+  return nsvcd__vmat3_rows(nsvcd__v3_fma(s, b.x, a.x), nsvcd__v3_fma(s, b.y, a.y),
+                           nsvcd__v3_fma(s, b.z, a.z));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_transpose(nsvcd__vmat3 m) {
+  return nsvcd__vmat3_rows(nsvcd__v3_of(m.x.x, m.y.x, m.z.x),
+                           nsvcd__v3_of(m.x.y, m.y.y, m.z.y),
+                           nsvcd__v3_of(m.x.z, m.y.z, m.z.z));
+}
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply(nsvcd__vmat3 m, nsvcd__v3 a) {
+  return nsvcd__v3_of(nsvcd__v3_dot(m.x, a), nsvcd__v3_dot(m.y, a), nsvcd__v3_dot(m.z, a));
+}
+NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_mul(nsvcd__vmat3 a, nsvcd__vmat3 b) {
+  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(b);
+  return nsvcd__vmat3_rows(nsvcd__vmat3_apply(columns, a.x), nsvcd__vmat3_apply(columns, a.y),
+                           nsvcd__vmat3_apply(columns, a.z));
+}
+// p + m a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_add(nsvcd__vmat3 m, nsvcd__v3 a, nsvcd__v3 p) {
+  return nsvcd__v3_of(nsvcd__v3_dot_add(m.x, a, p.x), nsvcd__v3_dot_add(m.y, a, p.y),
+                      nsvcd__v3_dot_add(m.z, a, p.z));
+}
+// The sum of the squares of the entries.
+NSVCD__INLINE nsvcd__v nsvcd__vmat3_square(nsvcd__vmat3 m) {
+  const nsvcd__v sum = nsvcd__v3_dot_add(m.x, m.x, nsvcd__v_set(0));
+  return nsvcd__v3_dot_add(m.z, m.z, nsvcd__v3_dot_add(m.y, m.y, sum));
+}
+// The transpose of m, times a.
+NSVCD__INLINE nsvcd__v3 nsvcd__vmat3_apply_transpose(nsvcd__vmat3 m, nsvcd__v3 a) {
+  return nsvcd__v3_fma(a.z, m.z, nsvcd__v3_fma(a.y, m.y, nsvcd__v3_scale(m.x, a.x)));
+}
+// One rotation and position for all lanes.
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_transform(const nsvcd__transform *t, nsvcd__v3 a) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(t->rotation);
+  nsvcd__v3 sum = nsvcd__v3_set(t->position);
+  sum = nsvcd__v3_fma(a.z, nsvcd__v3_set(columns.z), sum);
+  sum = nsvcd__v3_fma(a.y, nsvcd__v3_set(columns.y), sum);
+  return nsvcd__v3_fma(a.x, nsvcd__v3_set(columns.x), sum);
+}
+
+// Of quaternions that need not be of unit length, but whose squares float holds.
+static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
+  const nsvcd__v square = nsvcd__v_add(nsvcd__v_mul(q.w, q.w), nsvcd__v3_dot(axis, axis));
+  const nsvcd__v3 s = nsvcd__v3_scale(axis, nsvcd__v_div(nsvcd__v_set(2), square));
+  // products of twice x and of w with each, and those that are left
+  const nsvcd__v3 x = nsvcd__v3_scale(axis, s.x);
+  const nsvcd__v3 w = nsvcd__v3_scale(s, q.w);
+  const nsvcd__v yy = nsvcd__v_mul(s.y, q.y);
+  const nsvcd__v zz = nsvcd__v_mul(s.z, q.z);
+  const nsvcd__v yz = nsvcd__v_mul(s.y, q.z);
+  return nsvcd__vmat3_rows(
+      nsvcd__v3_of(nsvcd__v_sub(one, nsvcd__v_add(yy, zz)), nsvcd__v_sub(x.y, w.z),
+                   nsvcd__v_add(x.z, w.y)),
+      nsvcd__v3_of(nsvcd__v_add(x.y, w.z), nsvcd__v_sub(one, nsvcd__v_add(x.x, zz)),
+                   nsvcd__v_sub(yz, w.x)),
+      nsvcd__v3_of(nsvcd__v_sub(x.z, w.y), nsvcd__v_add(yz, w.x),
+                   nsvcd__v_sub(one, nsvcd__v_add(x.x, yy))));
+}
+
+// ======================================================================== motion: where bodies are
+
+// ----------------------------------------------------------------------------------- motion/motion
 // In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
 // position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
 // *moving*, in the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame
@@ -8116,19 +6589,24 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 
 // The poses of one body.
 typedef struct nsvcd__track {
-  const nsvcd_pose *poses;  // (count), the caller's
+  // (count), the caller's
+  const nsvcd_pose *poses;
   size_t count;
-  uint32_t ticks;  // from a pose to the next; all of them where there is one pose
+  // from a pose to the next; all of them where there is one pose
+  uint32_t ticks;
 } nsvcd__track;
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
-  uint32_t ticks;            // in all
-  double begin, duration;    // t: 0 and 1; of one end alone 0 or 1, and 0
-  int fixed_moves;           // else it has one pose
-  float scale;               // of the moving body, over that of the fixed one,
-  float per_scale;           // and the other way round
-  float unit;                // of the fixed body's frame: its scale, metres
+  uint32_t ticks;  // in all
+  // t: 0 and 1; of one end alone 0 or 1, and 0
+  double begin, duration;
+  // else it has one pose
+  int fixed_moves;
+  float scale;      // of the moving body, over that of the fixed one,
+  float per_scale;  // and the other way round
+  // of the fixed body's frame: its scale, metres
+  float unit;
   nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
   // world axes to the fixed body's axes at t = 0
   nsvcd__mat3 to_fixed;
@@ -8141,7 +6619,8 @@ typedef struct nsvcd__motion {
 
 // Are all numbers in range and all quaternions of unit length, to 1e-4?
 static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
-  const float *numbers = poses->position;  // 7 to a pose
+  // 7 to a pose
+  const float *numbers = poses->position;
   uint32_t most = 0;
   float shortest = 1;
   float longest = 1;
@@ -8149,8 +6628,7 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
     const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
   }
-  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE))
-    return 0;
+  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
   for (size_t k = 0; k < count; k++) {
     const float *q = poses[k].rotation;
     const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
@@ -8173,38 +6651,22 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
 }
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
-  if (!mover->body)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
   const float scale = mover->scale;
-  if (!nsvcd__is_finite(scale) || scale < 0)
-    return NSVCD_ERROR_SCALE;
+  if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
-    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE)
-      return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->radius < NSVCD_MIN_RADIUS)
-      return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_SCALE;
+    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
-  if (!mover->poses)
-    return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
   return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
 }
 
-static uint32_t nsvcd__common_divisor(uint32_t a, uint32_t b) {
-  while (b) {
-    const uint32_t rest = a % b;
-    a = b;
-    b = rest;
-  }
-  return a;
-}
-
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
-  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin, nsvcd__pose_count(mover),
-                        0};
+  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
+                        nsvcd__pose_count(mover), 0};
   return track;
 }
 
@@ -8213,20 +6675,27 @@ static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
-  motion->ticks = a / nsvcd__common_divisor(a, b) * b * parts;
+  uint32_t divisor = a;
+  for (uint32_t rest = b; rest;) {
+    const uint32_t next = divisor % rest;
+    divisor = rest;
+    rest = next;
+  }
+  motion->ticks = a / divisor * b * parts;
   motion->moving.ticks = motion->ticks / a;
   motion->fixed.ticks = motion->ticks / b;
 }
 
 // The box of a track's positions.
-static void nsvcd__track_box(const nsvcd__track *track, nsvcd__f3 *low, nsvcd__f3 *high) {
-  *low = nsvcd__f3_load(track->poses->position);
-  *high = *low;
+static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
+  nsvcd__box box;
+  box.low = box.high = nsvcd__f3_load(track->poses->position);
   for (size_t n = 1; n < track->count; n++) {
     const nsvcd__f3 position = nsvcd__f3_load(track->poses[n].position);
-    *low = nsvcd__f3_min(*low, position);
-    *high = nsvcd__f3_max(*high, position);
+    box.low = nsvcd__f3_min(box.low, position);
+    box.high = nsvcd__f3_max(box.high, position);
   }
+  return box;
 }
 
 // Prepares what follows from a motion's tracks.
@@ -8243,12 +6712,10 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
   motion->to_fixed_quat = nsvcd__quat_inverse(q);
   motion->fixed_position = nsvcd__f3_load(first->position);
 
-  nsvcd__f3 fixed_low;
-  nsvcd__f3 fixed_high;
-  nsvcd__track_box(&motion->moving, &motion->low, &motion->high);
-  nsvcd__track_box(&motion->fixed, &fixed_low, &fixed_high);
-  motion->low = nsvcd__f3_sub(motion->low, fixed_high);
-  motion->high = nsvcd__f3_sub(motion->high, fixed_low);
+  const nsvcd__box at = nsvcd__track_box(&motion->moving);
+  const nsvcd__box from = nsvcd__track_box(&motion->fixed);
+  motion->low = nsvcd__f3_sub(at.low, from.high);
+  motion->high = nsvcd__f3_sub(at.high, from.low);
 }
 
 // Prepares the motion of valid movers. Keeps the pointers to their poses.
@@ -8284,7 +6751,8 @@ typedef struct nsvcd__world_pose {
 } nsvcd__world_pose;
 
 static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
-  const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation), nsvcd__d3_load(pose->position)};
+  const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation),
+                                 nsvcd__d3_load(pose->position)};
   return out;
 }
 
@@ -8304,8 +6772,7 @@ static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t t
   const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
   const uint32_t past = tick - k * track->ticks;
   const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
-  if (past == 0 || track->count == 1)
-    return nsvcd__world_pose_of(a);
+  if (past == 0 || track->count == 1) return nsvcd__world_pose_of(a);
   return nsvcd__world_pose_between(a, a + 1, (double)past / (double)track->ticks);
 }
 
@@ -8313,8 +6780,7 @@ static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t t
 static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
   const uint32_t a = motion->moving.ticks;
   const uint32_t b = motion->fixed.ticks;
-  if (a == 1 || b == 1)
-    return tick + 1;
+  if (a == 1 || b == 1) return tick + 1;
   const uint32_t after_a = (tick / a + 1) * a;
   const uint32_t after_b = (tick / b + 1) * b;
   return after_a < after_b ? after_a : after_b;
@@ -8322,9 +6788,11 @@ static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
 
 // Poses of both bodies at the times of one slice, in the world.
 typedef struct nsvcd__v_poses {
-  nsvcd__vquat moving;  // of any length
-  nsvcd__vquat fixed;   // unit; only where that body moves
-  nsvcd__v3 offset;     // of the moving body's origin from the fixed one's, metres
+  // of any length
+  nsvcd__vquat moving;
+  nsvcd__vquat fixed;  // unit; only where that body moves
+  // of the moving body's origin from the fixed one's, metres
+  nsvcd__v3 offset;
 } nsvcd__v_poses;
 
 // A slice of poses.
@@ -8356,8 +6824,7 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
 #ifndef NSVCD_NO_NETWORK
 // A track's pose at time t in [0,1].
 static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1)
-    return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
@@ -8382,11 +6849,10 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 }
 #endif
 
-// ------------------------------------------------------------------------------------- broad phase
-// In: two bodies and a motion. Out: the pairs of patches whose spheres meet at some t, as
-// candidates, deepest first. Conservative: a pair whose spheres meet at time t is always in a
-// candidate with t in [t_enter, t_exit]; if there is no candidate, the bodies' covering spheres
-// never meet, and that is a proof.
+// --------------------------------------------------------------------------------- motion/segments
+// In: a motion. Out: segments of time, and chords of spheres in them, grown so that the sphere is
+// covered all the way: the broad phase is built on that. Conservative: spheres that meet at a time
+// have chords that meet there, and if no chords do, the surfaces never meet, and that is a proof.
 //
 // Time is cut into S segments. Within one, every sphere centre c of the moving body (its frame) is
 // taken along the chord between its places at the two ends, x0 + tau v, tau in [0,1], and the
@@ -8401,8 +6867,15 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // largest at a knot. Hence
 //   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||
 //          (Frobenius >= 2-norm)
-//   spread = max over arcs of what the origin bends by  +  max over knots |p_k - its linear
-//                                                       interpolation|  +  rounding
+//   drift  = max over arcs of what the origin bends by  +  max over knots |p_k - its linear
+//                                                       interpolation|
+//   spread = drift + rounding + the clearance that is asked for
+// Along a direction n, |n| <= 1, it is less. A turn by h about the unit axis a bends the way of a
+// point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x y), which is no
+// more than |n x a| |x|: nothing along the axis. So `bulge_along_axis` and `drift_along_axis` are
+// what is left along the axis of the whole segment's turn, off which the arcs' axes may be, and
+// nsvcd__deviation puts them together.
+//
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
 // members', truly posed.
 //
@@ -8422,7 +6895,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
-#define NSVCD__FINE_TURN 0.131f     // radians, 7.5 degrees: nothing is gained by shorter segments
+#define NSVCD__FINE_TURN 0.131f  // radians, 7.5 degrees: nothing is gained by shorter segments
 // radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
 #define NSVCD__INTERVAL_TURN 0.785f
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
@@ -8436,8 +6909,10 @@ typedef struct nsvcd__candidate {
   uint16_t moving, fixed;
   float t_enter, t_exit;
   float t_least;  // where the gap is least
-  float depth;    // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
-  float score;    // what the network says, or NSVCD__NO_SCORE
+  // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
+  float depth;
+  // what the network says, or NSVCD__NO_SCORE
+  float score;
 } nsvcd__candidate;
 
 #define NSVCD__NO_SCORE (-1e30f)
@@ -8465,10 +6940,12 @@ typedef struct nsvcd__segments {
 // sees them.
 #define NSVCD__KNOTS (NSVCD__LANES + 1)
 typedef struct nsvcd__knots {
-  float moving[4 * NSVCD__KNOTS];  // (4, KNOTS) quaternions, as the next two
+  // (4, KNOTS) quaternions, as the next two
+  float moving[4 * NSVCD__KNOTS];
   float fixed[4 * NSVCD__KNOTS];
   float seen[4 * NSVCD__KNOTS];
-  float offset[3 * NSVCD__KNOTS];  // (3, KNOTS) see nsvcd__v_poses
+  // (3, KNOTS) see nsvcd__v_poses
+  float offset[3 * NSVCD__KNOTS];
 } nsvcd__knots;
 
 // What is kept of 16 segments while their knots are visited, lane by lane.
@@ -8485,7 +6962,8 @@ typedef struct nsvcd__bends {
 } nsvcd__bends;
 
 typedef struct nsvcd__cut {
-  nsvcd__knots here, last, end;  // read now, the ones before, and those at the segments' ends
+  // read now, the ones before, and those at the segments' ends
+  nsvcd__knots here, last, end;
   nsvcd__bends most;
 } nsvcd__cut;
 
@@ -8499,32 +6977,39 @@ typedef struct nsvcd__boxes {
 typedef struct nsvcd__tile {
   size_t count;
   uint16_t groups[NSVCD__TILE_SLOTS];
-  nsvcd__spheres spheres;  // the body's own where it has no more than a tile, else gathered
-  float *gathered;         // (4, NSVCD__TILE_SLOTS), or NULL
+  // the body's own where it has no more than a tile, else gathered
+  nsvcd__spheres spheres;
+  // (4, NSVCD__TILE_SLOTS), or NULL
+  float *gathered;
 } nsvcd__tile;
 
 // What a query needs memory for.
 typedef struct nsvcd__needs {
   size_t moving_groups, fixed_groups;  // of a tile
-  int large;                           // a body has more than these
-  size_t segments;                     // 16, 32, 48 or 64
-  size_t candidates;                   // of the network
+  // a body has more than these
+  int large;
+  // 16, 32, 48 or 64
+  size_t segments;
+  // of the network
+  size_t candidates;
   int proof;
 } nsvcd__needs;
 
 typedef struct nsvcd__search {
   const nsvcd_body *moving, *fixed;
-  size_t segments;       // S
-  size_t most_segments;  // that there is room for
-  float scale;           // of the moving body
+  size_t segments;  // S
+  // that there is room for
+  size_t most_segments;
+  float scale;  // of the moving body
   // (S + 1) ticks at which they begin, then the last one
   uint32_t *begin;
   float *time;  // (S + 1) of the ends of the segments
   // (S + 1) rotation arc from t = 0 to there, radians
   float *turn;
   nsvcd__segments *blocks;  // (S / 16 rounded up)
-  nsvcd__chords *group;     // (S / 16 rounded up) a moving group's
-  nsvcd__chords *members;   // (S) its 16 members', per segment
+  // (S / 16 rounded up) a moving group's
+  nsvcd__chords *group;
+  nsvcd__chords *members;  // (S) its 16 members', per segment
   // in the same place: segments are cut before any search
   nsvcd__cut *cut;
   uint64_t near_segments;  // in which the bodies' spheres meet
@@ -8554,8 +7039,7 @@ typedef struct nsvcd__search {
 // counted.
 #define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
 static void nsvcd__take_to_line(char *base, uint64_t *used) {
-  if (NSVCD__PASSED_OVER == 0)
-    return;
+  if (NSVCD__PASSED_OVER == 0) return;
   *used += base ? (0 - (uintptr_t)(base + *used)) & 63 : NSVCD__PASSED_OVER;
 }
 
@@ -8577,8 +7061,8 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
       base, used, 1, members > sizeof(nsvcd__cut) ? members : sizeof(nsvcd__cut));
   search->cut = (nsvcd__cut *)(void *)search->members;
   search->nearby_stride = needs->fixed_groups;
-  search->nearby = (uint64_t *)nsvcd__take(base, used, needs->moving_groups * needs->fixed_groups,
-                                           sizeof(uint64_t));
+  search->nearby = (uint64_t *)nsvcd__take(
+      base, used, needs->moving_groups * needs->fixed_groups, sizeof(uint64_t));
   search->moving_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
@@ -8622,7 +7106,8 @@ static nsvcd__v nsvcd__v_sign(nsvcd__v x) {
 
 // The same on the shorter arc. cosine: of half the angle; near 0, rounding may have taken the
 // longer one.
-static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b, nsvcd__v *cosine) {
+static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
+                                               nsvcd__v *cosine) {
   const nsvcd__v dot = nsvcd__vquat_dot(a, b);
   const nsvcd__v sign = nsvcd__v_sign(dot);
   *cosine = nsvcd__v_mul(sign, dot);
@@ -8643,8 +7128,7 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
       const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
       const float sign = dot < 0 ? -1.0f : 1.0f;
       float d[4];
-      for (size_t k = 0; k < 4; k++)
-        d[k] = sign * b[k] - a[k];
+      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
       chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
     }
     NSVCD__EACH_SLICE(l) {
@@ -8663,28 +7147,27 @@ static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *w
 
 // How many segments, and into how many parts a tick must be cut where there are too few for that
 // (else 1). Segments begin at ticks.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest, uint32_t *parts) {
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
+                                   uint32_t *parts) {
   const size_t ticks = motion->ticks;
   float turn;
   float widest;
   float fixed_turn = 0;
   float fixed_widest = 0;
   *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves)
-    return 1;
+  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
   nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves)
-    nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
   turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
   const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
   const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
   size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse)
-    wanted = coarse < greatest ? coarse : greatest;
-  if (wanted < 1)
-    wanted = 1;
+  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
+  if (wanted < 1) wanted = 1;
   if (ticks > wanted)
-    return ticks < NSVCD__SEGMENTS ? ticks : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS : wanted;
+    return ticks < NSVCD__SEGMENTS    ? ticks
+           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
+                                      : wanted;
   const float of_tick =
       widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
   const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
@@ -8695,36 +7178,29 @@ static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
   return ticks * *parts;
 }
 
-// Where one body moves and every tick is one of its poses: these, as the caller gave them.
-static void nsvcd__knots_copy(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
-                              nsvcd__knots *out) {
-  for (size_t l = 0; l < count; l++) {
-    const nsvcd_pose *pose = &motion->moving.poses[ticks[l]];
-    const nsvcd__f3 position = nsvcd__f3_load(pose->position);
-    const nsvcd__f3 offset = nsvcd__f3_sub(position, motion->fixed_position);
-    nsvcd__quat_put(nsvcd__quat_load(pose->rotation), out->moving + l, NSVCD__KNOTS);
-    nsvcd__f3_put(offset, out->offset + l, NSVCD__KNOTS);
-  }
-}
-
-// Reads the poses of both bodies at the first `count` of these ticks.
+// Reads the poses of both bodies at the first `count` of these ticks; where one body moves and
+// every tick is one of its poses, as the caller gave them.
 static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
                               nsvcd__knots *out) {
-  if (motion->moving.ticks == 1 && motion->moving.count > 1 && !motion->fixed_moves) {
-    nsvcd__knots_copy(motion, ticks, count, out);
-    return;
-  }
-  const nsvcd__d3 at_start = nsvcd__d3_widen(motion->fixed_position);
-  nsvcd__world_pose fixed = {{0, 0, 0, 1}, at_start};
+  const nsvcd__track *track = &motion->moving;
+  const int as_given = track->ticks == 1 && track->count > 1 && !motion->fixed_moves;
+  nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(motion->fixed_position)};
   for (size_t l = 0; l < count; l++) {
-    const nsvcd__world_pose moving = nsvcd__track_pose(&motion->moving, ticks[l]);
-    if (motion->fixed_moves)
-      fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
-    const nsvcd__d3 offset = nsvcd__d3_sub(moving.position, fixed.position);
-    nsvcd__f3_put(nsvcd__d3_narrow(offset), out->offset + l, NSVCD__KNOTS);
-    nsvcd__quat_put(moving.rotation, out->moving + l, NSVCD__KNOTS);
-    if (motion->fixed_moves)
-      nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KNOTS);
+    nsvcd__quat rotation;
+    nsvcd__f3 offset;
+    if (as_given) {
+      const nsvcd_pose *pose = &track->poses[ticks[l]];
+      rotation = nsvcd__quat_load(pose->rotation);
+      offset = nsvcd__f3_sub(nsvcd__f3_load(pose->position), motion->fixed_position);
+    } else {
+      const nsvcd__world_pose moving = nsvcd__track_pose(track, ticks[l]);
+      if (motion->fixed_moves) fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
+      rotation = moving.rotation;
+      offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
+      if (motion->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KNOTS);
+    }
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__KNOTS);
+    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KNOTS);
   }
 }
 
@@ -8748,8 +7224,7 @@ static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses 
                               nsvcd__vquat seen, size_t l, nsvcd__knots *out) {
   nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KNOTS);
   nsvcd__vquat_store(seen, out->seen + l, NSVCD__KNOTS);
-  if (!motion->fixed_moves)
-    return;
+  if (!motion->fixed_moves) return;
   nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KNOTS);
   nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KNOTS);
 }
@@ -8831,7 +7306,8 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   nsvcd__v cosine;
   nsvcd__v fixed_cosine;
   const nsvcd__v3 half = nsvcd__v_shorter_turn_between(from->moving, to->moving, &cosine);
-  const nsvcd__v3 fixed_half = nsvcd__v_shorter_turn_between(from->fixed, to->fixed, &fixed_cosine);
+  const nsvcd__v3 fixed_half =
+      nsvcd__v_shorter_turn_between(from->fixed, to->fixed, &fixed_cosine);
   const nsvcd__v sine = nsvcd__v3_length(half);
   const nsvcd__v fixed_sine = nsvcd__v3_length(fixed_half);
   const nsvcd__v sines = nsvcd__v_add(sine, fixed_sine);
@@ -8862,8 +7338,9 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
 
 // Adds the arc from the last knot to this one, which becomes the last. seen: its rotation as the
 // fixed body sees it.
-static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at, nsvcd__vquat seen,
-                           size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
+static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+                           nsvcd__vquat seen, size_t l, nsvcd__segments *out,
+                           nsvcd__cut *cut) {
   const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
   nsvcd__v_add_to(cut->most.sum + l, arc);
@@ -8880,43 +7357,13 @@ static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at
   nsvcd__knots_keep(motion, at, seen, l, &cut->last);
 }
 
-static NSVCD__APART void nsvcd__cut_last_arc(const nsvcd__motion *motion, nsvcd__segments *out,
-                                             nsvcd__cut *cut) {
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
-    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KNOTS);
-    nsvcd__cut_arc(motion, &end, seen, l, out, cut);
-  }
-}
-
-// Adds what a knot is off its segment's chord by. A share u of the segment lies before it.
-static void nsvcd__cut_off_chord(const nsvcd__motion *motion, nsvcd__v u, const nsvcd__v_pose *seen,
-                                 size_t l, nsvcd__segments *out, nsvcd__cut *cut) {
-  const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
-  const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
-  const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen->rotation);
-  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(rotation, nsvcd__v_set(motion->scale));
-  const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
-  const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
-  const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
-  const nsvcd__v3 aside = nsvcd__v3_sub(seen->position, chord);
-  nsvcd__v_keep_most(cut->most.bulge + l, nsvcd__vmat3_square(off));
-  nsvcd__v_keep_most(cut->most.spread + l, nsvcd__v3_dot(aside, aside));
-
-  const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-  const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
-  const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), aside);
-  const nsvcd__v off_axis = nsvcd__v3_dot(axis, aside);
-  nsvcd__v_keep_most(cut->most.axis_bulge + l, nsvcd__v3_dot(along, along));
-  nsvcd__v_keep_most(cut->most.axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
-  nsvcd__v_keep_most(cut->most.way_drift + l, nsvcd__v3_dot(off_way, off_way));
-}
-
 // Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at
-// begin[1..16].
+// begin[1..16]. Adds the arc up to it, and what it is off its segment's chord by.
 static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin,
                                          const uint32_t *ticks, nsvcd__segments *out,
                                          nsvcd__cut *cut) {
+  nsvcd__bends *most = &cut->most;
+  // of the segment, before the knot
   float share[NSVCD__LANES];
   nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
@@ -8927,7 +7374,25 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
     const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     nsvcd__cut_arc(motion, &at, seen.rotation, l, out, cut);
-    nsvcd__cut_off_chord(motion, nsvcd__v_load(share + l), &seen, l, out, cut);
+    const nsvcd__v u = nsvcd__v_load(share + l);
+    const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
+    const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
+    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+    const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(rotation, nsvcd__v_set(motion->scale));
+    const nsvcd__vmat3 off = nsvcd__vmat3_sub(scaled, nsvcd__vmat3_fma(u, turned, start));
+    const nsvcd__v3 position = nsvcd__v3_load(out->position, l);
+    const nsvcd__v3 chord = nsvcd__v3_fma(u, nsvcd__v3_load(out->moved, l), position);
+    const nsvcd__v3 aside = nsvcd__v3_sub(seen.position, chord);
+    nsvcd__v_keep_most(most->bulge + l, nsvcd__vmat3_square(off));
+    nsvcd__v_keep_most(most->spread + l, nsvcd__v3_dot(aside, aside));
+
+    const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
+    const nsvcd__v3 along = nsvcd__vmat3_apply_transpose(off, axis);
+    const nsvcd__v3 off_way = nsvcd__v3_cross(nsvcd__v3_load(out->way, l), aside);
+    const nsvcd__v off_axis = nsvcd__v3_dot(axis, aside);
+    nsvcd__v_keep_most(most->axis_bulge + l, nsvcd__v3_dot(along, along));
+    nsvcd__v_keep_most(most->axis_drift + l, nsvcd__v_mul(off_axis, off_axis));
+    nsvcd__v_keep_most(most->way_drift + l, nsvcd__v3_dot(off_way, off_way));
   }
 }
 
@@ -8969,7 +7434,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
 // Cuts 16 segments, of which `count` exist. begin: (17) ticks at which they begin, and the last one
 // ends. turn: (16) the angle by which each turns.
 static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin, size_t count,
-                             float lengths, nsvcd__segments *out, nsvcd__cut *cut, float *turn) {
+                             float lengths, nsvcd__segments *out, nsvcd__cut *cut,
+                             float *turn) {
   uint32_t ticks[NSVCD__LANES];
   nsvcd__cut_starts(motion, begin, out, cut);
   nsvcd__cut_ends(motion, out, cut);
@@ -8982,15 +7448,17 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
       ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
       within |= ticks[l] < begin[l + 1];
     }
-    if (within)
-      nsvcd__cut_knot(motion, begin, ticks, out, cut);
+    if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
   }
-  nsvcd__cut_last_arc(motion, out, cut);
-  NSVCD__EACH_SLICE(l) nsvcd__cut_deviations(motion, lengths, l, out, cut);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KNOTS);
+    nsvcd__cut_arc(motion, &end, seen, l, out, cut);
+    nsvcd__cut_deviations(motion, lengths, l, out, cut);
+  }
   memcpy(turn, cut->most.sum, sizeof cut->most.sum);
   // these meet nothing
-  for (size_t l = count; l < NSVCD__LANES; l++)
-    out->spread[l] = NSVCD__NOWHERE;
+  for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
 }
 
 // Chooses the segments: how many, and when they begin.
@@ -9030,8 +7498,7 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       ends[l] = search->begin[first + (l < count ? l : count)];
     nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
     nsvcd__cut_block(motion, ends, count, lengths, block, search->cut, turn);
-    for (size_t l = 0; l < count; l++)
-      block->spread[l] += clearance;
+    for (size_t l = 0; l < count; l++) block->spread[l] += clearance;
     for (size_t l = 0; l < count; l++)
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
@@ -9056,7 +7523,8 @@ static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsv
 }
 
 // Chords of one sphere, body frame, in the segments of a block.
-static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere, nsvcd__chords *out) {
+static void nsvcd__chords_of_sphere(nsvcd__segments *b, nsvcd__sphere sphere,
+                                    nsvcd__chords *out) {
   const nsvcd__v3 centre = nsvcd__v3_set(sphere.centre);
   const nsvcd__v length = nsvcd__v_set(nsvcd__f3_length(sphere.centre));
   const nsvcd__v radius = nsvcd__v_set(sphere.radius);
@@ -9167,57 +7635,52 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
   return met & wanted;
 }
 
-#ifndef NSVCD_NO_NETWORK
-// ---- intervals, for the network
+// ================================================================== search: which patches may meet
 
+// -------------------------------------------------------------------------------- search/intervals
+// In: chords of a patch, and the patches of the other body. Out: candidates, with the time in which
+// their balls meet.
+
+#ifndef NSVCD_NO_NETWORK
 // The candidates kept so far: a heap with the shallowest at its root, and the count of all
 // intervals.
 typedef struct nsvcd__candidates {
-  nsvcd__candidate *items;  // (limit), the caller's
+  // (limit), the caller's
+  nsvcd__candidate *items;
   size_t limit, count;
-  size_t total;  // intervals found, kept or not; 0: certified free
+  // intervals found, kept or not; 0: certified free
+  size_t total;
 } nsvcd__candidates;
 
 // A total order, so that ties do not depend on the order in which intervals were found.
 static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
-  if (a->depth < b->depth || a->depth > b->depth)
-    return a->depth < b->depth;
-  if (a->moving != b->moving)
-    return a->moving > b->moving;
-  if (a->fixed != b->fixed)
-    return a->fixed > b->fixed;
+  if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
+  if (a->moving != b->moving) return a->moving > b->moving;
+  if (a->fixed != b->fixed) return a->fixed > b->fixed;
   return a->t_enter > b->t_enter;
 }
 
-// Places `item` into heap[0..count), whose entry at `hole` is free, at or below that entry.
-static void nsvcd__sift_down(nsvcd__candidate *heap, size_t count, size_t hole,
-                             nsvcd__candidate item) {
-  for (;;) {
-    size_t child = 2 * hole + 1;
-    if (child >= count)
-      break;
-    if (child + 1 < count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
-      child++;
-    if (!nsvcd__is_shallower(&heap[child], &item))
-      break;
-    heap[hole] = heap[child];
-    hole = child;
-  }
-  heap[hole] = item;
-}
-
+// Counts an interval, and keeps it where there is room, or where the shallowest one can make some.
 static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidate *item) {
+  nsvcd__candidate *heap = kept->items;
+  size_t hole = 0;
   kept->total++;
   if (kept->count < kept->limit) {
-    size_t hole = kept->count++;
-    for (; hole > 0 && nsvcd__is_shallower(item, &kept->items[(hole - 1) / 2]);
-         hole = (hole - 1) / 2) {
-      kept->items[hole] = kept->items[(hole - 1) / 2];
+    for (hole = kept->count++; hole > 0; hole = (hole - 1) / 2) {
+      if (!nsvcd__is_shallower(item, &heap[(hole - 1) / 2])) break;
+      heap[hole] = heap[(hole - 1) / 2];
     }
-    kept->items[hole] = *item;
-  } else if (kept->limit > 0 && nsvcd__is_shallower(&kept->items[0], item)) {
-    nsvcd__sift_down(kept->items, kept->count, 0, *item);
+  } else {
+    if (kept->limit == 0 || !nsvcd__is_shallower(&heap[0], item)) return;
+    for (size_t child = 1; child < kept->count; child = 2 * hole + 1) {
+      if (child + 1 < kept->count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
+        child++;
+      if (!nsvcd__is_shallower(&heap[child], item)) break;
+      heap[hole] = heap[child];
+      hole = child;
+    }
   }
+  heap[hole] = *item;
 }
 
 // Contact intervals of a slice that are still growing, one per lane. Places on a segment's line are
@@ -9227,25 +7690,17 @@ typedef struct nsvcd__intervals {
   uint32_t open;  // lanes
   // segments: in which the oldest of them began, and the last that all of them reach
   size_t oldest, last;
-  nsvcd__v fresh;  // 1 in lanes without an interval, else 0
+  // 1 in lanes without an interval, else 0
+  nsvcd__v fresh;
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
-  nsvcd__v square, least_segment, least;  // of the least distance: its square, and where
+  // of the least distance: its square, and where
+  nsvcd__v square, least_segment, least;
 } nsvcd__intervals;
 
 // The time at a share of segment s.
 static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
   const float start = search->time[s];
   return start + share * (search->time[s + 1] - start);
-}
-
-// Lanes that are deeper than the shallowest of a full heap. square: of the least distance.
-static uint32_t nsvcd__deeper_than_kept(const nsvcd__candidates *kept, nsvcd__v square,
-                                        nsvcd__v radii) {
-  if (!kept->limit)
-    return 0;
-  const float share = (1 - kept->items[0].depth) * 1.000001f;
-  const nsvcd__v most = nsvcd__v_scale(radii, share > 0 ? share : 0);
-  return nsvcd__v_le(square, nsvcd__v_mul(most, most));
 }
 
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
@@ -9260,13 +7715,15 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   const nsvcd__v scaled = nsvcd__v_scale(own, search->scale);
   const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
   intervals->open &= ~lanes;
-  // most are shallower than all that is kept: only counted
+  // most are shallower than all of a full heap: only counted
   if (kept->count == kept->limit) {
-    const uint32_t deep = lanes & nsvcd__deeper_than_kept(kept, intervals->square, radii);
+    const float depth = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
+    const nsvcd__v most = nsvcd__v_scale(radii, depth > 0 ? depth : 0);
+    uint32_t deep = 0;
+    if (kept->limit) deep = lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most));
     kept->total += nsvcd__bit_count(lanes & ~deep);
     lanes = deep;
-    if (!lanes)
-      return;
+    if (!lanes) return;
   }
 
   float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE];
@@ -9291,10 +7748,8 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
     candidate.depth = depth[l];
     candidate.score = NSVCD__NO_SCORE;
     // Rounding must not put the least distance outside.
-    if (candidate.t_enter > candidate.t_least)
-      candidate.t_enter = candidate.t_least;
-    if (candidate.t_exit < candidate.t_least)
-      candidate.t_exit = candidate.t_least;
+    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
+    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
     nsvcd__candidates_add(kept, &candidate);
   }
 }
@@ -9308,113 +7763,83 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint
   uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
   size_t oldest = 0;
-  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN))
-    return cuts;
+  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
-    if (cuts >> s & 1)
-      open = 0;
+    if (cuts >> s & 1) open = 0;
     open &= met;
-    if (!open)
-      oldest = s;
+    if (!open) oldest = s;
     open = met;
   }
   return cuts;
 }
 
-// A slice of spheres on their chords in one segment, against a resting one.
-typedef struct nsvcd__meetings {
-  uint32_t met;      // lanes
-  nsvcd__v limit;    // the square of the sum of radii
-  nsvcd__v nearest;  // place of the line's nearest point
-  nsvcd__v tau;      // of the chord's
-  nsvcd__v square;   // of its distance
-  nsvcd__v half2;    // as nsvcd__intervals has it
-} nsvcd__meetings;
-
-NSVCD__INLINE nsvcd__meetings nsvcd__meetings_of(const nsvcd__chords *c, size_t l,
-                                                 nsvcd__sphere resting) {
-  nsvcd__meetings out;
-  const nsvcd__v3 way = nsvcd__chords_way(c, l);
-  const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(resting.centre));
-  const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
-  const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), resting.radius);
-  out.limit = nsvcd__v_signed_square(reach);
-  out.nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
-  out.tau = nsvcd__v_clamp(out.nearest, 0, 1);
-  const nsvcd__v3 chord = nsvcd__v3_fma(out.tau, way, d);
-  out.square = nsvcd__v3_dot(chord, chord);
-  out.met = nsvcd__v_le(out.square, out.limit);
-
-  // |d + tau way| = reach, solved from the nearest point of the line outwards: b^2 - ac would
-  // cancel on long chords.
-  const nsvcd__v3 line = nsvcd__v3_fma(out.nearest, way, d);
-  out.half2 = nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), out.limit), inverse);
-  return out;
-}
-
-// Intervals go on, or begin, where spheres meet in segment s.
-NSVCD__INLINE void nsvcd__intervals_grow(nsvcd__intervals *at, size_t s,
-                                         const nsvcd__meetings *now) {
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v segment = nsvcd__v_set((float)s);
-  const nsvcd__v before = nsvcd__v_pick(half, at->fresh, nsvcd__v_set(1e38f), at->square);
-  at->first = nsvcd__v_pick(half, at->fresh, segment, at->first);
-  at->first_nearest = nsvcd__v_pick(half, at->fresh, now->nearest, at->first_nearest);
-  at->first_half2 = nsvcd__v_pick(half, at->fresh, now->half2, at->first_half2);
-  at->last_nearest = now->nearest;
-  at->last_half2 = now->half2;
-  at->least_segment = nsvcd__v_pick(now->square, before, segment, at->least_segment);
-  at->least = nsvcd__v_pick(now->square, before, now->tau, at->least);
-  at->square = nsvcd__v_min(now->square, before);
-  at->fresh = nsvcd__v_pick(now->square, now->limit, nsvcd__v_set(0), nsvcd__v_set(1));
-  if (!at->open)
-    at->oldest = s;
-  at->open = now->met;
-  at->last = s;
-}
-
-// Are the intervals of a slice cut before segment s? See nsvcd__interval_cuts; where a slice is all
-// of them, it finds that itself.
-NSVCD__INLINE int nsvcd__intervals_are_cut(const nsvcd__intervals *at, const nsvcd__search *search,
-                                           size_t s, uint64_t cuts) {
-  if (NSVCD__SLICE < NSVCD__LANES)
-    return (int)(cuts >> s & 1);
-  if (!at->open)
-    return 0;
-  const int turns = search->turn[s + 1] - search->turn[at->oldest] > NSVCD__INTERVAL_TURN;
-  return at->last + 1 != s || turns;
-}
-
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
-// segments `wanted`. cuts: nsvcd__interval_cuts.
+// segments `wanted`. cuts: nsvcd__interval_cuts; where a slice is all lanes, it finds that itself.
 static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
-                                       uint64_t wanted, uint64_t cuts, nsvcd__candidates *kept) {
+                                       uint64_t wanted, uint64_t cuts,
+                                       nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+  const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
+  const size_t l = i % NSVCD__GROUP;
   nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    const nsvcd__chords *chords = &search->members[s];
-    const nsvcd__meetings now = nsvcd__meetings_of(chords, i % NSVCD__GROUP, patch);
-    uint32_t ended = at.open & ~now.met;
-    if (nsvcd__intervals_are_cut(&at, search, s, cuts)) {
+    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__v3 way = nsvcd__chords_way(c, l);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), patch.radius);
+    // the square of the sum of radii; the line's nearest point, and the chord's, as places on them
+    const nsvcd__v limit = nsvcd__v_signed_square(reach);
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
+    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
+    const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
+    const nsvcd__v square = nsvcd__v3_dot(chord, chord);
+    const uint32_t met = nsvcd__v_le(square, limit);
+    uint32_t ended = at.open & ~met;
+    int cut = (int)(cuts >> s & 1);
+    if (NSVCD__SLICE == NSVCD__LANES && at.open) {
+      cut = search->turn[s + 1] - search->turn[at.oldest] > NSVCD__INTERVAL_TURN;
+      cut |= at.last + 1 != s;
+    }
+    if (cut) {
       ended = at.open;
       at.fresh = one;
     }
-    if (ended)
-      nsvcd__intervals_close(&at, ended, search, i, j, kept);
-    if (now.met)
-      nsvcd__intervals_grow(&at, s, &now);
-    else
+    if (ended) nsvcd__intervals_close(&at, ended, search, i, j, kept);
+    if (!met) {
       at.fresh = one;
+      continue;
+    }
+
+    // Intervals go on, or begin. |d + tau way| = reach, solved from the nearest point of the line
+    // outwards: b^2 - ac would cancel on long chords.
+    const nsvcd__v segment = nsvcd__v_set((float)s);
+    const nsvcd__v3 line = nsvcd__v3_fma(nearest, way, d);
+    const nsvcd__v half2 =
+        nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
+    const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);
+    at.first = nsvcd__v_pick(half, at.fresh, segment, at.first);
+    at.first_nearest = nsvcd__v_pick(half, at.fresh, nearest, at.first_nearest);
+    at.first_half2 = nsvcd__v_pick(half, at.fresh, half2, at.first_half2);
+    at.last_nearest = nearest;
+    at.last_half2 = half2;
+    at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
+    at.least = nsvcd__v_pick(square, before, tau, at.least);
+    at.square = nsvcd__v_min(square, before);
+    at.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (!at.open) at.oldest = s;
+    at.open = met;
+    at.last = s;
   }
-  if (at.open)
-    nsvcd__intervals_close(&at, at.open, search, i, j, kept);
+  if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
 }
 
 // The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
@@ -9422,16 +7847,16 @@ static void nsvcd__members_against_patch(const nsvcd__search *search, size_t g, 
                                          uint64_t wanted, nsvcd__candidates *kept) {
   uint64_t cuts = 0;
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  if (NSVCD__SLICE < NSVCD__LANES)
-    cuts = nsvcd__interval_cuts(search, j, wanted);
+  if (NSVCD__SLICE < NSVCD__LANES) cuts = nsvcd__interval_cuts(search, j, wanted);
   NSVCD__EACH_SLICE(l) {
     nsvcd__slice_against_patch(search, NSVCD__GROUP * g + l, j, wanted, cuts, kept);
   }
 }
-
 #endif  // NSVCD_NO_NETWORK
 
-// ---- the search
+// ----------------------------------------------------------------------------------- search/search
+// In: two bodies and segments. Out: each pair of patches whose spheres meet, with the segments in
+// which they do, group by group.
 
 // Chords of a sphere of the moving body in all segments, into search->group.
 static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
@@ -9446,29 +7871,11 @@ static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
 }
 
 // Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
-static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s, nsvcd__spheres spheres,
-                                     float remote, nsvcd__chords *out) {
+static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
+                                     nsvcd__spheres spheres, float remote,
+                                     nsvcd__chords *out) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, remote, out);
-}
-
-// Grows a slice of boxes, from lane l on, by chords where they are near a resting sphere.
-static void nsvcd__boxes_grow(const nsvcd__chords *c, size_t l, nsvcd__sphere resting,
-                              nsvcd__boxes *out) {
-  const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
-  const nsvcd__v3 start = nsvcd__chords_start(c, l);
-  const nsvcd__v3 way = nsvcd__chords_way(c, l);
-  const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(resting.centre));
-  const nsvcd__v reach = nsvcd__v_load(c->reach + l);
-  const nsvcd__v sum = nsvcd__v_plus(reach, resting.radius);
-  const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
-  const nsvcd__v nearby = nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
-  const nsvcd__v3 end = nsvcd__v3_add(start, way);
-  const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
-  const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
-  const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
-  nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
-  nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
 }
 
 // Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
@@ -9478,7 +7885,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
                                    nsvcd__boxes *out) {
   const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
   const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
-  nsvcd__chords *chords = nsvcd__spare_chords(search);
+  nsvcd__chords *c = nsvcd__spare_chords(search);
   NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
   for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
     out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
@@ -9486,8 +7893,24 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
   }
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
-    nsvcd__chords_in_segment(search, s, groups, search->moving->extent, chords);
-    NSVCD__EACH_SLICE(l) nsvcd__boxes_grow(chords, l, fixed, out);
+    nsvcd__chords_in_segment(search, s, groups, search->moving->extent, c);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
+      const nsvcd__v3 start = nsvcd__chords_start(c, l);
+      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
+      const nsvcd__v reach = nsvcd__v_load(c->reach + l);
+      const nsvcd__v sum = nsvcd__v_plus(reach, fixed.radius);
+      const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
+      const nsvcd__v nearby =
+          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
+      const nsvcd__v3 end = nsvcd__v3_add(start, way);
+      const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
+      const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
+      const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
+      nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
+      nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
+    }
   }
 }
 
@@ -9506,54 +7929,40 @@ static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
   return touched;
 }
 
-// Groups of the fixed tile whose spheres touch the box in lane l.
-static uint32_t nsvcd__groups_at_box(nsvcd__boxes *boxes, size_t l, const nsvcd__tile *tile) {
-  const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
-  uint32_t groups = 0;
-  for (size_t first = 0; first < tile->count; first += NSVCD__LANES) {
-    const nsvcd__spheres some = nsvcd__spheres_from(tile->spheres, first);
-    groups |= nsvcd__spheres_at_box(box, some) << first;
-  }
-  return groups;
-}
-
 static uint64_t nsvcd__all_segments(const nsvcd__search *search) {
   return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
 }
 
-// Fills nearby[g] with the segments in which group g of the moving tile meets each one of the fixed
-// tile, of those `groups`. Returns how many they are over all groups.
-static size_t nsvcd__group_against_tile(nsvcd__search *search, size_t g, uint32_t groups) {
-  const nsvcd__tile *tile = &search->fixed_tile;
-  const uint64_t all = nsvcd__all_segments(search);
-  uint64_t *nearby = nsvcd__nearby(search, g);
-  size_t meetings = 0;
-  nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
-  memset(nearby, 0, tile->count * sizeof *nearby);
-  for (; groups; groups &= groups - 1) {
-    const size_t h = nsvcd__lowest_bit(groups);
-    nearby[h] = nsvcd__meet_in(search->group, all, nsvcd__sphere_of(tile->spheres, h));
-    meetings += nsvcd__bit_count(nearby[h]);
-  }
-  return meetings;
-}
-
-// Puts the steps of the search of both tiles in order. wanted: segments in which the bodies'
-// spheres meet.
+// Puts the steps of the search of both tiles in order: the groups of the moving tile that meet
+// some of the fixed tile, those that meet most of them for most of the time first; nearby[g] says
+// which, and in which segments. wanted: segments in which the bodies' spheres meet.
 static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
   uint16_t meetings[NSVCD__TILE_SLOTS];
+  const nsvcd__tile *tile = &search->fixed_tile;
   nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
   search->steps = 0;
   search->step = 0;
   search->waiting = 0;
   for (size_t g = 0; g < search->moving_tile.count; g++) {
-    if (g % NSVCD__LANES == 0)
-      nsvcd__boxes_of_groups(search, g, wanted, boxes);
-    const uint32_t groups = nsvcd__groups_at_box(boxes, g % NSVCD__LANES, &search->fixed_tile);
-    const size_t count = groups ? nsvcd__group_against_tile(search, g, groups) : 0;
+    const size_t l = g % NSVCD__LANES;
+    if (l == 0) nsvcd__boxes_of_groups(search, g, wanted, boxes);
+    const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
+    uint32_t groups = 0;
+    for (size_t first = 0; first < tile->count; first += NSVCD__LANES)
+      groups |= nsvcd__spheres_at_box(box, nsvcd__spheres_from(tile->spheres, first)) << first;
+    if (!groups) continue;
+    uint64_t *nearby = nsvcd__nearby(search, g);
+    size_t count = 0;
+    nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
+    memset(nearby, 0, tile->count * sizeof *nearby);
+    for (; groups; groups &= groups - 1) {
+      const size_t h = nsvcd__lowest_bit(groups);
+      const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
+      nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
+      count += nsvcd__bit_count(nearby[h]);
+    }
+    if (!count) continue;
     size_t at = search->steps;
-    if (!count)
-      continue;
     for (; at > 0 && meetings[at - 1] < count; at--) {
       meetings[at] = meetings[at - 1];
       search->order[at] = search->order[at - 1];
@@ -9585,8 +7994,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
 // Fills a tile with all groups of a body that has no more than that.
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
-  for (size_t g = 0; g < tile->count; g++)
-    tile->groups[g] = (uint16_t)g;
+  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
   tile->spheres = nsvcd__group_spheres(body);
 }
 
@@ -9619,7 +8027,8 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   const nsvcd__search *search = (const nsvcd__search *)what;
   const uint32_t nearby = nsvcd__spheres_at_box(search->near_box, all);
   uint32_t met = 0;
-  for (uint64_t wanted = search->near_segments; wanted && nearby & ~met; wanted &= wanted - 1) {
+  for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
+       wanted &= wanted - 1) {
     const size_t s = nsvcd__lowest_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
@@ -9636,9 +8045,13 @@ static void nsvcd__chords_of_tile(nsvcd__search *search) {
   nsvcd__chords_in_all(search, sphere);
 }
 
-// A box about the chords of search->group.
-static nsvcd__box nsvcd__box_of_way(const nsvcd__search *search) {
+// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
+// body's groups that come near it: that touch a box about its chords.
+static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
+  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
+  if (search->moving_tile.count == 0) return;
+  nsvcd__chords_of_tile(search);
   for (size_t s = 0; s < search->segments; s++) {
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
@@ -9651,24 +8064,13 @@ static nsvcd__box nsvcd__box_of_way(const nsvcd__search *search) {
     box.low = nsvcd__f3_min(box.low, low);
     box.high = nsvcd__f3_max(box.high, high);
   }
-  return box;
-}
-
-// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
-// body's groups that come near it.
-static void nsvcd__search_moving_tile(nsvcd__search *search) {
-  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
-  if (search->moving_tile.count == 0)
-    return;
-  nsvcd__chords_of_tile(search);
-  search->near_box = nsvcd__box_of_way(search);
+  search->near_box = box;
   nsvcd__walk_begin(&search->fixed_walk, search->fixed, nsvcd__is_approached, search);
 }
 
 // Goes on to the next tile that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__search *search) {
-  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed))
-    return 0;
+  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search);
     nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
@@ -9677,8 +8079,7 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
       continue;
     }
     nsvcd__search_tile(search, search->near_segments);
-    if (search->steps > 0)
-      return 1;
+    if (search->steps > 0) return 1;
   }
   return 0;
 }
@@ -9700,13 +8101,11 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
-    if (wanted)
-      nsvcd__search_tile(search, wanted);
+    if (wanted) nsvcd__search_tile(search, wanted);
     return search->steps > 0;
   }
   search->moving_tile.count = 0;
-  if (!wanted)
-    return 0;
+  if (!wanted) return 0;
   nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
   nsvcd__walk_begin(&search->moving_walk, moving, filter, search);
   nsvcd__search_moving_tile(search);
@@ -9721,8 +8120,7 @@ static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
 
 // Fills members[] with what is missing of the segments `wanted`.
 static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
-  if (!(wanted & ~search->posed))
-    return;
+  if (!(wanted & ~search->posed)) return;
   const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
   search->remote = nsvcd__group_reach(search->moving, g);
@@ -9735,8 +8133,8 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
 
 // Patches of group h of the fixed body that moving group g meets, and in which segments, of those
 // `wanted`: segments (GROUP), written for these patches.
-static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h, uint64_t wanted,
-                                             uint64_t *segments) {
+static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
+                                             uint64_t wanted, uint64_t *segments) {
   const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
   uint32_t met = 0;
@@ -9762,15 +8160,13 @@ static size_t nsvcd__search_group(nsvcd__search *search) {
   size_t most = 0;
   for (size_t h = 0; h < search->fixed_tile.count; h++) {
     const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
-    if (count > 0)
-      search->waiting |= (uint32_t)1 << h;
+    if (count > 0) search->waiting |= (uint32_t)1 << h;
     if (count > most) {
       most = count;
       longest = h;
     }
   }
-  if (search->waiting)
-    nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
+  if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
   search->posed = 0;
   return longest;
 }
@@ -9796,8 +8192,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
     nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
   }
   search->waiting &= ~((uint32_t)1 << at);
-  if (!search->waiting)
-    search->step++;
+  if (!search->waiting) search->step++;
   return search->step < search->steps || nsvcd__search_next_tile(search);
 }
 
@@ -9825,39 +8220,46 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 
 #endif  // NSVCD_NO_NETWORK
 
-#ifndef NSVCD_NO_PROOF
-// ------------------------------------------------------------------------------------------- proof
+// ==================================================================== proof: whether surfaces meet
+
+// ------------------------------------------------------------------------------------- proof/proof
 // In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
 // certificate that the surfaces never do, or neither: undecided.
 //
-// THEOREM. Let both bodies be scaled and posed by the motions of section *motion*: between two
+// THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
 // poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
-// and no component of one lies within the other.
-//   1. Every point of a surface lies in a piece of some patch (section *surface*). So it is enough
+// and no component of one lies within the other. src/proof/THEOREM.md walks through it.
+//   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
 //      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
 //      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
 //      item is parted by one of the steps below, or the verdict is not CERTIFIED_FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
 //      point x of the moving body (body frame) leaves the chord between its places at the ends by
-//      no more than nsvcd__deviation along any direction: that is the bulge of section *broad
-//      phase*, taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8
-//      |x|, and nothing along the axis). A plane that has the moving side's places at both ends on
-//      one side, by more than that and the clearance, has their chords there too, for a chord is
-//      convex, and so all places between.
+//      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
+//      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
+//      nothing along the axis). A plane that has the moving side's places at both ends on one side,
+//      by more than that and the clearance, has their chords there too, for a chord is convex, and
+//      so all places between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
 //      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
 //      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
 //      all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation (`rounding`, part of `spread`). Stored vertices are off by the patch's slack or
-//      quantum, which every plane allows for too. Couples of triangles are parted in double.
-//      Comparisons are such that a NaN parts nothing.
-//   6. Containment is decided at t = 0, component by component: a body that gets in or out later
-//      crosses a surface. The crossings of a ray with the closed components of the other body are
-//      counted with their sign; a ray that passes an edge too closely is replaced by another. Open
-//      components enclose nothing.
+//      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
+//      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
+//      in double. Comparisons are such that a NaN parts nothing.
+//   6. Containment is decided at t = 0, component by component: a component that is inside of the
+//      other body then, and not later, or the other way about, has crossed a surface in between. A
+//      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
+//      their signs, the triangles of the other body's closed components that it leaves and enters
+//      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
+//      edge within the quanta is given up for another; open components enclose nothing. The stored
+//      triangles, about which this is, are as far from the true ones as the quanta say: so where a
+//      stored triangle is that near to the seed, the answer counts only if planes part all patches
+//      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
+//      side of a plane, and agree.
 //
 // A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
 // mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
@@ -9885,27 +8287,29 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
 // within one patch's listings, or one ray, of its limit.
 
+#ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it.
 // The search hands over items as it finds them.
 #define NSVCD__FRESH 48  // room for items on which nothing has been tried
 #define NSVCD__NEWS 8    // of them are worth a look before the search goes on
 // A look: planes and witnesses, the deepest item first.
-#define NSVCD__DEEP 0.2f        // items as deep: a witness is sought before any plane
-#define NSVCD__PLANE_STEPS 12   // of Gilbert's iteration, for a plane between two hulls
-#define NSVCD__HOPE 8           // looks for a witness in vain, before triangles are tried as well
-#define NSVCD__HEIGHTS 256      // over the plane that held last, remembered: of moving patches,
+#define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
+#define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
+#define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
+#define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
 // What no plane parts is settled by its triangles, arc by arc.
 #define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
 #define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
-#define NSVCD__PATIENCE_TO_PART \
-  12                             // parts that couples ask for, before the span is halved for all,
-#define NSVCD__SHORTEST 0.015    // if it is longer than this share of an arc
+// Parts that couples ask for, before the span is halved for all, if it is longer than this share of
+// an arc.
+#define NSVCD__PATIENCE_TO_PART 12
+#define NSVCD__SHORTEST 0.015
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
-#define NSVCD__IN_DOUBT 8        // the share of the limit, 1 / this, that goes on after a doubt
+#define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
 // find triangles that meet where one is within the other
@@ -9922,29 +8326,36 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 typedef struct nsvcd__item {
   uint16_t moving, fixed, segment;
   uint16_t sought;  // 1: a witness has been looked for
-  float depth;      // 1 - least distance of the centres / (r1 + r2)
-  float share;      // of the segment, gone by at that time
+  // 1 - least distance of the centres / (r1 + r2)
+  float depth;
+  // of the segment, gone by at that time
+  float share;
 } nsvcd__item;
 
 // How a body turns over an arc.
 typedef struct nsvcd__leg {
-  nsvcd__dquat start, end;  // at its poses before and after: unit, on the shorter side
-  double half_angle;        // between them as quaternions: half the angle of the turn
+  // at its poses before and after: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
   // where between these poses the arc begins, and how much of the way it lasts
   double from, share;
 } nsvcd__leg;
 
 // The motion between two knots, in double and in the fixed body's units.
 typedef struct nsvcd__arc {
-  uint32_t first, ticks;  // when it begins, and how long it lasts; no ticks: none
+  // when it begins, and how long it lasts; no ticks: none
+  uint32_t first, ticks;
   int fixed_moves;
-  double scale;       // of the moving body
+  // of the moving body
+  double scale;
   nsvcd__leg moving;  // as the fixed body sees it; where that moves, in the world, and so is
   nsvcd__leg fixed;   // the fixed body's own
   // from the fixed body's origin to the moving one's, and how it changes; in the same axes
   nsvcd__d3 from, moved;
-  nsvcd__d3 lift;  // what is added to that as the fixed body sees it
-  nsvcd__d3 axis;  // of the turn, unit, if the fixed body does not turn
+  // what is added to that as the fixed body sees it
+  nsvcd__d3 lift;
+  // of the turn, unit, if the fixed body does not turn
+  nsvcd__d3 axis;
   int has_axis;
   // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
   double turn, speed;
@@ -9958,17 +8369,17 @@ typedef struct nsvcd__placement {
   nsvcd__d3 position;
 } nsvcd__placement;
 
-// A stretch of the motion. t in [0,1].
+// A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
+// metres from its origin is off the chord between its places at both ends by no more than drift +
+// bulge r, and what float computation of it is off by is no more than `rounding`.
 typedef struct nsvcd__span {
   nsvcd__transform start, end;
   double t_start, t_end;
-  float spread, bulge;    // of any direction, as in section *broad phase*
-  float rounding, drift;  // the two parts of spread
+  float rounding, drift, bulge;
   // unit; of the turn from start to end, and of the origin's way
   nsvcd__f3 axis, way;
-  float bulge_along_axis;  // what points at 1 m leave their chords by, along the axis
-  // what the origin leaves its chord by: along the axis, and across the way
-  float drift_along_axis, drift_off_way;
+  // the same along the axis; and drift across the way
+  float bulge_along_axis, drift_along_axis, drift_off_way;
 } nsvcd__span;
 
 // 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
@@ -9979,9 +8390,10 @@ typedef struct nsvcd__block {
 } nsvcd__block;
 
 typedef struct nsvcd__contact {
-  double tick;              // when
-  double distance;          // of the triangles
-  nsvcd__d3 point, normal;  // the fixed body's frame; out of the fixed body
+  double tick;      // when
+  double distance;  // of the triangles
+  // the fixed body's frame; out of the fixed body
+  nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
@@ -9989,17 +8401,33 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
-  nsvcd__d3 apart;  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
+  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
+  nsvcd__d3 apart;
 } nsvcd__touch;
 
+// What is said of a question in the end.
 typedef enum nsvcd__verdict {
-  NSVCD__FREE,  // of a part of a proof: but for doubts, which the proof remembers
+  NSVCD__FREE,
   NSVCD__MEETS,
-  NSVCD__UNDECIDED,  // of a part: the work allowed is spent
   NSVCD__WITHIN,
-  NSVCD__TOO_LONG,  // a span that had better be halved
-  NSVCD__TAKEN      // a contact was found that changes what is asked: ask again
+  NSVCD__UNDECIDED
 } nsvcd__verdict;
+
+// What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
+typedef enum nsvcd__outcome {
+  // parted, or kept as a doubt, or no longer asked about
+  NSVCD__SETTLED,
+  // where a contact was looked for, there is none
+  NSVCD__NOTHING,
+  // a contact was found that answers the question
+  NSVCD__ANSWERED,
+  // a contact was found that shrinks the question: ask again
+  NSVCD__SHRUNK,
+  // the stretch had better be halved
+  NSVCD__TOO_LONG,
+  // the work allowed is: from then on it always is
+  NSVCD__SPENT
+} nsvcd__outcome;
 
 // A pose that has been computed.
 typedef struct nsvcd__placed {
@@ -10014,7 +8442,42 @@ typedef struct nsvcd__height {
   float height;
 } nsvcd__height;
 
-// What a proof knows of a motion.
+// The question, in the fixed body's units.
+typedef struct nsvcd__given {
+  // extents of both bodies
+  float lengths;
+  // beyond the quanta
+  double tolerance;
+  double clearance, skin;
+  // `first`, a share of the motion
+  double share;
+  // is more asked for than yes or no?
+  int tells;
+  // units that may be taken
+  size_t work;
+} nsvcd__given;
+
+// What is asked at a time, of a motion. A search only ever makes it less: a contact is two
+// triangles that come within the clearance. With `measure` each contact makes that the distance of
+// its triangles, less this; with `first` each ends the motion so many ticks before it. So what is
+// proven in the end holds for the rest.
+typedef struct nsvcd__asked {
+  nsvcd__motion *motion;
+  // ticks: what begins then or later does not matter; nor does what begins with a doubt
+  double end;
+  int doubts_end;
+  double clearance, measure;
+  // a share of the motion, and as ticks
+  double share, first;
+  // units: how many may have been taken, and how many go on after a doubt
+  size_t limit, in_doubt;
+  // a try: there is a longer one after it
+  int is_brief;
+  // with a skin, contacts at the start are gathered, not taken
+  int gathers;
+} nsvcd__asked;
+
+// What is known, of a motion.
 typedef struct nsvcd__known {
   // found: if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int has_contact;
@@ -10027,107 +8490,156 @@ typedef struct nsvcd__known {
   double settled;
 } nsvcd__known;
 
+// What is only remembered: it may be forgotten at any time, and no verdict changes. Zeros: nothing.
+typedef struct nsvcd__memo {
+  // the last arc asked for, if it has ticks, and poses in arcs, the next to be forgotten
+  nsvcd__arc arc;
+  nsvcd__placed placed[NSVCD__PLACED];
+  size_t next_placed;
+  // segments that have been made spans
+  uint64_t spans;
+  // the normal of the plane between hulls that held last, how many held before, 0: none; and over
+  // it the heights of patches, moving ones and resting ones
+  nsvcd__f3 held;
+  uint32_t plane;
+  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
+  // unit: of the plane that parted a couple last
+  nsvcd__d3 parting;
+  // how many blocks of a resting patch are in p->fixed_blocks
+  size_t window;
+} nsvcd__memo;
+
 typedef struct nsvcd__proof {
-  nsvcd__motion *motion;
   nsvcd__facets moving, fixed;
-  nsvcd__arc arc;  // the last one asked for
-
-  // What is asked; lengths in the fixed body's units. A contact is two triangles that come within
-  // the clearance. With `measure` each contact makes that the distance of its triangles, less this;
-  // with `first` each ends the motion so many ticks before it. So what is proven in the end holds
-  // for the rest.
-  float lengths;     // extents of both bodies
-  double tolerance;  // beyond the quanta
-  double clearance, measure, first;
-  // as the question has them: the clearance, and `first`, a share of the motion; and whether more
-  // is asked for than yes or no
-  double asked, share;
-  int tells;
-  // while measuring: the least distance is known to be between these
-  double low, high;
-  // units: taken, how many may be now, how many in all, and how many that go on after a doubt
-  size_t work, limit, most, in_doubt;
-  // ticks: what begins then or later does not matter; nor does what begins with a doubt
-  double end;
-  int doubts_end;
-  // a try: there is a longer one after it
-  int is_brief;
-
-  // With a skin, contacts at the start are not taken at first, but gathered: those that a lift
-  // along no normal known undoes.
-  double skin;
-  int gathers;
-  size_t touch_count, normal_count;
-  nsvcd__d3 normals[NSVCD__LIFTS];  // unit, of what the moving body touches, towards it
-
+  nsvcd__given given;
+  nsvcd__asked ask;
   nsvcd__known known;
+  nsvcd__memo memo;
+  size_t work;
+  // the least distance is known to be between these
+  double low, high;
 
-  // And of the start: containment.
-  // a component seems to be within the other body, but close to its surface; a point of it, in the
-  // fixed body's frame
+  // Containment, at the start: a component seems to be within the other body, but close to its
+  // surface; a point of it, in the fixed body's frame; or that could not be told.
   int within;
   nsvcd__d3 enclosed;
-  // that could not be told
   int unclear;
 
-  // Segments as spans, made when they are asked for; and where one has been cut off.
-  uint64_t spans_known;  // segments
-  nsvcd__span *spans;    // (S)
-  double clipped_end;    // ticks: the end when a segment was cut off last
-  uint64_t clipped;      // segments
+  // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
+  // normals, unit, of what the moving body touches, towards it.
+  size_t touch_count, normal_count;
+  nsvcd__d3 normals[NSVCD__LIFTS];
 
-  // Where the search is: in a moving group; in that and a resting one. Which of its patches are
-  // met, and in which segments.
-  int in_group, in_both;
-  uint32_t met;
+  // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
+  // when that was done last.
+  nsvcd__span *spans;
+  uint64_t clipped;
+  double clipped_end;
+
+  // segments in which 16 resting patches are met
   uint64_t met_in[NSVCD__GROUP];
-
-  // Items: as the search finds them, and those that no plane parts over their segment.
-  size_t fresh_count, count;
+  // Items: as the search finds them, and those that no plane parts over their segment; and looks
+  // for a witness that found none.
+  size_t fresh_count, count, misses;
   nsvcd__item fresh[NSVCD__FRESH];
   union {
     nsvcd__item items[NSVCD__ITEMS];
-    nsvcd__touch touches[NSVCD__TOUCHES];  // gathered before there are any
+    // gathered before there are any
+    nsvcd__touch touches[NSVCD__TOUCHES];
   } of;
-  size_t misses;  // looks for a witness that found none
 
-  // An item's hulls, posed; and the plane that held last.
+  // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
+  // blocks; corners of the moving block at the ends of a span.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
-  nsvcd__f3 held;  // its normal
-  uint32_t plane;  // and how many held before; 0: none
-  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
-
-  // An item's triangles, block by block.
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
-  float posed[2][3][3][NSVCD__LANES];  // corners of the moving block at the ends of a span
-  nsvcd__box bounds[NSVCD__WINDOW];    // of the fixed blocks
-  size_t window;                       // how many they are
+  nsvcd__box bounds[NSVCD__WINDOW];
+  float posed[2][3][3][NSVCD__LANES];
 
-  // An item over an arc, and a couple: later ends of the parts to come, the last one first.
+  // An item over an arc, and a couple: later ends of the parts to come, the last one first; and how
+  // many parts of the span its couples asked for.
   nsvcd__span span;
   double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
-  size_t parts;       // of the span, that couples asked for so far
-  nsvcd__d3 parting;  // unit normal of the plane that parted a couple last
-  nsvcd__placed placed[NSVCD__PLACED];
-  size_t next_placed;
+  size_t parts;
 
-  uint32_t crossed[NSVCD__CROSSED];  // triangles that a ray has crossed
+  // triangles that a ray has crossed
+  uint32_t crossed[NSVCD__CROSSED];
 } nsvcd__proof;
+
+// Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
+static void nsvcd__forget(nsvcd__memo *memo) {
+  memo->arc.ticks = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
+  memo->next_placed = 0;
+  memo->spans = 0;
+  memo->held = nsvcd__f3_of(0, 0, 0);
+  memo->plane = 0;
+  memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->window = 0;
+}
+#ifndef NSVCD__PAUSE
+#define NSVCD__PAUSE(p) ((void)0)
+#endif
+
+// A limit that leaves so many units, if there are as many.
+static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
+  const size_t left = p->work < p->given.work ? p->given.work - p->work : 0;
+  return left > units ? p->work + units : p->given.work;
+}
+
+// What the search for the first contact may take. The rest is for the question whether there is
+// any.
+static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
+  return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+}
+
+// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
+// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
+static int nsvcd__is_spent(nsvcd__proof *p) {
+  nsvcd__asked *ask = &p->ask;
+  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
+      p->known.unsure < NSVCD__NEVER) {
+    ask->doubts_end = 1;
+    ask->end = fmin(ask->end, p->known.unsure);
+    ask->limit = nsvcd__limit_of_first(p);
+  }
+  return p->work > ask->limit;
+}
+
+// The clearance, in float: not less.
+static float nsvcd__clearance_of(const nsvcd__proof *p) {
+  return 1.000001f * (float)p->ask.clearance;
+}
+
+// What stored triangles of two patches may be off by, both together.
+static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+  return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
+}
+
+// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
+// bulges have it.
+static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
+  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
+  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
+}
 
 // Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
 // normal (3), fixed body's frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
-#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
+                       normal) \
   ((void)0)
 #endif
 enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
+#endif  // NSVCD_NO_PROOF
 
-// ---- exact poses
+// ------------------------------------------------------------------------------------- proof/poses
+// In: a motion and a tick. Out: where the moving body is, in double, to the last digits.
 
+#ifndef NSVCD_NO_PROOF
 static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
-  const nsvcd__quat q = nsvcd__quat_load(pose->rotation);
-  const nsvcd__dquat out = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
+  const float *q = pose->rotation;
+  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
   return nsvcd__dquat_unit(out);
 }
 
@@ -10179,9 +8691,9 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   leg->start = nsvcd__unit_rotation(a);
   leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
   const nsvcd__dquat difference = nsvcd__dquat_add_scaled(leg->start, -1, leg->end);
-  const double apart = nsvcd__dquat_square(difference);
+  const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_add_scaled(leg->start, 1, leg->end);
-  const double together = nsvcd__dquat_square(sum);
+  const double together = nsvcd__dquat_dot(sum, sum);
   leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 }
 
@@ -10196,37 +8708,12 @@ static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
   return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
 }
 
-// What both bodies' turns do to an arc: see nsvcd__cut_double_arc.
-static void nsvcd__arc_bend(nsvcd__arc *arc) {
-  const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
-  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
-  const nsvcd__d3 to = nsvcd__d3_add(arc->from, arc->moved);
-  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
-  const double angle = nsvcd__d3_length(fixed_turn);
-  const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
-  const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, to));
-  const double swing = fmax(swing_from, swing_to);
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-  arc->has_axis = !(angle > 0);
-  arc->turn = nsvcd__d3_length(turn);
-  arc->speed = nsvcd__d3_length(arc->moved) + swing;
-  arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
-  arc->drift = 0.1250001 * (2 * across + angle * swing);
-  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-  // the fixed body only goes along: its axes are those of its start
-  if (arc->has_axis) {
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
-    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
-  }
-}
-
 // The arc that begins at the knot `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
-  const nsvcd__motion *motion = p->motion;
-  nsvcd__arc *arc = &p->arc;
+  const nsvcd__motion *motion = p->ask.motion;
+  nsvcd__arc *arc = &p->memo.arc;
   const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
-  if (arc->first == first && arc->ticks == ticks)
-    return arc;
+  if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
   const double per_metre = 1 / (double)motion->unit;
   arc->first = first;
@@ -10240,12 +8727,29 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   if (arc->fixed_moves) {
-    nsvcd__arc_bend(arc);
+    // what both bodies' turns do: see nsvcd__cut_double_arc
+    const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
+    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+    const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+    const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+    const double angle = nsvcd__d3_length(fixed_turn);
+    const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+    const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+    const double swing = fmax(swing_from, swing_to);
+    const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+    arc->has_axis = !(angle > 0);
+    arc->turn = nsvcd__d3_length(turn);
+    arc->speed = nsvcd__d3_length(arc->moved) + swing;
+    arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+    arc->drift = 0.1250001 * (2 * across + angle * swing);
+    arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+    // where the fixed body only goes along, its axes are those of its start
+    if (arc->has_axis) arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
     return arc;
   }
 
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
   arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
   arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
@@ -10282,22 +8786,20 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
-  const nsvcd__arc *arc = &p->arc;
+  const nsvcd__arc *arc = &p->memo.arc;
   for (; n < NSVCD__PLACED; n++) {
-    const nsvcd__placed *known = &p->placed[n];
-    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u)
-      break;
+    const nsvcd__placed *known = &p->memo.placed[n];
+    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
   }
   if (n == NSVCD__PLACED) {
-    n = p->next_placed;
-    p->placed[n].arc = arc->first;
-    p->placed[n].ticks = arc->ticks;
-    p->placed[n].u = u;
-    p->placed[n].placement = nsvcd__placement_at(arc, u);
+    n = p->memo.next_placed;
+    p->memo.placed[n].arc = arc->first;
+    p->memo.placed[n].ticks = arc->ticks;
+    p->memo.placed[n].u = u;
+    p->memo.placed[n].placement = nsvcd__placement_at(arc, u);
   }
-  if (n == p->next_placed)
-    p->next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->placed[n].placement;
+  if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
+  return &p->memo.placed[n].placement;
 }
 
 static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
@@ -10308,9 +8810,13 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
   out.position = nsvcd__f3_round(at->position);
   return out;
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- spans
+// ------------------------------------------------------------------------------------- proof/spans
+// In: two ticks. Out: a span: the poses at both ends, and by how much a point may leave the chord
+// in between.
 
+#ifndef NSVCD_NO_PROOF
 // The time at which so many ticks have gone by.
 static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
   return motion->begin + motion->duration * ticks / (double)motion->ticks;
@@ -10318,11 +8824,12 @@ static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
 
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p->motion, (double)p->arc.first + u * (double)p->arc.ticks);
+  return nsvcd__time_of(p->ask.motion,
+                        (double)p->memo.arc.first + u * (double)p->memo.arc.ticks);
 }
 
-static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsvcd__search *search,
-                                          size_t s) {
+static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,
+                                          const nsvcd__search *search, size_t s) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, l);
@@ -10331,7 +8838,6 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
   span.end.rotation = nsvcd__mat3_mix(1, &span.start.rotation, 1, &turned);
   span.start.position = nsvcd__lane_of(block->position, l);
   span.end.position = nsvcd__f3_add(span.start.position, nsvcd__lane_of(block->moved, l));
-  span.spread = block->rounding[l] + block->drift[l];
   span.bulge = block->bulge[l];
   span.rounding = block->rounding[l];
   span.drift = block->drift[l];
@@ -10348,11 +8854,11 @@ static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion, const nsv
 // Kept once it has been made.
 static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__search *search,
                                               size_t s) {
-  if (!(p->spans_known >> s & 1)) {
-    p->spans[s] = nsvcd__span_of_segment(p->motion, search, s);
-    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p->motion, p->end));
+  if (!(p->memo.spans >> s & 1)) {
+    p->spans[s] = nsvcd__span_of_segment(p->ask.motion, search, s);
+    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
   }
-  p->spans_known |= (uint64_t)1 << s;
+  p->memo.spans |= (uint64_t)1 << s;
   return &p->spans[s];
 }
 
@@ -10369,8 +8875,7 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
   const float remote = remote_start + nsvcd__f3_length(span.end.position);
   span.bulge = (float)(square * arc->bulge);
   span.drift = (float)(square * arc->drift * 1.000001);
-  span.rounding = NSVCD__ROUNDING * (remote + p->lengths);
-  span.spread = span.rounding + span.drift;
+  span.rounding = NSVCD__ROUNDING * (remote + p->given.lengths);
   span.drift_along_axis = span.drift_off_way = span.drift;
   span.axis = nsvcd__f3_round(arc->axis);
   span.way = span.axis;  // any
@@ -10428,7 +8933,8 @@ NSVCD__INLINE nsvcd__v_span nsvcd__v_span_load(const nsvcd__segments *block, siz
   out.drift_off_way = nsvcd__v_load(block->drift_off_way + l);
   return out;
 }
-NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n, float reach) {
+NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n,
+                                          float reach) {
   const nsvcd__v along = nsvcd__v_abs(nsvcd__v3_dot(n, span->axis));
   const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(n, span->axis));
   const nsvcd__v along_way = nsvcd__v_abs(nsvcd__v3_dot(n, span->way));
@@ -10441,50 +8947,12 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
   turn = nsvcd__v_fma(along, span->bulge_along_axis, turn);
   return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));
 }
+#endif  // NSVCD_NO_PROOF
 
-// A limit that leaves so many units, if there are as many.
-static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
-  const size_t left = p->work < p->most ? p->most - p->work : 0;
-  return left > units ? p->work + units : p->most;
-}
+// ------------------------------------------------------------------------------------- proof/discs
+// In: items, a slice at a time. Out: those that a plane along a disc's normal does not part.
 
-// What the search for the first contact may take. The rest is for the question whether there is
-// any.
-static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->most - p->most / NSVCD__IN_DOUBT;
-}
-
-// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
-// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
-static int nsvcd__is_spent(nsvcd__proof *p) {
-  if (p->work > p->limit && p->first > 0 && !p->is_brief && !p->doubts_end &&
-      p->known.unsure < NSVCD__NEVER) {
-    p->doubts_end = 1;
-    p->end = fmin(p->end, p->known.unsure);
-    p->limit = nsvcd__limit_of_first(p);
-  }
-  return p->work > p->limit;
-}
-
-// The clearance, in float: not less.
-static float nsvcd__clearance_of(const nsvcd__proof *p) {
-  return 1.000001f * (float)p->clearance;
-}
-
-// What stored triangles of two patches may be off by, both together.
-static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
-  return p->motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
-}
-
-// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
-// bulges have it.
-static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
-  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
-  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
-}
-
-// ---- discs
-
+#ifndef NSVCD_NO_PROOF
 // A slice of discs.
 typedef struct nsvcd__v_disc {
   nsvcd__v3 normal;
@@ -10528,11 +8996,32 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_along(const nsvcd__v_disc *disc, nsvc
 }
 
 // By discs along directions in their own frame.
-NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc, nsvcd__v3 direction) {
+NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc,
+                                                 nsvcd__v3 direction) {
   const nsvcd__v along = nsvcd__v3_dot(direction, disc->normal);
   const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, disc->normal));
   return nsvcd__v_disc_along(disc, along, across);
 }
+
+// Moving discs that approach resting ones over a span; either of them, and the span, may be one in
+// all lanes.
+typedef struct nsvcd__v_approach {
+  // in its body's frame and units
+  nsvcd__v_disc moving;
+  nsvcd__v_disc fixed;
+  // from the resting centre to the moving one, and its way
+  nsvcd__v3 from, chord;
+  // the resting disc's normal in the moving body's frame, at both ends
+  nsvcd__v3 at_start, at_end;
+  // the mean of the moving disc's normals at both ends, and half of what they differ by
+  nsvcd__v3 mean, turned;
+  // of the moving body
+  nsvcd__v scale;
+  nsvcd__v_span span;
+  float clearance;
+  // no point of the moving side is farther from its body's origin, in its body's units
+  float reach;
+} nsvcd__v_approach;
 
 // Lanes in which planes part two bodies: the moving side is below, or above.
 typedef struct nsvcd__v_parted {
@@ -10540,324 +9029,206 @@ typedef struct nsvcd__v_parted {
   uint32_t below, above;
 } nsvcd__v_parted;
 
-// Moving discs that approach resting ones, or either of them one disc in all lanes.
-typedef struct nsvcd__v_approach {
-  nsvcd__v3 from, chord;  // from the resting centre to the moving one, and its way
-  nsvcd__v_disc moving;   // in the moving body's frame and units
-  nsvcd__v_disc fixed;
-  nsvcd__v scale;  // of the moving body
-} nsvcd__v_approach;
-
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range moving,
-                                            nsvcd__v_range fixed, nsvcd__v deviation) {
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                            nsvcd__v_range moving, nsvcd__v_range fixed) {
+  const nsvcd__v allowed = nsvcd__v_plus(a->span.rounding, a->clearance);
+  const nsvcd__v off = nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
   nsvcd__v_parted out;
   out.plane = plane;
-  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, deviation));
-  out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, deviation), moving.low);
+  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
+  out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
   return out;
 }
 
-// By planes normal to the resting discs. at_start, at_end: that normal in the moving body's frame
-// at both ends of the span.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a, nsvcd__v3 at_start,
-                                                     nsvcd__v3 at_end, nsvcd__v deviation) {
+// By planes normal to the resting discs.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
-  const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, at_start);
-  const nsvcd__v_range end = nsvcd__v_disc_range(&a->moving, at_end);
+  const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, a->at_start);
+  const nsvcd__v_range end = nsvcd__v_disc_range(&a->moving, a->at_end);
   const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
-  const nsvcd__v low_end = nsvcd__v_add(height_end, end.low);
-  const nsvcd__v high_end = nsvcd__v_add(height_end, end.high);
   nsvcd__v_range moving;
-  moving.low = nsvcd__v_min(nsvcd__v_add(height, start.low), low_end);
-  moving.high = nsvcd__v_max(nsvcd__v_add(height, start.high), high_end);
-  return nsvcd__v_part(plane, moving, fixed, deviation);
+  moving.low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  moving.high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  return nsvcd__v_part(a, plane, moving, fixed);
 }
 
-// By planes normal to the mean w of the moving discs' normals at both ends of the span; turned:
-// half of what they differ by. |w| <= 1. Both normals make the same angle with w: along it they are
-// |w|^2, across it no more than |turned|.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a, nsvcd__v3 w,
-                                                      nsvcd__v3 turned, nsvcd__v deviation) {
+// By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
+// angle with w: along it they are |w|^2, across it no more than |turned|.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a) {
+  const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
-  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(turned));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
   const nsvcd__v_range own = nsvcd__v_disc_along(&a->moving, along, across);
-  const nsvcd__v_range fixed = nsvcd__v_disc_range(&a->fixed, w);
   const nsvcd__v height = nsvcd__v3_dot(w, a->from);
   const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
   nsvcd__v_range moving;
   moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
   moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_part(w, moving, fixed, deviation);
+  return nsvcd__v_part(a, w, moving, nsvcd__v_disc_range(&a->fixed, w));
 }
+
+#ifdef NSVCD__CERTIFIES
+// Patches i and j, by the plane in lane l of a slice.
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parted, size_t l,
+                                const nsvcd__span *span) {
+  float lanes[3][NSVCD__LANES];
+  float normal[3];
+  nsvcd__v3_store(lanes, 0, parted->plane);
+  const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
+  nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
+  NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
+                 normal);
+}
+// All pairs of members of groups g and h, in the segments `apart` of a slice that begins with
+// segment `first`.
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                  size_t h, size_t first, uint32_t apart,
+                                  const nsvcd__v_parted *by_fixed,
+                                  const nsvcd__v_parted *by_moving) {
+  for (; apart; apart &= apart - 1) {
+    const size_t l = nsvcd__lowest_bit(apart);
+    const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
+    const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
+    for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
+      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
+      const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
+      if (i < p->moving.body->patches && j < p->fixed.body->patches)
+        nsvcd__certify_disc(i, j, is_fixed ? by_fixed : by_moving, l, &span);
+    }
+  }
+}
+#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) nsvcd__certify_disc(i, j, parted, l, span)
+#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
+  nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
+#else
+#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) ((void)0)
+#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
+#endif
 
 // The lanes of a slice among 16.
 static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
   return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
 }
 
-// What a moving group, in a segment, looks like to a resting patch.
-typedef struct nsvcd__approach {
-  size_t group, patch;          // the moving group, the resting patch
-  nsvcd__f3 centre;             // of the resting patch
-  nsvcd__disc disc;             // the resting patch's
-  const nsvcd__chords *chords;  // of the group's patches,
-  const float *discs;           // and their discs, in the moving body's units (6, stride)
-  size_t stride;
-  float scale, per_scale;  // of the moving body
-  // no point of the group is farther from the body's origin, in its body's units
-  float reach;
-  float clearance;
-} nsvcd__approach;
-
-// A slice of it.
-NSVCD__INLINE nsvcd__v_approach nsvcd__v_approach_load(const nsvcd__approach *a, size_t l) {
-  const nsvcd__v3 start = nsvcd__chords_start(a->chords, l);
-  nsvcd__v_approach out;
-  out.from = nsvcd__v3_sub(start, nsvcd__v3_set(a->centre));
-  out.chord = nsvcd__chords_way(a->chords, l);
-  out.moving = nsvcd__v_disc_load(a->discs + l, a->stride);
-  out.fixed = nsvcd__v_disc_set(&a->disc);
-  out.scale = nsvcd__v_set(a->scale);
-  return out;
-}
-
-#ifdef NSVCD__CERTIFIES
-// Lanes `apart` of a slice.
-static void nsvcd__certify_discs(const nsvcd__approach *a, const nsvcd__span *span, size_t l,
-                                 uint32_t apart, const nsvcd__v_parted *parted) {
-  float lanes[3][NSVCD__LANES];
-  nsvcd__v3_store(lanes, l, parted->plane);
-  for (size_t k = 0; k < NSVCD__SLICE; k++) {
-    const float sign = parted->below >> k & 1 ? -1.0f : 1.0f;
-    float normal[3];
-    nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l + k), sign), normal);
-    if (apart >> k & 1) {
-      NSVCD__CERTIFY(NSVCD__BY_DISC, NSVCD__GROUP * a->group + l + k, a->patch, NSVCD_NONE,
-                     NSVCD_NONE, span->t_start, span->t_end, normal);
-    }
-  }
-}
-#define NSVCD__CERTIFY_DISCS(a, span, l, apart, parted) \
-  nsvcd__certify_discs(a, span, l, apart, parted)
-#else
-#define NSVCD__CERTIFY_DISCS(a, span, l, apart, parted) ((void)0)
-#endif
-
-// Lanes of `met` that planes normal to the resting disc part.
-static uint32_t nsvcd__apart_by_fixed_disc(const nsvcd__approach *a, const nsvcd__span *span,
-                                           uint32_t met) {
-  const nsvcd__f3 normal = a->disc.normal;
-  const nsvcd__f3 at_start = nsvcd__mat3_apply_transpose(&span->start.rotation, normal);
-  const nsvcd__f3 at_end = nsvcd__mat3_apply_transpose(&span->end.rotation, normal);
-  const float stray = nsvcd__deviation(span, normal, a->reach);
-  const nsvcd__v deviation = nsvcd__v_set(a->clearance + span->rounding + stray);
-  uint32_t apart = 0;
-  NSVCD__EACH_SLICE(l) {
-    const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
-    if (!wanted)
-      continue;
-    const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
-    const nsvcd__v3 start = nsvcd__v3_set(at_start);
-    const nsvcd__v3 end = nsvcd__v3_set(at_end);
-    const nsvcd__v_parted parted = nsvcd__v_part_by_fixed(&seen, start, end, deviation);
-    const uint32_t lanes = (parted.above | parted.below) & wanted;
-    NSVCD__CERTIFY_DISCS(a, span, l, lanes, &parted);
-    apart |= lanes << l;
-  }
-  return apart;
-}
-
-// The same by planes normal to the mean of the moving disc's normals.
-static uint32_t nsvcd__apart_by_moving_disc(const nsvcd__approach *a, const nsvcd__span *span,
-                                            uint32_t met) {
-  // rotations in a span are times the scale
-  const float half = 0.5f * a->per_scale;
+// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
+// patch j. c: the chords of the group's patches; reach: no point of the group is farther from the
+// body's origin.
+static NSVCD__APART uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
+                                               size_t g, size_t j, const nsvcd__span *span,
+                                               float reach, uint32_t met) {
+  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__facet_centre(&p->fixed, j);
   const nsvcd__mat3 *from = &span->start.rotation;
   const nsvcd__mat3 *to = &span->end.rotation;
-  const nsvcd__f3 origin = {0, 0, 0};
-  const nsvcd__transform middle = {nsvcd__mat3_mix(half, to, 1, from), origin};
-  const nsvcd__transform half_turn = {nsvcd__mat3_mix(half, to, -1, from), origin};
-  const nsvcd__v_span spans = nsvcd__v_span_set(span);
-  const nsvcd__v allowed = nsvcd__v_set(span->rounding + a->clearance);
-  uint32_t apart = 0;
-  NSVCD__EACH_SLICE(l) {
-    const uint32_t wanted = nsvcd__lanes_of_slice(met, l);
-    if (!wanted)
-      continue;
-    const nsvcd__v_approach seen = nsvcd__v_approach_load(a, l);
-    const nsvcd__v3 w = nsvcd__v3_transform(&middle, seen.moving.normal);
-    const nsvcd__v3 turned = nsvcd__v3_transform(&half_turn, seen.moving.normal);
-    const nsvcd__v deviation = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, a->reach));
-    const nsvcd__v_parted parted = nsvcd__v_part_by_moving(&seen, w, turned, deviation);
-    const uint32_t lanes = (parted.above | parted.below) & wanted;
-    NSVCD__CERTIFY_DISCS(a, span, l, lanes, &parted);
-    apart |= lanes << l;
-  }
-  return apart;
-}
-
-// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
-// patch j.
-static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g, size_t j,
-                                  const nsvcd__span *span, float reach, uint32_t met) {
-  nsvcd__approach a;
-  a.group = g;
-  a.patch = j;
-  a.centre = nsvcd__facet_centre(&p->fixed, j);
-  a.disc = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
-  a.chords = c;
-  a.discs = p->moving.discs + NSVCD__GROUP * g;
-  a.stride = p->moving.body->padded;
-  a.scale = p->motion->scale;
-  a.per_scale = p->motion->per_scale;
-  a.reach = reach;
+  // rotations in a span are times the scale
+  const float half = 0.5f * p->ask.motion->per_scale;
+  const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
+  const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
+  uint32_t left = 0;
+  nsvcd__v_approach a;
+  a.fixed = nsvcd__v_disc_set(&fixed);
+  a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
+  a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.scale = nsvcd__v_set(p->ask.motion->scale);
+  a.span = nsvcd__v_span_set(span);
   a.clearance = nsvcd__clearance_of(p);
-
-  met &= ~nsvcd__apart_by_fixed_disc(&a, span, met);
-  return met ? met & ~nsvcd__apart_by_moving_disc(&a, span, met) : 0;
-}
-
-// ---- discs of groups, 16 segments at a time
-
-// A moving group and a resting one, over all segments.
-typedef struct nsvcd__two_groups {
-  size_t g, h;                // which
-  nsvcd__disc moving, fixed;  // their discs, each in its body's frame and units
-  nsvcd__f3 centre;           // of the resting one
-  float scale;                // of the moving body
-  float reach;                // no point of the moving group is farther from its body's origin
-  float clearance;
-} nsvcd__two_groups;
-
-// Segments of a slice of a block in which discs part two groups: by planes normal to the resting
-// one, and to the moving one. The planes are those of single discs, with all in lanes but the
-// discs. c: the moving group's chords.
-static uint32_t nsvcd__groups_apart(const nsvcd__two_groups *two, nsvcd__segments *block,
-                                    const nsvcd__chords *c, size_t l, nsvcd__v_parted *by_fixed,
-                                    nsvcd__v_parted *by_moving) {
-  const nsvcd__v_span spans = nsvcd__v_span_load(block, l);
-  const nsvcd__v allowed = nsvcd__v_plus(spans.rounding, two->clearance);
-  const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
-  const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
-  nsvcd__v_approach seen;
-  seen.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(two->centre));
-  seen.chord = nsvcd__chords_way(c, l);
-  seen.moving = nsvcd__v_disc_set(&two->moving);
-  seen.fixed = nsvcd__v_disc_set(&two->fixed);
-  seen.scale = nsvcd__v_set(two->scale);
-
-  const nsvcd__v3 n = seen.fixed.normal;
-  const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(rotation, n);
-  const nsvcd__v3 at_end = nsvcd__v3_add(at_start, nsvcd__vmat3_apply_transpose(turn, n));
-  const nsvcd__v by_n = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, n, two->reach));
-  *by_fixed = nsvcd__v_part_by_fixed(&seen, at_start, at_end, by_n);
-
-  const nsvcd__v half = nsvcd__v_set(0.5f / two->scale);
-  const nsvcd__v whole = nsvcd__v_set(1 / two->scale);
-  const nsvcd__v3 m = seen.moving.normal;
-  const nsvcd__v3 turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
-  const nsvcd__v3 w = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), turned);
-  const nsvcd__v by_w = nsvcd__v_add(allowed, nsvcd__v_deviation(&spans, w, two->reach));
-  *by_moving = nsvcd__v_part_by_moving(&seen, w, turned, by_w);
-  return by_fixed->below | by_fixed->above | by_moving->below | by_moving->above;
-}
-
-#ifdef NSVCD__CERTIFIES
-// All pairs of members of two groups, in the segments `apart` of a slice that begins with segment
-// `first`.
-static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t first,
-                                  const nsvcd__two_groups *two, uint32_t apart,
-                                  const nsvcd__v_parted *by_fixed,
-                                  const nsvcd__v_parted *by_moving) {
-  for (size_t l = 0; l < NSVCD__SLICE; l++) {
-    if (!(apart >> l & 1))
-      continue;
-    const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
-    const nsvcd__v_parted *parted = is_fixed ? by_fixed : by_moving;
-    const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
-    float lanes[3][NSVCD__LANES];
-    float normal[3];
-    nsvcd__v3_store(lanes, 0, parted->plane);
-    nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
-    const nsvcd__span span = nsvcd__span_of_segment(p->motion, search, first + l);
-    for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
-      const size_t i = NSVCD__GROUP * two->g + k / NSVCD__GROUP;
-      const size_t j = NSVCD__GROUP * two->h + k % NSVCD__GROUP;
-      if (i >= p->moving.body->patches || j >= p->fixed.body->patches)
-        continue;
-      NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span.t_start, span.t_end,
-                     normal);
+  a.reach = reach;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = nsvcd__lanes_of_slice(met, l);
+    if (!wanted) continue;
+    const nsvcd__v3 start = nsvcd__chords_start(c, l);
+    a.from = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
+    a.chord = nsvcd__chords_way(c, l);
+    a.moving =
+        nsvcd__v_disc_load(p->moving.discs + NSVCD__GROUP * g + l, p->moving.body->padded);
+    for (size_t way = 0; way < 2 && wanted; way++) {
+      if (way == 1) {
+        a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
+        a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
+      }
+      const nsvcd__v_parted parted =
+          way == 0 ? nsvcd__v_part_by_fixed(&a) : nsvcd__v_part_by_moving(&a);
+      uint32_t apart = (parted.above | parted.below) & wanted;
+      wanted &= ~apart;
+      for (; apart; apart &= apart - 1) {
+        NSVCD__CERTIFY_DISC(NSVCD__GROUP * g + l + nsvcd__lowest_bit(apart), j, &parted,
+                            nsvcd__lowest_bit(apart), span);
+      }
     }
+    left |= wanted << l;
   }
-}
-#define NSVCD__CERTIFY_GROUPS(p, search, first, two, apart, by_fixed, by_moving) \
-  nsvcd__certify_groups(p, search, first, two, apart, by_fixed, by_moving)
-#else
-#define NSVCD__CERTIFY_GROUPS(p, search, first, two, apart, by_fixed, by_moving) ((void)0)
-#endif
-
-// The segments, of those `met`, in which discs part two groups. The moving one's chords are in
-// search->group.
-static uint64_t nsvcd__segments_apart(const nsvcd__proof *p, const nsvcd__search *search,
-                                      const nsvcd__two_groups *two, uint64_t met) {
-  uint64_t apart = 0;
-  (void)p;
-  for (size_t b = 0; b < NSVCD__BLOCKS && met >> (NSVCD__LANES * b); b++) {
-    const uint32_t there = (uint32_t)(met >> (NSVCD__LANES * b)) & 0xffff;
-    if (!there)
-      continue;
-    NSVCD__TALLY(tests, 1);
-    NSVCD__EACH_SLICE(l) {
-      const uint32_t wanted = nsvcd__lanes_of_slice(there, l);
-      const size_t first = NSVCD__LANES * b + l;
-      nsvcd__v_parted by_fixed;
-      nsvcd__v_parted by_moving;
-      if (!wanted)
-        continue;
-      const uint32_t parted =
-          nsvcd__groups_apart(two, &search->blocks[b], &search->group[b], l, &by_fixed, &by_moving);
-      NSVCD__CERTIFY_GROUPS(p, search, first, two, wanted & parted, &by_fixed, &by_moving);
-      apart |= (uint64_t)(wanted & parted) << first;
-    }
-  }
-  return apart;
+  return left;
 }
 
-// Clears the segments in which discs part the moving group that is searched from the resting ones
-// that it meets.
-static void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
+// Clears the segments in which discs part the moving group that is searched, whose chords are in
+// search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
+// of single discs, with all in lanes but the discs.
+static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const size_t moving_slots = nsvcd__group_slots(moving->padded);
-  const size_t fixed_slots = nsvcd__group_slots(fixed->padded);
   const size_t next = search->order[search->step];
-  nsvcd__two_groups two;
-  two.g = search->moving_tile.groups[next];
-  two.moving = nsvcd__disc_at(p->moving.group_discs, moving_slots, two.g);
-  two.scale = search->scale;
-  two.reach = nsvcd__group_reach(moving, two.g);
-  two.clearance = nsvcd__clearance_of(p);
+  const size_t g = search->moving_tile.groups[next];
+  const nsvcd__disc own =
+      nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
+  nsvcd__v_approach a;
+  a.moving = nsvcd__v_disc_set(&own);
+  a.scale = nsvcd__v_set(search->scale);
+  a.clearance = nsvcd__clearance_of(p);
+  a.reach = nsvcd__group_reach(moving, g);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
     const size_t at = nsvcd__lowest_bit(waiting);
-    two.h = search->fixed_tile.groups[at];
-    two.fixed = nsvcd__disc_at(p->fixed.group_discs, fixed_slots, two.h);
-    two.centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), two.h);
+    const size_t h = search->fixed_tile.groups[at];
+    const nsvcd__disc other =
+        nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
-    *met &= ~nsvcd__segments_apart(p, search, &two, *met);
-    if (!*met)
-      search->waiting &= ~((uint32_t)1 << at);
+    a.fixed = nsvcd__v_disc_set(&other);
+    for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
+      const uint32_t wanted = nsvcd__lanes_of_slice((uint32_t)(*met >> first & 0xffff), 0);
+      nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
+      const nsvcd__chords *c = &search->group[first / NSVCD__LANES];
+      const size_t l = first % NSVCD__LANES;
+      if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
+      if (!wanted) continue;
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
+      const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
+      const nsvcd__v half = nsvcd__v_set(0.5f / search->scale);
+      const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
+      const nsvcd__v3 n = a.fixed.normal;
+      const nsvcd__v3 m = a.moving.normal;
+      a.span = nsvcd__v_span_load(block, l);
+      a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
+      a.chord = nsvcd__chords_way(c, l);
+      a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
+      a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
+      a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
+      a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
+      const nsvcd__v_parted by_fixed = nsvcd__v_part_by_fixed(&a);
+      const nsvcd__v_parted by_moving = nsvcd__v_part_by_moving(&a);
+      const uint32_t either =
+          by_fixed.below | by_fixed.above | by_moving.below | by_moving.above;
+      *met &= ~((uint64_t)(either & wanted) << first);
+      NSVCD__CERTIFY_GROUPS(p, search, g, h, first, either & wanted, &by_fixed, &by_moving);
+    }
+    if (!*met) search->waiting &= ~((uint32_t)1 << at);
   }
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- hulls
+// ------------------------------------------------------------------------------------- proof/hulls
+// In: an item and a span. Out: is there a plane between the two hulls, over all of the span?
 
+#ifndef NSVCD_NO_PROOF
 // Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
 // begins with lane l. The last one wanted is repeated in the lanes that are left.
-NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch, size_t first,
-                                              size_t count, size_t l) {
-  static const float lane[NSVCD__LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t patch,
+                                              size_t first, size_t count, size_t l) {
+  static const float lane[NSVCD__LANES] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                           8, 9, 10, 11, 12, 13, 14, 15};
   const nsvcd__vertices all = nsvcd__vertices_of(f, patch);
   const int16_t *x = all.x + first;
   const int16_t *y = all.y + first;
@@ -10881,20 +9252,6 @@ NSVCD__INLINE nsvcd__v3 nsvcd__facet_vertices(const nsvcd__facets *f, size_t pat
 // A slice of a patch's hull, the last vertex repeated; its body's frame and units.
 NSVCD__INLINE nsvcd__v3 nsvcd__hull_of(const nsvcd__facets *f, size_t patch, size_t l) {
   return nsvcd__facet_vertices(f, patch, 0, f->hull_counts[patch], l);
-}
-
-// Poses the hulls of an item's patches, into the proof's memory.
-static void nsvcd__pose_hulls(nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span) {
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
-    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
-    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
-  }
-}
-
-static float nsvcd__clamp01(float x) {
-  return x < 0 ? 0 : x < 1 ? x : 1;
 }
 
 // Posed hulls along a direction: how far the moving one, at both ends of the span, stays ahead of
@@ -10951,11 +9308,37 @@ static nsvcd__f3 nsvcd__f3_towards(nsvcd__f3 a, nsvcd__f3 b) {
   return nsvcd__f3_scale(a, nsvcd__f3_dot(a, b) < 0 ? -1.0f : 1.0f);
 }
 
-// Directions that are worth a try before any search: that of the last plane that held, the discs'
-// normals, and the line of centres. The last one is the first of the search.
+static float nsvcd__clamp01(float x) {
+  return x < 0 ? 0 : x < 1 ? x : 1;
+}
+
+static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
+  // heights are of another query
+  if (memo->plane == 0) {
+    memset(memo->heights, 0, sizeof memo->heights);
+    memset(memo->rest_heights, 0, sizeof memo->rest_heights);
+  }
+  memo->held = normal;
+  memo->plane++;
+}
+
+// Is there a plane between two patches over the whole span? A direction is tried by the gap that it
+// finds between the hulls, which must be more than the slack and what the span deviates. First
+// guesses: the last plane that held, the discs' normals, and the line of centres. Then Gilbert's
+// iteration (1966) from there towards the point nearest to 0 of the differences of the two hulls.
+// p->memo.held is the one that held.
 #define NSVCD__GUESSES 4
-static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, const nsvcd__span *span,
-                                 nsvcd__f3 *guesses) {
+static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+                                               const nsvcd__span *span) {
+  const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
+  const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
+  const float reach = nsvcd__patch_reach(&p->moving, i);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
+    nsvcd__v3_store(p->hull_end, l, nsvcd__v3_transform(&span->end, moving));
+    nsvcd__v3_store(p->hull_rest, l, nsvcd__hull_of(&p->fixed, j, l));
+  }
   const nsvcd__disc moving = nsvcd__disc_at(p->moving.discs, p->moving.body->padded, i);
   const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
@@ -10965,65 +9348,37 @@ static void nsvcd__guess_normals(const nsvcd__proof *p, size_t i, size_t j, cons
   const nsvcd__f3 line = nsvcd__f3_sub(middle, nsvcd__facet_centre(&p->fixed, j));
   const nsvcd__f3 tip = nsvcd__f3_transform(&span->start, moving.normal);
   const nsvcd__f3 turned = nsvcd__f3_sub(tip, span->start.position);
-  guesses[0] = p->held;
-  guesses[1] = nsvcd__f3_towards(fixed.normal, line);
-  guesses[2] = nsvcd__f3_towards(turned, line);
-  guesses[3] = line;
-}
-
-// Is a gap along a direction more than its slack and what the span deviates?
-static int nsvcd__is_held(const nsvcd__span *span, nsvcd__f3 normal, float gap, float slack,
-                          float reach) {
-  if (!(gap > 0))
-    return 0;
-  return gap > slack * nsvcd__f3_length(normal) + nsvcd__deviation(span, normal, reach);
-}
-
-static void nsvcd__remember_plane(nsvcd__proof *p, nsvcd__f3 normal) {
-  if (p->plane == 0) {  // what is remembered is of another query
-    memset(p->heights, 0, sizeof p->heights);
-    memset(p->rest_heights, 0, sizeof p->rest_heights);
-  }
-  p->held = normal;
-  p->plane++;
-}
-
-// Is there a plane between two patches over the whole span? After the guesses, Gilbert's iteration
-// (1966) goes towards the point nearest to 0 of the differences of the two hulls; each of its
-// directions is tried. p->held is the one that held.
-static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                               const nsvcd__span *span) {
-  const float slacks = p->motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
-  const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
-  const float reach = nsvcd__patch_reach(&p->moving, i);
-  nsvcd__f3 guesses[NSVCD__GUESSES];
+  const nsvcd__f3 guesses[NSVCD__GUESSES] = {p->memo.held,
+                                             nsvcd__f3_towards(fixed.normal, line),
+                                             nsvcd__f3_towards(turned, line), line};
   nsvcd__f3 nearest = {0, 0, 0};
-  nsvcd__pose_hulls(p, i, j, span);
-  nsvcd__guess_normals(p, i, j, span, guesses);
   p->work++;
   NSVCD__TALLY(planes, 1);
   for (size_t step = 0; step < NSVCD__GUESSES + NSVCD__PLANE_STEPS; step++) {
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
-    if (nsvcd__is_held(span, normal, found.gap, slack, reach)) {
-      nsvcd__remember_plane(p, normal);
+    const float length = nsvcd__f3_length(normal);
+    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, reach)) {
+      nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
-    if (step + 1 < NSVCD__GUESSES)
-      continue;
+    if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(way, way);
     const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
     const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
-    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack)
-      return 0;  // these hulls come this near
+    // these hulls come this near
+    if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;
   }
   return 0;
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- couples: a triangle of each body, in double
+// ----------------------------------------------------------------------------------- proof/couples
+// In: two triangles and a span. Out: parted, or in contact, or neither as long as it is halved.
 
+#ifndef NSVCD_NO_PROOF
 // The normal of a triangle (3 corners); its length is twice the area.
 static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
   return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
@@ -11052,8 +9407,7 @@ static double nsvcd__clamp_share(double x) {
 static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 d = nsvcd__d3_sub(a, b);
   const double square = nsvcd__d3_dot(d, d);
-  if (square >= best->square)
-    return;
+  if (square >= best->square) return;
   best->square = square;
   best->on_a = a;
   best->on_b = b;
@@ -11072,8 +9426,7 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
   double s = 0;
-  if (determinant > 1e-14 * uu * vv)
-    s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
+  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
   const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
   s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
@@ -11083,8 +9436,7 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
 static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const double square = nsvcd__d3_dot(n, n);
-  if (!(square > 0))
-    return 0;
+  if (!(square > 0)) return 0;
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(x, t[0])) / square;
   *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
   for (size_t k = 0; k < 3; k++) {
@@ -11095,47 +9447,33 @@ static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) 
   return 1;
 }
 
-// Corners of one triangle above the plane of another, in units of the length of its normal, which
-// is not made unit.
-typedef struct nsvcd__heights {
-  nsvcd__d3 normal;
-  double of[3];
-} nsvcd__heights;
-
-static nsvcd__heights nsvcd__heights_over(const nsvcd__d3 *a, const nsvcd__d3 *b) {
-  nsvcd__heights out;
-  out.normal = nsvcd__face_normal(b);
-  for (size_t k = 0; k < 3; k++)
-    out.of[k] = nsvcd__d3_dot(out.normal, nsvcd__d3_sub(a[k], b[0]));
-  return out;
-}
-static int nsvcd__on_one_side(const double *h) {
-  return (h[0] > 0 && h[1] > 0 && h[2] > 0) || (h[0] < 0 && h[1] < 0 && h[2] < 0);
-}
-
-// Where an edge of a passes through b.
-static int nsvcd__edges_pass(const nsvcd__d3 *a, const nsvcd__d3 *b, const double *heights,
-                             nsvcd__d3 *point) {
-  for (size_t k = 0; k < 3; k++) {
-    const double h0 = heights[k];
-    const double h1 = heights[(k + 1) % 3];
-    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0))
-      continue;
-    if (nsvcd__foot_within(nsvcd__d3_mix(a[k], a[(k + 1) % 3], h0 / (h0 - h1)), b, point))
-      return 1;
+// Do two triangles meet where an edge of one passes through the other? Heights of corners over the
+// other's plane are in units of the length of its normal, which is not made unit.
+static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
+  const nsvcd__d3 *of[2] = {a, b};
+  double heights[2][3];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__d3 *other = of[1 - n];
+    const nsvcd__d3 normal = nsvcd__face_normal(other);
+    size_t above = 0;
+    size_t below = 0;
+    for (size_t k = 0; k < 3; k++) {
+      heights[n][k] = nsvcd__d3_dot(normal, nsvcd__d3_sub(of[n][k], other[0]));
+      above += heights[n][k] > 0;
+      below += heights[n][k] < 0;
+    }
+    if (above == 3 || below == 3) return 0;
+  }
+  for (size_t n = 0; n < 6; n++) {
+    const nsvcd__d3 *edges = of[n / 3];
+    const size_t k = n % 3;
+    const double h0 = heights[n / 3][k];
+    const double h1 = heights[n / 3][(k + 1) % 3];
+    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
+    const nsvcd__d3 through = nsvcd__d3_mix(edges[k], edges[(k + 1) % 3], h0 / (h0 - h1));
+    if (nsvcd__foot_within(through, of[1 - n / 3], point)) return 1;
   }
   return 0;
-}
-
-// Do two triangles meet where an edge of one passes through the other?
-static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
-  const nsvcd__heights over_b = nsvcd__heights_over(a, b);
-  if (nsvcd__on_one_side(over_b.of))
-    return 0;
-  const nsvcd__heights over_a = nsvcd__heights_over(b, a);
-  if (nsvcd__on_one_side(over_a.of))
-    return 0;
-  return nsvcd__edges_pass(a, b, over_b.of, point) || nsvcd__edges_pass(b, a, over_a.of, point);
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
@@ -11151,26 +9489,25 @@ static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__
   for (size_t k = 0; k < 3; k++) {
     for (size_t n = 0; n < 3; n++)
       nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
-    if (nsvcd__foot_within(a[k], b, &point))
-      nsvcd__keep_nearer(&best, a[k], point);
-    if (nsvcd__foot_within(b[k], a, &point))
-      nsvcd__keep_nearer(&best, point, b[k]);
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   }
   return best;
 }
 
 static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
                                   nsvcd__d3 *out) {
-  for (size_t k = 0; k < 3; k++)
-    out[k] = nsvcd__place_point(at, corners[k]);
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
 // Two listed triangles, one of each body, in their frames.
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
-  double reach;  // of the moving one, from its body's origin, in its body's units
-  double slack;  // quanta, and rounding in double
+  // of the moving one, from its body's origin, in its body's units
+  double reach;
+  // quanta, and rounding in double
+  double slack;
   double rounding;
 } nsvcd__couple;
 
@@ -11183,10 +9520,11 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
     const double reach = nsvcd__d3_length(couple.moving[k]);
     couple.reach = reach > couple.reach ? reach : couple.reach;
   }
-  couple.rounding = NSVCD__SAME_PLACE * ((double)p->lengths + nsvcd__d3_length(p->arc.from));
-  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
+  couple.rounding =
+      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->memo.arc.from));
+  const double moving_quantum = p->memo.arc.scale * (double)p->moving.quanta[i];
   couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
-  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->memo.arc.moved);
   return couple;
 }
 
@@ -11198,64 +9536,66 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
-  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
+  out.tick = (double)p->memo.arc.first + u * (double)p->memo.arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  out.fixed_triangle = nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.fixed_triangle =
+      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
   out.moving_patch = (uint16_t)couple->moving_patch;
   out.fixed_patch = (uint16_t)couple->fixed_patch;
   return out;
 }
 
-// Two triangles come within the clearance a share u of the arc later than its start. MEETS if that
-// is an answer, TAKEN if there may be a better one.
-static nsvcd__verdict nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple, double u,
-                                          const nsvcd__nearest *nearest) {
+// Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
+// that is an answer, SHRUNK if there may be a better one.
+static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
   p->known.found = nsvcd__contact_at(p, couple, u, nearest);
-  if (p->measure > 0) {
+  if (p->ask.measure > 0) {
     p->high = p->known.found.distance;
-    p->clearance = fmax(p->low, p->high - p->measure);
-    return p->clearance > p->low ? NSVCD__TAKEN : NSVCD__MEETS;
+    p->ask.clearance = fmax(p->low, p->high - p->ask.measure);
+    return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
-  if (p->first > 0) {
-    p->end = p->known.found.tick - p->first;
-    return p->end > 0 ? NSVCD__TAKEN : NSVCD__MEETS;
+  if (p->ask.first > 0) {
+    p->ask.end = p->known.found.tick - p->ask.first;
+    return p->ask.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
-  return NSVCD__MEETS;
+  return NSVCD__ANSWERED;
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                                           double u1) {
-  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
+static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
+                                           double u0, double u1) {
+  const double tick = (double)p->memo.arc.first + u0 * (double)p->memo.arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
-  const size_t left = p->in_doubt;
-  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->limit)
-    p->limit = p->work + left;
-  if (!(tick < p->known.unsure))
-    return;
+  const size_t left = p->ask.in_doubt;
+  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->ask.limit)
+    p->ask.limit = p->work + left;
+  if (!(tick < p->known.unsure)) return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
-  if (p->doubts_end)
-    p->end = fmin(p->end, tick);
+  if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->end - (double)p->arc.first) / (double)p->arc.ticks;
+  return (p->ask.end - (double)p->memo.arc.first) / (double)p->memo.arc.ticks;
 }
 
-// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
-static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
-                              nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->arc;
+// Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
+// times a point at r metres is off its chord by (u1 - u0)^2 (bulge r + drift), of the whole arc;
+// along a direction n, where the arc is a turn about one axis a, by |n x a| of that bulge: see
+// motion/segments.
+static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
+                              double u1, nsvcd__d3 normal) {
+  const nsvcd__arc *arc = &p->memo.arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
   const nsvcd__placement *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
@@ -11268,18 +9608,11 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
     highest = fmax(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
   double off_axis = 1;
-  if (arc->has_axis)
-    off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
+  if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
   const double bulge = arc->bulge * couple->reach * off_axis;
   const double deviation = (u1 - u0) * (u1 - u0) * (bulge + arc->drift);
-  return lowest - highest > p->clearance + couple->slack + deviation;
+  return lowest - highest > p->ask.clearance + couple->slack + deviation;
 }
-
-// A couple at three times: the moving triangle's corners.
-typedef struct nsvcd__passage {
-  nsvcd__d3 start[3], middle[3], end[3];
-  double way;  // no point of it moves farther between these times, seen from the fixed one
-} nsvcd__passage;
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
 static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
@@ -11288,8 +9621,7 @@ static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margi
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
     const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
-    if (!(within > margin * size * nsvcd__d3_length(edge)))
-      return 0;
+    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
   }
   return 1;
 }
@@ -11313,205 +9645,203 @@ static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
                             margin * nsvcd__d3_length(n1));
 }
 
-// Six times the volume of the tetrahedron of two edges.
-static double nsvcd__edges_volume(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1) {
-  const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(a1, a0), nsvcd__d3_sub(b1, b0));
-  return nsvcd__d3_dot(across, nsvcd__d3_sub(b0, a0));
-}
+// A couple at three times: the moving triangle's corners.
+typedef struct nsvcd__passage {
+  nsvcd__d3 corners[3][3];
+  // no point of it moves farther between these times, seen from the fixed one
+  double way;
+} nsvcd__passage;
 
 // Do two edges pass through each other: do they change sides, and are their lines nearest to each
-// other well within both?
-static int nsvcd__edges_cross(const nsvcd__passage *p, size_t k, nsvcd__d3 b0, nsvcd__d3 b1,
-                              double margin) {
+// other well within both? The side is the sign of the volume of the tetrahedron of both.
+static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3 b0,
+                              nsvcd__d3 b1, double margin) {
   const size_t next = (k + 1) % 3;
-  const nsvcd__d3 u = nsvcd__d3_sub(p->middle[next], p->middle[k]);
   const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
-  const nsvcd__d3 across = nsvcd__d3_cross(u, v);
-  const double size = nsvcd__d3_length(across);
+  nsvcd__d3 across[3], from[3];
+  double volumes[3];
+  for (size_t n = 0; n < 3; n++) {
+    const nsvcd__d3 *a = passage->corners[n];
+    across[n] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
+    from[n] = nsvcd__d3_sub(b0, a[k]);
+    volumes[n] = nsvcd__d3_dot(across[n], from[n]);
+  }
+  const nsvcd__d3 u = nsvcd__d3_sub(passage->corners[1][next], passage->corners[1][k]);
+  const double size = nsvcd__d3_length(across[1]);
   const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
-  if (!(size > 0.01 * lengths))
-    return 0;
-  const double before = nsvcd__edges_volume(p->start[k], p->start[next], b0, b1);
-  const double after = nsvcd__edges_volume(p->end[k], p->end[next], b0, b1);
-  if (!nsvcd__are_opposed(before, margin * size, after, margin * size))
-    return 0;
-  const nsvcd__d3 w = nsvcd__d3_sub(b0, p->middle[k]);
-  const double s = nsvcd__d3_dot(nsvcd__d3_cross(w, v), across) / (size * size);
-  const double t = nsvcd__d3_dot(nsvcd__d3_cross(w, u), across) / (size * size);
+  if (!(size > 0.01 * lengths)) return 0;
+  if (!nsvcd__are_opposed(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  const double square = size * size;
+  const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
+  const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
   // the lines' nearest points move no farther along them
-  const double room = 4 * p->way * lengths / size;
+  const double room = 4 * passage->way * lengths / size;
   const double room_s = room / nsvcd__d3_length(u);
   const double room_t = room / nsvcd__d3_length(v);
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Have two triangles met between these times, since a corner has passed through the other one, or
-// an edge through an edge? That is how faces meet which are parallel then: at no single time can it
-// be seen in rounded numbers.
-static int nsvcd__triangles_pass(const nsvcd__passage *p, const nsvcd__d3 *fixed, double margin) {
-  const double room = 2 * p->way;
+// Has a couple met between u0 and u1 of the arc, at that speed, since a corner has passed through
+// the other triangle, or an edge through an edge? That is how faces meet which are parallel then:
+// at no single time can it be seen in rounded numbers.
+static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
+                                double u1, double speed) {
+  const nsvcd__d3 *fixed = couple->fixed;
+  const double margin = couple->rounding;
+  const double times[3] = {u0, 0.5 * (u0 + u1), u1};
+  nsvcd__passage passage;
+  for (size_t n = 0; n < 3; n++)
+    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), couple->moving, passage.corners[n]);
+  const nsvcd__d3 *start = passage.corners[0];
+  const nsvcd__d3 *middle = passage.corners[1];
+  const nsvcd__d3 *end = passage.corners[2];
+  passage.way = speed * (u1 - u0);
+  const double room = 2 * passage.way;
   for (size_t k = 0; k < 3; k++) {
-    const int is_over = nsvcd__foot_well_within(p->middle[k], fixed, room);
-    if (is_over && nsvcd__changes_sides(p->start[k], fixed, p->end[k], fixed, margin))
-      return 1;
-    const int is_under = nsvcd__foot_well_within(fixed[k], p->middle, room);
-    if (is_under && nsvcd__changes_sides(fixed[k], p->start, fixed[k], p->end, margin))
-      return 1;
+    const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
+    if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
+    const int is_under = nsvcd__foot_well_within(fixed[k], middle, room);
+    if (is_under && nsvcd__changes_sides(fixed[k], start, fixed[k], end, margin)) return 1;
     for (size_t n = 0; n < 3; n++) {
-      if (nsvcd__edges_cross(p, k, fixed[n], fixed[(n + 1) % 3], margin))
-        return 1;
+      if (nsvcd__edges_cross(&passage, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
     }
   }
   return 0;
 }
 
-// The same for a couple from u0 to u1 of the arc, at that speed.
-static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0, double u1,
-                                double speed) {
-  nsvcd__passage passage;
-  nsvcd__place_triangle(nsvcd__placed_at(p, u0), couple->moving, passage.start);
-  nsvcd__place_triangle(nsvcd__placed_at(p, 0.5 * (u0 + u1)), couple->moving, passage.middle);
-  nsvcd__place_triangle(nsvcd__placed_at(p, u1), couple->moving, passage.end);
-  passage.way = speed * (u1 - u0);
-  return nsvcd__triangles_pass(&passage, couple->fixed, couple->rounding);
+static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                  double u0, double u1) {
+  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.parting);
+  const float normal[3] = {plane.x, plane.y, plane.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
+                 couple->moving_listing, couple->fixed_listing, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), normal);
+  (void)couple;
+  (void)normal;
+  (void)u0;
+  (void)u1;
 }
 
-// Where a couple has met by passing, the time is narrowed down to rounding, and is the contact's.
-// FREE where it has not.
-static NSVCD__APART nsvcd__verdict nsvcd__find_passage(nsvcd__proof *p, const nsvcd__couple *couple,
-                                                       double u0, double u1, double speed) {
-  if (!nsvcd__couple_passes(p, couple, u0, u1, speed))
-    return NSVCD__FREE;
-  for (size_t n = 0; n < NSVCD__HALVINGS; n++) {
+// A share u of the arc later than its start: the nearest points of a couple.
+static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
+                                            double u) {
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  return nsvcd__triangles_nearest(posed, couple->fixed);
+}
+
+// What becomes of a part of the arc that is too short to be halved. Where the couple has met by
+// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
+// where distances are measured, less is said, for certain: these come no nearer than that. Then the
+// part is to be looked at again: SHRUNK, or TOO_LONG if there is no contact.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
+                                                            const nsvcd__couple *couple,
+                                                            double u0, double u1,
+                                                            double speed) {
+  int passes = nsvcd__couple_passes(p, couple, u0, u1, speed);
+  const int has_met = passes;
+  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
     const int in_first = nsvcd__couple_passes(p, couple, u0, middle, speed);
-    if (!in_first && !nsvcd__couple_passes(p, couple, middle, u1, speed))
-      break;
+    passes = in_first || nsvcd__couple_passes(p, couple, middle, u1, speed);
+    if (!passes) break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, when), couple->moving, posed);
-  nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-  nearest.square = 0;
-  return nsvcd__take_contact(p, couple, when, &nearest);
-}
-
-static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                                  double u1) {
-  const float normal[3] = {(float)p->parting.x, (float)p->parting.y, (float)p->parting.z};
-  const double start = nsvcd__time_in_arc(p, u0);
-  const double end = nsvcd__time_in_arc(p, u1);
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
-                 couple->moving_listing, couple->fixed_listing, start, end, normal);
-  (void)normal;
-  (void)start;
-  (void)end;
-  (void)couple;
-}
-
-// What becomes of a part of the arc that is too short to be halved: a passage, an answer that says
-// less, or doubt, which is NSVCD__UNDECIDED. NSVCD__TAKEN and NSVCD__FREE: look at it again.
-static nsvcd__verdict nsvcd__settle_short_part(nsvcd__proof *p, const nsvcd__couple *couple,
-                                               double u, double end, double speed) {
-  const nsvcd__verdict passage = nsvcd__find_passage(p, couple, u, end, speed);
-  if (passage == NSVCD__MEETS || passage == NSVCD__TAKEN)
-    return passage;
-  if (!(p->measure > 0)) {
-    nsvcd__take_doubt(p, couple, u, end);
-    return NSVCD__UNDECIDED;
+  if (has_met) {
+    nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+    nearest.square = 0;
+    return nsvcd__take_contact(p, couple, when, &nearest);
   }
-  // say less, but for certain: these come no nearer than that
-  const double middle = 0.5 * (u + end);
-  nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  if (!(p->ask.measure > 0)) {
+    nsvcd__take_doubt(p, couple, u0, u1);
+    return NSVCD__SETTLED;
+  }
+  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
   const double distance = sqrt(nearest.square);
-  if (distance < p->high)
-    (void)nsvcd__take_contact(p, couple, middle, &nearest);
-  const double parted = distance - 2 * (couple->slack + p->tolerance);
-  p->clearance = fmax(p->low, fmin(p->clearance, parted));
-  return p->clearance > p->low ? NSVCD__FREE : NSVCD__MEETS;
+  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
+  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  p->ask.clearance = fmax(p->low, fmin(p->ask.clearance, parted));
+  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
 // Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
 // triangles, or there is a contact, or they come too close to tell. After each doubt parts need be
 // less short: what is still asked is whether they meet. The planes tried are the one that parted a
 // couple last, and one at the nearest points of the middle.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_couple(nsvcd__proof *p,
+static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
-  const nsvcd__arc *arc = &p->arc;
+  const nsvcd__arc *arc = &p->memo.arc;
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
-  const double close = couple->slack + p->tolerance;
+  const double close = couple->slack + p->given.tolerance;
+  nsvcd__d3 *plane = &p->memo.parting;
   double *ends = p->couple_ends;
   size_t left = 1;
   size_t doubts = 0;
-  int taken = 0;
+  int shrunk = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
-    if (!(u < end))
-      break;  // a doubt may be the end
+    // a doubt may be the end
+    if (!(u < end)) break;
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_spent(p))
-      return NSVCD__UNDECIDED;
-    int apart = nsvcd__plane_parts(p, couple, u, end, p->parting);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    int apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     if (!apart) {
-      nsvcd__d3 posed[3];
-      nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-      const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+      const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->clearance + couple->rounding) {
-        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__MEETS)
-          return NSVCD__MEETS;
-        taken = 1;
+      if (distance <= p->ask.clearance + couple->rounding) {
+        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+          return NSVCD__ANSWERED;
+        shrunk = 1;
         continue;
       }
-      p->parting = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
-      apart = nsvcd__plane_parts(p, couple, u, end, p->parting);
+      *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+      apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     }
-    if (apart)
+    if (apart) {
       nsvcd__certify_couple(p, couple, u, end);
-    const double least = 0.25 * close * (double)(1 + doubts);
-    const int tiny = speed * (end - u) <= least || left > NSVCD__HALVINGS;
-    if (!apart && !tiny) {
-      ends[left++] = middle;
-      p->parts++;
-      continue;
-    }
-    if (!apart) {
-      const nsvcd__verdict settled = nsvcd__settle_short_part(p, couple, u, end, speed);
-      if (settled == NSVCD__MEETS)
-        return settled;
-      taken |= settled == NSVCD__TAKEN;
-      if (settled != NSVCD__UNDECIDED)
+    } else {
+      const double least = 0.25 * close * (double)(1 + doubts);
+      const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
+      if (!is_short) {
+        ends[left++] = middle;
+        p->parts++;
         continue;
+      }
+      const nsvcd__outcome part = nsvcd__settle_short_part(p, couple, u, end, speed);
+      if (part == NSVCD__ANSWERED) return part;
+      shrunk |= part == NSVCD__SHRUNK;
+      if (part != NSVCD__SETTLED) continue;
       doubts++;
     }
     u = end;
     left--;
   }
-  return taken ? NSVCD__TAKEN : NSVCD__FREE;
+  return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- blocks of triangles
+// ------------------------------------------------------------------------------------ proof/blocks
+// In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
+#ifndef NSVCD_NO_PROOF
 // Corner k of listings first .. first + count - 1, as vertices of their patch, the last one
 // repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
-static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
-                                 size_t k, uint16_t *vertices) {
-  const size_t bytes = nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
+static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
+                                 size_t count, size_t k, uint16_t *vertices) {
+  const size_t bytes =
+      nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
   const size_t last = count - 1;
   if (bytes == 1) {
-    for (size_t l = 0; l < NSVCD__LANES; l++)
-      vertices[l] = corners[3 * (l < last ? l : last)];
+    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
     return;
   }
   for (size_t l = 0; l < NSVCD__LANES; l++)
@@ -11582,33 +9912,21 @@ static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
   }
 }
 
-// The least of 16 numbers, and the greatest.
-static float nsvcd__least_lane(const float *lanes) {
-  float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) {
-    const float of_slice = nsvcd__v_least(nsvcd__v_load(lanes + l));
-    least = nsvcd__least_of(least, of_slice);
-  }
-  return least;
-}
-static float nsvcd__greatest_lane(const float *lanes) {
-  float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v negated = nsvcd__v_negate(nsvcd__v_load(lanes + l));
-    least = nsvcd__least_of(least, nsvcd__v_least(negated));
-  }
-  return -least;
-}
-
 // The box about a block's boxes.
 static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
-  nsvcd__box out;
-  out.low.x = nsvcd__least_lane(block->low[0]);
-  out.low.y = nsvcd__least_lane(block->low[1]);
-  out.low.z = nsvcd__least_lane(block->low[2]);
-  out.high.x = nsvcd__greatest_lane(block->high[0]);
-  out.high.y = nsvcd__greatest_lane(block->high[1]);
-  out.high.z = nsvcd__greatest_lane(block->high[2]);
+  float low[3], high[3];
+  for (size_t k = 0; k < 3; k++) {
+    float least = HUGE_VALF;
+    float negated = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v above = nsvcd__v_negate(nsvcd__v_load(block->high[k] + l));
+      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(block->low[k] + l)));
+      negated = nsvcd__least_of(negated, nsvcd__v_least(above));
+    }
+    low[k] = least;
+    high[k] = -negated;
+  }
+  const nsvcd__box out = {nsvcd__f3_load(low), nsvcd__f3_load(high)};
   return out;
 }
 
@@ -11616,14 +9934,13 @@ static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
 // extend to. The same patch is often asked for again.
 static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
   const size_t end = p->fixed.first_triangle[j + 1];
-  if (p->window > 0 && p->fixed_blocks[0].first == first)
-    return;
-  p->window = 0;
-  for (size_t n = first; n < end && p->window < NSVCD__WINDOW; n += NSVCD__LANES) {
-    nsvcd__block *block = &p->fixed_blocks[p->window];
+  if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
+  p->memo.window = 0;
+  for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
+    nsvcd__block *block = &p->fixed_blocks[p->memo.window];
     nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->bounds[p->window] = nsvcd__block_bounds(block);
-    p->window++;
+    p->bounds[p->memo.window] = nsvcd__block_bounds(block);
+    p->memo.window++;
   }
 }
 
@@ -11633,7 +9950,8 @@ static inline uint32_t nsvcd__block_lanes(const nsvcd__block *block) {
 }
 
 // Lanes of a block whose boxes come within `margin` of a box along every axis.
-NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box, float margin) {
+NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box,
+                                         float margin) {
   const nsvcd__f3 around = nsvcd__f3_of(margin, margin, margin);
   float low[3], high[3];
   nsvcd__f3_store(nsvcd__f3_sub(box.low, around), low);
@@ -11666,8 +9984,8 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
 // on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
 // the moving one is on the side that the normal points from.
-NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed, size_t s,
-                                           size_t ends, float margin, nsvcd__v3 n,
+NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                           size_t s, size_t ends, float margin, nsvcd__v3 n,
                                            uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
@@ -11718,25 +10036,22 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 // All couples of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
 // or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                 const nsvcd__block *b, const nsvcd__span *span, uint32_t apart,
-                                 size_t s, const nsvcd__v3 *plane, uint32_t below) {
+                                 const nsvcd__block *b, const nsvcd__span *span,
+                                 uint32_t apart, size_t s, const nsvcd__v3 *plane,
+                                 uint32_t below) {
   float lanes[3][NSVCD__LANES];
   const nsvcd__block *a = &p->moving_block;
-  if (plane)
-    nsvcd__v3_store(lanes, s, *plane);
+  if (plane) nsvcd__v3_store(lanes, s, *plane);
   for (size_t n = 0; n < b->count; n++) {
     float normal[3] = {0, 0, 0};
     float widest = -HUGE_VALF;
     const float sign = below >> n & 1 ? -1.0f : 1.0f;
-    if (!(apart >> n & 1))
-      continue;
+    if (!(apart >> n & 1)) continue;
     for (size_t k = 0; k < 3; k++) {
-      if (plane)
-        normal[k] = sign * lanes[k][n];
+      if (plane) normal[k] = sign * lanes[k][n];
       const float above = a->low[k][l] - b->high[k][n];
       const float under = b->low[k][n] - a->high[k][l];
-      if (plane || (above <= widest && under <= widest))
-        continue;
+      if (plane || (above <= widest && under <= widest)) continue;
       widest = above > under ? above : under;
       normal[0] = normal[1] = normal[2] = 0;
       normal[k] = above > under ? 1.0f : -1.0f;
@@ -11757,18 +10072,15 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
                                              nsvcd__block *fixed, size_t ends,
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
-  if (span)
-    NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
-      if (!(met >> s & NSVCD__SLICE_MASK))
-        continue;
+      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
       const uint32_t apart =
           nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
-      if (span)
-        NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
   }
@@ -11776,27 +10088,13 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
   (void)j;
   return met;
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- witnesses
+// --------------------------------------------------------------------------------- proof/witnesses
+// In: an item and a tick. Out: a contact: two triangles that meet there, or come within the
+// clearance.
 
-// The nearest points of a posed triangle and another, if they come within the clearance; if not,
-// `square` is HUGE_VAL.
-static nsvcd__nearest nsvcd__contact_of(const nsvcd__proof *p, const nsvcd__d3 *posed,
-                                        const nsvcd__couple *couple) {
-  nsvcd__nearest out = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-  nsvcd__d3 point;
-  if (nsvcd__triangles_meet(posed, couple->fixed, &point)) {
-    out.square = 0;
-    out.on_a = point;
-    out.on_b = point;
-  } else if (p->clearance > 0) {
-    const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
-    if (nearest.square <= p->clearance * p->clearance)
-      out = nearest;
-  }
-  return out;
-}
-
+#ifndef NSVCD_NO_PROOF
 // How far a triangle must go along n until it is beyond the other; negative if it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
   double lowest = HUGE_VAL;
@@ -11823,11 +10121,10 @@ static NSVCD__APART void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
   nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
-  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->motion->lift), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->asked > p->skin)
+  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->given.skin)
     return 0;
-  if (lift < 0)
-    return 1;
+  if (lift < 0) return 1;
   nsvcd__touch_normals(t, normals);
   return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
 }
@@ -11844,18 +10141,18 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undoes(p, p->normals[k], &touch))
-      return;
+    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
   }
-  if (p->touch_count < NSVCD__TOUCHES)
-    p->of.touches[p->touch_count++] = touch;
+  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
 
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
-// the arc later than its start. FREE: there is none.
-static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
-                                             const nsvcd__placement *at, double u, float margin) {
+// the arc later than its start.
+static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
+                                             const nsvcd__placement *at, double u,
+                                             float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
+  const double clearance = p->ask.clearance;
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__lowest_bit(lanes);
@@ -11866,24 +10163,28 @@ static nsvcd__verdict nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       const nsvcd__couple couple =
           nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
       nsvcd__d3 posed[3];
+      nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
-      const nsvcd__nearest nearest = nsvcd__contact_of(p, posed, &couple);
-      if (!(nearest.square < HUGE_VAL))
-        continue;
-      if (p->gathers) {
+      if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
+        nearest.on_a = nearest.on_b;
+      } else {
+        if (!(clearance > 0)) continue;
+        nearest = nsvcd__triangles_nearest(posed, couple.fixed);
+        if (!(nearest.square <= clearance * clearance)) continue;
+      }
+      if (p->ask.gathers) {
         nsvcd__gather_contact(p, &couple, posed);
         continue;
       }
-      const nsvcd__verdict verdict = nsvcd__take_contact(p, &couple, u, &nearest);
-      if (verdict == NSVCD__MEETS)
-        return verdict;
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
+      if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__verdict better = nsvcd__settle_couple(p, &couple, 0, 1);
-      return better == NSVCD__MEETS ? better : verdict;
+      const nsvcd__outcome better = nsvcd__settle_couple(p, &couple, 0, 1);
+      return better == NSVCD__ANSWERED ? better : contact;
     }
   }
-  return NSVCD__FREE;
+  return NSVCD__NOTHING;
 }
 
 // Loads 16 triangles of moving patch i, from listing `first` on.
@@ -11894,76 +10195,72 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
 }
 
 // Looks for a contact of triangles of patches i and j a share u of an arc later than its start.
-// FREE: there is none.
-static nsvcd__verdict nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
+static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
-  const float rounding = NSVCD__ROUNDING * (p->lengths + nsvcd__f3_length(rounded.position));
-  const float margin = rounding + nsvcd__clearance_of(p);
+  const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
+  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance_of(p);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
-  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+       b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
       nsvcd__block_pose(p, &rounded, 0);
       nsvcd__block_box(p, 1);
-      for (size_t n = 0; n < p->window; n++) {
+      for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
-        if (nsvcd__is_spent(p))
-          return NSVCD__FREE;
-        const nsvcd__verdict verdict = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
-        if (verdict != NSVCD__FREE)
-          return verdict;
+        if (nsvcd__is_spent(p)) return NSVCD__NOTHING;
+        const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
+        if (found != NSVCD__NOTHING) return found;
       }
     }
   }
-  return NSVCD__FREE;
+  return NSVCD__NOTHING;
 }
 
-// The last knot that is not after a tick; that tick is before the end of the motion.
-static uint32_t nsvcd__knot_at(const nsvcd__motion *motion, uint32_t tick) {
-  const uint32_t past_a = tick % motion->moving.ticks;
-  const uint32_t past_b = tick % motion->fixed.ticks;
-  return tick - (past_a < past_b ? past_a : past_b);
-}
-
-// The arc, and the share of it, that a time counted in ticks is in.
+// The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
+// is not after that time.
 static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
-  const uint32_t first = nsvcd__knot_at(motion, tick);
+  const uint32_t past_a = tick % motion->moving.ticks;
+  const uint32_t past_b = tick % motion->fixed.ticks;
+  const uint32_t first = tick - (past_a < past_b ? past_a : past_b);
   *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
   return first;
 }
 
-// Looks for a contact of an item where its spheres are nearest, if that still matters. FREE: there
-// is none.
-static nsvcd__verdict nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
+// Looks for a contact of an item where its spheres are nearest, if that still matters.
+static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
                                        nsvcd__item *item) {
   const double start = (double)search->begin[item->segment];
   const double end = fmin((double)search->begin[item->segment + 1u], p->clipped_end);
   const double tick = start + (double)item->share * (end - start);
   double u;
   item->sought = 1;
-  if (!(tick < p->end))
-    return NSVCD__FREE;
-  const uint32_t first = nsvcd__arc_and_share(p->motion, tick, &u);
+  if (!(tick < p->ask.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, tick, &u);
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- what hulls leave
+// ------------------------------------------------------------------------------------- proof/items
+// In: an item that no hull's plane parts. Out: it is parted by its triangles, or in contact, or
+// kept as a doubt.
 
+#ifndef NSVCD_NO_PROOF
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
 // the window: couples that planes do not part are settled one by one, and what parts one may part
 // others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
 // when there is such a couple.
-static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l, size_t n,
-                                        const nsvcd__span *span, float margin, double u0, double u1,
-                                        size_t patience) {
+static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                        size_t n, const nsvcd__span *span, float margin,
+                                        double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
@@ -11971,7 +10268,7 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__f3 last = nsvcd__f3_round(p->parting);
+    const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
         quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
     NSVCD__EACH_SLICE(s) {
@@ -11981,173 +10278,145 @@ static nsvcd__verdict nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
       NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
-    if (!met)
-      break;
-    if (patience == 0)
-      return NSVCD__TOO_LONG;
+    if (!met) break;
+    if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
     const nsvcd__couple couple =
         nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
-    const nsvcd__verdict one = nsvcd__settle_couple(p, &couple, u0, u1);
-    if (one != NSVCD__FREE)
-      return one;
-    if (p->parts > patience)
-      return NSVCD__TOO_LONG;
+    const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
+    if (one != NSVCD__SETTLED) return one;
+    if (p->parts > patience) return NSVCD__TOO_LONG;
   }
-  return NSVCD__FREE;
+  return NSVCD__SETTLED;
 }
 
 // All couples of an item's patches over a span from u0 to u1 of the arc.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
+static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
                                                            const nsvcd__span *span, double u0,
                                                            double u1, size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin =
-      nsvcd__quanta_of(p, i, j) + span->spread + nsvcd__clearance_of(p) + span->bulge * reach;
+  const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
+                       nsvcd__clearance_of(p) + span->bulge * reach;
   p->parts = 0;
-  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+       b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
       nsvcd__block_pose(p, &span->start, 0);
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
-      for (size_t n = 0; n < p->window; n++) {
+      for (size_t n = 0; n < p->memo.window; n++) {
         const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
         p->work++;
-        if (nsvcd__is_spent(p))
-          return NSVCD__UNDECIDED;
+        if (nsvcd__is_spent(p)) return NSVCD__SPENT;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(lanes >> l & 1)) {
             NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
             continue;
           }
-          const nsvcd__verdict row =
+          const nsvcd__outcome row =
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
-          if (row != NSVCD__FREE)
-            return row;
+          if (row != NSVCD__SETTLED) return row;
         }
       }
     }
   }
-  return NSVCD__FREE;
+  return NSVCD__SETTLED;
 }
 
 static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
                                 const nsvcd__item *item) {
-  const float normal[3] = {p->held.x, p->held.y, p->held.z};
-  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE, span->t_start,
-                 span->t_end, normal);
+  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
+                 span->t_start, span->t_end, normal);
   (void)normal;
   (void)span;
   (void)item;
 }
 
-// Settles an item from u0 to u1 of an arc, which is halved as often as need be: by a plane between
-// the hulls, or by its triangles.
-static nsvcd__verdict nsvcd__settle_arc(nsvcd__proof *p, const nsvcd__item *item, uint32_t first,
-                                        double u0, double u1) {
-  double *ends = p->arc_ends;
-  size_t left = 1;
-  ends[0] = u1;
-  nsvcd__arc_at(p, first);
-  for (double u = u0; left > 0;) {
-    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
-    if (!(u < end))
-      break;
-    p->span = nsvcd__span_of_arc(p, first, u, end);
-    if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
-      nsvcd__certify_item(p, &p->span, item);
-    } else {
-      const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
-      const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
-      const nsvcd__verdict part =
-          nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-      if (part == NSVCD__MEETS || part == NSVCD__UNDECIDED)
-        return part;
-      if (part == NSVCD__TAKEN)
-        continue;
-      if (part == NSVCD__TOO_LONG) {
-        ends[left++] = 0.5 * (u + end);
-        continue;
-      }
-    }
-    u = end;
-    left--;
-  }
-  return NSVCD__FREE;
-}
-
-// Settles an item that no plane parts over its segment, arc by arc.
-static nsvcd__verdict nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
+// Settles an item that no plane parts over its segment, arc by arc. Each arc is halved as often as
+// need be: a part of it is parted by a plane between the hulls, or by its triangles.
+static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
                                          const nsvcd__item *item) {
-  const uint32_t end = search->begin[item->segment + 1u];
-  for (uint32_t at = search->begin[item->segment]; at < end && (double)at < p->end;) {
-    double u0;
-    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)at, &u0);
-    const uint32_t knot = nsvcd__next_knot(p->motion, first);
-    const uint32_t next = end < knot ? end : knot;
-    const double u1 = (double)(next - first) / (double)(knot - first);
-    const nsvcd__verdict part = nsvcd__settle_arc(p, item, first, u0, u1);
-    if (part != NSVCD__FREE)
-      return part;
-    at = next;
+  const nsvcd__motion *motion = p->ask.motion;
+  const uint32_t last = search->begin[item->segment + 1u];
+  double *ends = p->arc_ends;
+  for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
+    double u;
+    const uint32_t first = nsvcd__arc_and_share(motion, (double)at, &u);
+    const uint32_t knot = nsvcd__next_knot(motion, first);
+    at = last < knot ? last : knot;
+    ends[0] = (double)(at - first) / (double)(knot - first);
+    for (size_t left = 1; left > 0;) {
+      NSVCD__PAUSE(p);
+      nsvcd__arc_at(p, first);
+      const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+      if (!(u < end)) break;
+      p->span = nsvcd__span_of_arc(p, first, u, end);
+      if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
+        nsvcd__certify_item(p, &p->span, item);
+      } else {
+        const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
+        const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
+        const nsvcd__outcome part =
+            nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        if (part == NSVCD__ANSWERED || part == NSVCD__SPENT) return part;
+        if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
+        if (part != NSVCD__SETTLED) continue;
+      }
+      u = end;
+      left--;
+    }
   }
-  return NSVCD__FREE;
+  return NSVCD__SETTLED;
 }
 
-// The height over p->held above which a moving patch stays in a segment, all allowances taken off.
-// Neighbours of an item that a plane parts ask for the same again.
-static float nsvcd__least_height(nsvcd__proof *p, const nsvcd__span *span, size_t i, size_t s) {
-  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
-  nsvcd__height *known = &p->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
-  if (known->plane == p->plane && known->key == key)
-    return known->height;
-  float lowest = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 n = nsvcd__v3_set(p->held);
-    const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
-    const nsvcd__v at_start = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->start, hull));
-    const nsvcd__v at_end = nsvcd__v3_dot(n, nsvcd__v3_transform(&span->end, hull));
-    lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
-  }
-  const float length = nsvcd__f3_length(p->held);
-  const float slack = (p->motion->scale * p->moving.slacks[i] + span->rounding) * length;
-  const float reach = nsvcd__patch_reach(&p->moving, i);
-  known->plane = p->plane;
-  known->key = key;
-  known->height = lowest - slack - nsvcd__deviation(span, p->held, reach);
-  return known->height;
-}
-
-// The height over p->held below which a resting patch is.
-static float nsvcd__greatest_height(nsvcd__proof *p, size_t j) {
-  nsvcd__height *known = &p->rest_heights[j % NSVCD__REST_HEIGHTS];
-  if (known->plane == p->plane && known->key == j)
-    return known->height;
-  float highest = HUGE_VALF;  // negated
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 hull = nsvcd__hull_of(&p->fixed, j, l);
-    const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(p->held), hull);
-    highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
-  }
-  highest = -highest;
-  known->plane = p->plane;
-  known->key = (uint32_t)j;
-  known->height = highest + p->fixed.slacks[j] * nsvcd__f3_length(p->held);
-  return known->height;
-}
-
-// Does a plane with the normal that held last part an item's patches over its segment?
+// Does a plane with the normal that held last part an item's patches over its segment? Neighbours
+// of an item that a plane parts ask for the same again: so heights over it are remembered, of a
+// moving patch in a segment the least, all allowances taken off, and of a resting one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
                              const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  const float least = nsvcd__least_height(p, span, item->moving, item->segment);
-  const float clearance = nsvcd__clearance_of(p) * nsvcd__f3_length(p->held);
-  if (!(least > nsvcd__greatest_height(p, item->fixed) + clearance))
-    return 0;
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
+  const size_t s = item->segment;
+  const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+  nsvcd__memo *memo = &p->memo;
+  const nsvcd__f3 n = memo->held;
+  const float length = nsvcd__f3_length(n);
+  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
+  nsvcd__height *above =
+      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
+  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  if (above->plane != memo->plane || above->key != key) {
+    float lowest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 normal = nsvcd__v3_set(n);
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+    }
+    const float slack = (p->ask.motion->scale * p->moving.slacks[i] + span->rounding) * length;
+    above->plane = memo->plane;
+    above->key = key;
+    above->height =
+        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(&p->moving, i));
+  }
+  if (below->plane != memo->plane || below->key != j) {
+    // negated
+    float highest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+    }
+    below->plane = memo->plane;
+    below->key = (uint32_t)j;
+    below->height = p->fixed.slacks[j] * length - highest;
+  }
+  if (!(above->height > below->height + nsvcd__clearance_of(p) * length)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
@@ -12156,37 +10425,30 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
 static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
                                  const nsvcd__item *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span))
-    return 0;
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
 
-// Is there one for each couple of their triangles?
-static int nsvcd__triangles_are_parted(nsvcd__proof *p, const nsvcd__search *search,
-                                       const nsvcd__item *item) {
-  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
-  return nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0) == NSVCD__FREE;
-}
-
-// Does an item come before another: is it deeper; with `first`, once there is a contact, earlier?
-static int nsvcd__comes_first(const nsvcd__proof *p, const nsvcd__item *a, const nsvcd__item *b) {
-  const int by_time = p->first > 0 && p->known.has_contact && a->segment != b->segment;
-  return by_time ? a->segment < b->segment : a->depth > b->depth;
-}
+// Sorts items: the deeper first; with `first`, once there is a contact, the earlier.
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
+  const int in_time = p->ask.first > 0 && p->known.has_contact;
   for (size_t n = 1; n < count; n++) {
     const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0 && nsvcd__comes_first(p, &item, &items[at - 1]); at--)
-      items[at] = items[at - 1];
+    for (; at > 0; at--) {
+      const nsvcd__item *before = &items[at - 1];
+      const int by_time = in_time && item.segment != before->segment;
+      if (!(by_time ? item.segment < before->segment : item.depth > before->depth)) break;
+      items[at] = *before;
+    }
     items[at] = item;
   }
 }
 
 // Does a segment still matter?
 static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, size_t segment) {
-  return (double)search->begin[segment] < p->end;
+  return (double)search->begin[segment] < p->ask.end;
 }
 
 // Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
@@ -12195,16 +10457,13 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
 static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
-  if (!(p->end < p->clipped_end))
-    return;
-  p->clipped_end = p->end;
-  while (s < search->segments && !((double)search->begin[s + 1] > p->end))
-    s++;
-  if (s == search->segments || !((double)search->begin[s] < p->end))
-    return;
+  if (!(p->ask.end < p->clipped_end)) return;
+  p->clipped_end = p->ask.end;
+  while (s < search->segments && !((double)search->begin[s + 1] > p->ask.end)) s++;
+  if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_and_share(p->motion, p->end, &u);
+  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, p->ask.end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
@@ -12223,82 +10482,99 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
     block->drift_off_way[l] *= 2;
   }
   p->clipped |= (uint64_t)1 << s;
-  p->spans_known &= ~((uint64_t)1 << s);
+  p->memo.spans &= ~((uint64_t)1 << s);
   search->posed &= ~((uint64_t)1 << s);
   // heights over the plane that held last are not what they were
-  p->plane += p->plane > 0;
+  p->memo.plane += p->memo.plane > 0;
 }
 
-// Settles the items that no plane parts, in the order of nsvcd__comes_first.
-static NSVCD__APART nsvcd__verdict nsvcd__settle_items(nsvcd__proof *p, nsvcd__search *search) {
+// Settles the items that no plane parts.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
+                                                       nsvcd__search *search) {
   nsvcd__sort_items(p, p->of.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    if (nsvcd__is_spent(p))
-      return NSVCD__UNDECIDED;
     const nsvcd__item *item = &p->of.items[n];
+    NSVCD__PAUSE(p);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
     nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment))
-      continue;
+    if (!nsvcd__matters(p, search, item->segment)) continue;
     const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__item_is_parted(p, search, item))
-      continue;
-    if (nsvcd__settle_item(p, search, item) == NSVCD__MEETS)
-      return NSVCD__MEETS;
+    if (is_clipped && nsvcd__item_is_parted(p, search, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
+    if (outcome != NSVCD__SETTLED) return outcome;
   }
   p->count = 0;
-  return nsvcd__is_spent(p) ? NSVCD__UNDECIDED : NSVCD__FREE;
+  return nsvcd__is_spent(p) ? NSVCD__SPENT : NSVCD__SETTLED;
 }
 
-// Looks at fresh items, in that order: parts those that planes can part, looks for a witness in the
-// others, and keeps them. The last plane that held is tried on all before anything else: it often
-// holds for neighbours.
-static NSVCD__APART nsvcd__verdict nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+// Looks at fresh items: parts those that planes can part, looks for a witness in the others, and
+// keeps them. The last plane that held is tried on all before anything else: it often holds for
+// neighbours.
+static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
-    if (p->plane && nsvcd__held_again(p, search, &p->fresh[n]))
-      continue;
+    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
   nsvcd__sort_items(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__MEETS) {
-    return NSVCD__MEETS;
-  }
+      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+    return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
     nsvcd__item *item = &p->fresh[n];
-    if (nsvcd__is_spent(p))
-      return NSVCD__UNDECIDED;
+    NSVCD__PAUSE(p);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
     nsvcd__clip_segment(p, search);
-    if (!nsvcd__matters(p, search, item->segment))
-      continue;
-    if (p->plane && nsvcd__held_again(p, search, item))
-      continue;
-    if (nsvcd__item_is_parted(p, search, item))
-      continue;
-    if (p->misses >= NSVCD__HOPE && nsvcd__triangles_are_parted(p, search, item))
-      continue;
-    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__MEETS)
-      return NSVCD__MEETS;
+    if (!nsvcd__matters(p, search, item->segment)) continue;
+    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__item_is_parted(p, search, item)) continue;
+    if (p->misses >= NSVCD__HOPE) {
+      const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+      const nsvcd__outcome by_triangles =
+          nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+      if (by_triangles == NSVCD__SETTLED) continue;
+    }
+    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+      return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {
-      const nsvcd__verdict verdict = nsvcd__settle_items(p, search);
-      if (verdict != NSVCD__FREE)
-        return verdict;
+      const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
+      if (outcome != NSVCD__SETTLED) return outcome;
     }
     p->of.items[p->count++] = *item;
   }
-  return NSVCD__FREE;
+  return NSVCD__SETTLED;
 }
 
-// ---- containment
+// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together.
+static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
+  for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
+    const nsvcd__item *item = &p->fresh[n];
+    NSVCD__PAUSE(p);
+    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__item_is_parted(p, search, item)) continue;
+    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+  }
+  p->fresh_count = 0;
+  return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
+                                                                    : NSVCD__SPENT;
+}
+#endif  // NSVCD_NO_PROOF
 
+// ------------------------------------------------------------------------------- proof/containment
+// In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
+// in double.
+
+#ifndef NSVCD_NO_PROOF
 // A ray from a place of a body's frame, in that frame: does the body enclose the place?
 typedef struct nsvcd__ray {
   nsvcd__d3 from, direction;
-  double margin;  // a ray that passes an edge within this tells nothing
+  // a ray that passes an edge within this tells nothing; and that, with what rounding may add
+  double margin;
+  float rounding;
 } nsvcd__ray;
 
 // +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it
@@ -12324,39 +10600,33 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
   const double size = nsvcd__d3_length(n);
   const int behind = height * slope < 0 && fabs(height) > margin * size;
-  if (behind)
-    return 0;
+  if (behind) return 0;
   if (nearest <= margin) {
     // Near the line of an edge, but is it near the triangle?
     nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
     nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < 3; k++)
       nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
-    if (near_edge.square <= 4 * margin * margin)
-      *unclear = 1;
-    if (least < 0 && most > 0)
-      return 0;
+    if (near_edge.square <= 4 * margin * margin) *unclear = 1;
+    if (least < 0 && most > 0) return 0;
   }
-  if (least <= 0 && most >= 0)
-    return 0;
-  if (fabs(height) <= margin * size)
-    *unclear = 1;
+  if (least <= 0 && most >= 0) return 0;
+  if (fabs(height) <= margin * size) *unclear = 1;
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Lanes of 16 spheres, in the body's frame, that the ray meets.
-static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray,
-                                      nsvcd__spheres all) {
+// Lanes of 16 spheres, in the body's frame, that the ray meets; a filter of a walk.
+static uint32_t nsvcd__is_on_ray(const void *what, nsvcd__spheres all) {
+  const nsvcd__ray *ray = (const nsvcd__ray *)what;
   const nsvcd__f3 from = nsvcd__f3_round(ray->from);
   const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
-  const float rounding = (float)ray->margin + 4 * NSVCD__ROUNDING * b->extent;
   uint32_t met = 0;
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
     const nsvcd__v3 n = nsvcd__v3_set(direction);
     const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
     const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), rounding);
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), ray->rounding);
     const nsvcd__v square = nsvcd__v3_dot(off, off);
     const uint32_t near_line = nsvcd__v_le(square, nsvcd__v_signed_square(reach));
     met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
@@ -12364,33 +10634,14 @@ static uint32_t nsvcd__spheres_on_ray(const nsvcd_body *b, const nsvcd__ray *ray
   return met;
 }
 
-// The same, as a filter of a walk.
-typedef struct nsvcd__ray_of {
-  const nsvcd_body *body;
-  const nsvcd__ray *ray;
-} nsvcd__ray_of;
-static uint32_t nsvcd__is_on_ray(const void *what, nsvcd__spheres all) {
-  const nsvcd__ray_of *of = (const nsvcd__ray_of *)what;
-  return nsvcd__spheres_on_ray(of->body, of->ray, all);
-}
-
-// Members of group g whose spheres the ray meets: it may meet their pieces.
-static uint32_t nsvcd__patches_on_ray(const nsvcd_body *b, const nsvcd__ray *ray, size_t g) {
-  const nsvcd__spheres patches = nsvcd__body_patches(b);
-  return nsvcd__spheres_on_ray(b, ray, nsvcd__spheres_from(patches, NSVCD__GROUP * g));
-}
-
 // Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
 // there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
   for (size_t k = 0; k < *count; k++) {
-    if (p->crossed[k] == number)
-      return 0;
+    if (p->crossed[k] == number) return 0;
   }
-  if (*count == NSVCD__CROSSED)
-    *unclear = 1;
-  if (*count < NSVCD__CROSSED)
-    p->crossed[(*count)++] = number;
+  if (*count == NSVCD__CROSSED) *unclear = 1;
+  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
   return 1;
 }
 
@@ -12418,7 +10669,8 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
     const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
     const nsvcd__v longer = nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca));
     const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), longer);
-    const nsvcd__v allowed = nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+    const nsvcd__v allowed =
+        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
     missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
   }
   return nsvcd__block_lanes(block) & ~missed;
@@ -12437,21 +10689,20 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
                             int *unclear) {
   nsvcd__block *block = &p->fixed_blocks[0];
-  p->window = 0;
+  p->memo.window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
-  const nsvcd__ray_of of = {f->body, ray};
   int sum = 0;
   size_t count = 0;
   size_t g;
   nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_ray, &of);
+  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_ray, ray);
   while (!*unclear && nsvcd__walk_next(&walk, &g)) {
-    uint32_t patches = nsvcd__patches_on_ray(f->body, ray, g);
+    const nsvcd__spheres all = nsvcd__body_patches(f->body);
+    uint32_t patches = nsvcd__is_on_ray(ray, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
-      if (i >= f->body->patches)
-        break;
+      if (i >= f->body->patches) break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
@@ -12463,13 +10714,11 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           const size_t listing = n + nsvcd__lowest_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
-          if (!numbers.encloses)
-            continue;
+          if (!numbers.encloses) continue;
           p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
           const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
-          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear))
-            sum += crossing;
+          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
         }
       }
     }
@@ -12495,49 +10744,40 @@ static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   return met;
 }
 
-// Is a stored triangle of patch i so close to the place that the true surface may be on its other
-// side? `distance`: that close, and what float rounding may add.
-static int nsvcd__patch_is_near(nsvcd__proof *p, const nsvcd__facets *f, size_t i, nsvcd__d3 place,
-                                double tolerance, float distance) {
-  const nsvcd__d3 point[3] = {place, place, place};
-  const nsvcd__box here = {nsvcd__f3_round(place), nsvcd__f3_round(place)};
-  nsvcd__block *block = &p->fixed_blocks[0];
-  p->window = 0;
-  const double limit = 2 * (double)f->quanta[i] + tolerance;
-  const size_t end = f->first_triangle[i + 1];
-  for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
-    nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
-    p->work++;
-    for (uint32_t lanes = nsvcd__lanes_near(block, here, distance); lanes; lanes &= lanes - 1) {
-      nsvcd__d3 corners[3];
-      nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
-      const nsvcd__nearest nearest = nsvcd__triangles_nearest(point, corners);
-      if (nearest.square <= limit * limit)
-        return 1;
-    }
-  }
-  return 0;
-}
-
-// Is a stored triangle that close?
+// Is a stored triangle so close to the place that the true surface may be on its other side?
 static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
                                   double tolerance) {
   const nsvcd_body *b = f->body;
+  const nsvcd__d3 point[3] = {place, place, place};
   const nsvcd__f3 rounded = nsvcd__f3_round(place);
+  const nsvcd__box at = {rounded, rounded};
   const float remote = nsvcd__f3_length(rounded) + b->extent;
   const float distance =
       2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
   const nsvcd__surroundings here = {rounded, distance};
+  nsvcd__block *block = &p->fixed_blocks[0];
   size_t g;
   nsvcd__walk walk;
+  p->memo.window = 0;
   nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
   while (nsvcd__walk_next(&walk, &g)) {
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__lowest_bit(met);
-      if (i < b->patches && nsvcd__patch_is_near(p, f, i, place, tolerance, distance))
-        return 1;
+      if (i >= b->patches) break;
+      const double limit = 2 * (double)f->quanta[i] + tolerance;
+      const size_t end = f->first_triangle[i + 1];
+      for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
+        nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+        p->work++;
+        uint32_t lanes = nsvcd__lanes_near(block, at, distance);
+        for (; lanes; lanes &= lanes - 1) {
+          nsvcd__d3 corners[3];
+          nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
+          if (nsvcd__triangles_nearest(point, corners).square <= limit * limit) return 1;
+        }
+      }
     }
   }
   return 0;
@@ -12548,27 +10788,26 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 // which the place is. unit: of its frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
                               nsvcd__d3 place) {
-  static const double directions[8][3] = {{0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},
-                                          {0.6127, -0.5531, 0.5644},  {-0.5477, -0.5923, 0.5909},
-                                          {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
-                                          {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
+  static const double directions[8][3] = {
+      {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
+      {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
+      {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
   const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
   const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
   const double radius = (double)f->body->radius;
-  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius)
-    return 0;
+  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->lengths / unit;
-  for (size_t n = 0; n < 8 && p->work <= p->limit; n++) {
+  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
+  for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
     int unclear = 0;
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
     const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
-    if (unclear)
-      continue;
+    if (unclear) continue;
     return crossings != 0;
   }
   p->unclear = 1;
@@ -12577,8 +10816,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
 
 // Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
 // first to that of the second, in which the first is of this scale.
-static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start, float scale,
-                             const nsvcd_body *outer) {
+static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start,
+                             float scale, const nsvcd_body *outer) {
   const nsvcd_body *b = inner->body;
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
   const float rounding = 4 * NSVCD__ROUNDING * (scale * b->extent + outer->extent);
@@ -12596,8 +10835,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
     }
     for (; out; out &= out - 1) {
       const size_t i = first + nsvcd__lowest_bit(out);
-      if (i < inner->body->patches && inner->hull_counts[i])
-        return 1;
+      if (i < inner->body->patches && inner->hull_counts[i]) return 1;
     }
   }
   return 0;
@@ -12612,11 +10850,11 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
   float lanes[3][NSVCD__LANES];
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
-    for (size_t k = 0; k < 3; k++)
-      lanes[k][l] = seed[k];
+    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
   }
   const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
-  const float remote = nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
+  const float remote =
+      nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
   const float rounding = 4 * NSVCD__ROUNDING * remote;
   uint32_t nearby = 0;
   NSVCD__EACH_SLICE(l) {
@@ -12639,7 +10877,7 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
 static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
   const double inverse = 1 / (scale * scale);
   nsvcd__placement out;
-  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(&at->rotation);
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
   out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
   out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
   return out;
@@ -12648,12 +10886,15 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, dou
 // One body at the start of the motion, as the other sees it.
 typedef struct nsvcd__enclosure {
   const nsvcd__facets *inner, *outer;
-  nsvcd__placement start;    // of the inner body in the outer one's frame,
-  nsvcd__transform rounded;  // the same,
-  nsvcd__placement back;     // and the other way round
-  float scale;               // of the inner body, in that frame
-  double unit;               // of that frame: the fixed body's units
-  int inner_moves;           // it is the motion's moving body
+  // of the inner body in the outer one's frame, the same rounded, and the other way round
+  nsvcd__placement start;
+  nsvcd__transform rounded;
+  nsvcd__placement back;
+  float scale;  // of the inner body, in that frame
+  // of that frame: the fixed body's units
+  double unit;
+  // it is the motion's moving body
+  int inner_moves;
 } nsvcd__enclosure;
 
 // Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
@@ -12663,22 +10904,18 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
   uint32_t nearby = 0;
   for (size_t n = first; n < end; n++) {
     const size_t l = (n - first) % NSVCD__LANES;
-    if (l == 0)
-      nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
-    if (!(nearby >> l & 1))
-      continue;
+    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
+    if (!(nearby >> l & 1)) continue;
     if (nsvcd__is_spent(p)) {
       p->unclear = 1;
       return 0;
     }
     const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
     const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
-    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen))
-      continue;
+    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, p->tolerance / e->unit))
-      return 1;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, p->given.tolerance / e->unit)) return 1;
   }
   return 0;
 }
@@ -12688,8 +10925,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
 static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
-  if (outer->open)
-    return 0;
+  if (outer->open) return 0;
   if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
     return 0;
   if (e->inner->components <= NSVCD__LANES)
@@ -12716,38 +10952,41 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
+  moving.back = nsvcd__inverse_placement(&moving.start, p->memo.arc.scale);
   moving.rounded = nsvcd__transform_of(&moving.start);
   moving.inner = fixed.outer = &p->moving;
   moving.outer = fixed.inner = &p->fixed;
-  moving.scale = p->motion->scale;
+  moving.scale = p->ask.motion->scale;
   moving.unit = 1;
   moving.inner_moves = 1;
   fixed.start = moving.back;
   fixed.back = moving.start;
   fixed.rounded = nsvcd__transform_of(&fixed.start);
-  fixed.scale = 1 / p->motion->scale;
-  fixed.unit = p->arc.scale;
+  fixed.scale = 1 / p->ask.motion->scale;
+  fixed.unit = p->memo.arc.scale;
   fixed.inner_moves = 0;
   return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- all of it
+// -------------------------------------------------------------------------------------- proof/loop
+// In: a question, and a motion that has been cut into segments. Out: all of it settled, or a
+// contact that answers the question, or the work spent.
 
+#ifndef NSVCD_NO_PROOF
 // Segments that are searched now, and still matter.
-static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p, const nsvcd__search *search) {
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
+                                            const nsvcd__search *search) {
   size_t s = search->segments;
-  if (!(p->first > 0) || !p->known.has_contact)
-    return search->wanted;
-  while (s > 0 && !nsvcd__matters(p, search, s - 1))
-    s--;
+  if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
+  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
   return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
 }
 
 // Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
 // long as there is room for 16 more.
-static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, size_t g, size_t j,
-                                 uint64_t *left) {
+static NSVCD__APART void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search,
+                                              size_t g, size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
@@ -12764,8 +11003,8 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
       const nsvcd__v3 v = nsvcd__v3_rows(c->way[0] + l);
       const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
-      const nsvcd__v tau =
-          nsvcd__v_clamp(nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v tau = nsvcd__v_clamp(
+          nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
       const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
       const nsvcd__v square = nsvcd__v3_dot(closest, closest);
       const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
@@ -12774,15 +11013,13 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       nsvcd__v_store(share + l, tau);
     }
     NSVCD__TALLY(tests, 1);
-    if (!met)
-      continue;
+    if (!met) continue;
     const nsvcd__span *span = nsvcd__segment_span(p, search, s);
     met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
     for (; met; met &= met - 1) {
       const size_t l = nsvcd__lowest_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
-      if (p->moving.hull_counts[i] == 0)
-        continue;
+      if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
       const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
@@ -12791,219 +11028,81 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
   }
 }
 
-// Goes on with the search of a tile until there are fresh items enough for a look. 0 when it has
-// come to its end.
-static NSVCD__APART int nsvcd__collect(nsvcd__proof *p, nsvcd__search *search) {
+// Looks at what the search has found so far.
+static nsvcd__outcome nsvcd__see_to_items(nsvcd__proof *p, nsvcd__search *search) {
+  return p->ask.gathers ? nsvcd__gather_items(p, search) : nsvcd__sift_items(p, search);
+}
+
+// THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
+// parted by spheres and by discs; of those left, patches by spheres and by discs; what is left of
+// these are items, which nsvcd__sift_items and nsvcd__settle_items see to. In the end each pair of
+// patches, in each segment that is wanted and still matters, has been parted, or has given a
+// contact that answers or shrinks the question, or is a doubt, or was settled by its parts; or
+// SPENT says that it has not.
+static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+                                                         nsvcd__search *search) {
+  nsvcd__outcome outcome;
   for (; search->step < search->steps; search->step++) {
     const size_t next = search->order[search->step];
     const size_t g = search->moving_tile.groups[next];
-    if (!p->in_group) {
-      nsvcd__search_group(search);
-      nsvcd__part_groups(p, search);
-      p->in_group = 1;
-    }
-    while (search->waiting) {
+    nsvcd__search_group(search);
+    nsvcd__part_groups(p, search);
+    for (; search->waiting; search->waiting &= search->waiting - 1) {
       const size_t at = nsvcd__lowest_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
-      if (!p->in_both) {
-        const uint64_t wanted =
-            nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
-        p->met = nsvcd__group_against_members(search, h, wanted, p->met_in);
-        p->in_both = 1;
+      const uint64_t wanted =
+          nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
+      uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
+      for (; met; met &= met - 1) {
+        const size_t l = nsvcd__lowest_bit(met);
+        uint64_t *left = &p->met_in[l];
+        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        for (;;) {
+          nsvcd__pose_members(search, g, *left);
+          nsvcd__collect_items(p, search, g, NSVCD__GROUP * h + l, left);
+          if (!*left) break;
+          outcome = nsvcd__see_to_items(p, search);
+          if (outcome != NSVCD__SETTLED) return outcome;
+        }
       }
-      for (; p->met; p->met &= p->met - 1) {
-        const size_t l = nsvcd__lowest_bit(p->met);
-        const size_t j = NSVCD__GROUP * h + l;
-        if (p->fixed.hull_counts[j] == 0)
-          continue;
-        nsvcd__pose_members(search, g, p->met_in[l]);
-        nsvcd__collect_items(p, search, g, j, &p->met_in[l]);
-        if (p->met_in[l])
-          return 1;
-      }
-      search->waiting &= search->waiting - 1;
-      p->in_both = 0;
-      if (p->fresh_count >= NSVCD__NEWS)
-        return 1;
-    }
-    p->in_group = 0;
-  }
-  return 0;
-}
-
-// Patches to look through for one that is near a place of the body's frame: all, or of a large body
-// those of a group that is found by going down the levels of spheres, always to the nearest. There
-// is one with a surface among them.
-static void nsvcd__patches_towards(const nsvcd__facets *f, nsvcd__f3 place, size_t *first,
-                                   size_t *end) {
-  const nsvcd_body *body = f->body;
-  *first = 0;
-  *end = body->patches;
-  if (!nsvcd__is_large(body))
-    return;
-  size_t from = 0;
-  size_t count = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1).count;
-  for (size_t k = nsvcd__level_count(body->padded); k-- > 0;) {
-    const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    const float *x = nsvcd__body_floats(body, level.first);
-    size_t nearest = from;
-    float best = HUGE_VALF;
-    for (size_t n = from; n < from + count && n < level.count; n++) {
-      const nsvcd__f3 centre = nsvcd__f3_of(x[n], x[level.slots + n], x[2 * level.slots + n]);
-      const float distance =
-          nsvcd__f3_length(nsvcd__f3_sub(centre, place)) - x[3 * level.slots + n];
-      if (distance >= best)
-        continue;
-      best = distance;
-      nearest = n;
-    }
-    from = NSVCD__GROUP * nearest;
-    count = NSVCD__GROUP;
-  }
-  for (size_t i = from; i < from + NSVCD__GROUP && i < body->patches; i++) {
-    if (f->hull_counts[i] == 0)
-      continue;
-    *first = from;
-    *end = from + NSVCD__GROUP < body->patches ? from + NSVCD__GROUP : body->patches;
-  }
-}
-
-// The moving body's placement at the ends of the segments: the one where the centres are nearest.
-static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p, const nsvcd__search *search) {
-  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
-  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
-  double least = HUGE_VAL;
-  nsvcd__placement nearest;
-  memset(&nearest, 0, sizeof nearest);
-  for (size_t s = 0; s <= search->segments; s++) {
-    double u;
-    const uint32_t first = nsvcd__arc_and_share(p->motion, (double)search->begin[s], &u);
-    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
-    if (square < least)
-      nearest = at;
-    least = fmin(least, square);
-  }
-  return nearest;
-}
-
-// Goes to the patch whose centre is nearest to a place, of those where `seen` lies, and to its
-// centre; stays where there is none. `pose` takes the facets to the places' frame; NULL: that is
-// theirs. `seen` is the place in the facets' own frame.
-static void nsvcd__to_nearest_patch(const nsvcd__facets *f, const nsvcd__transform *pose,
-                                    nsvcd__f3 seen, nsvcd__f3 place, size_t *patch,
-                                    nsvcd__f3 *centre) {
-  size_t first;
-  size_t end;
-  float least = HUGE_VALF;
-  nsvcd__patches_towards(f, seen, &first, &end);
-  for (size_t k = first; k < end; k++) {
-    nsvcd__f3 posed = nsvcd__facet_centre(f, k);
-    if (pose != NULL)
-      posed = nsvcd__f3_transform(pose, posed);
-    const float distance = nsvcd__f3_length(nsvcd__f3_sub(posed, place));
-    if (f->hull_counts[k] == 0 || distance >= least)
-      continue;
-    least = distance;
-    *centre = posed;
-    *patch = k;
-  }
-}
-
-// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
-// fixed one.
-static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose, size_t i,
-                                    size_t j) {
-  float lanes[3][NSVCD__LANES];
-  float least = HUGE_VALF;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
-    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(pose, moving));
-  }
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
-    for (size_t n = 0; n < NSVCD__LANES; n++) {
-      const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
-      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+      if (p->fresh_count < NSVCD__NEWS) continue;
+      outcome = nsvcd__see_to_items(p, search);
+      if (outcome != NSVCD__SETTLED) return outcome;
     }
   }
-  return sqrt((double)least);
+  outcome = nsvcd__see_to_items(p, search);
+  return outcome == NSVCD__SETTLED ? nsvcd__settle_items(p, search) : outcome;
 }
 
-// How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, const nsvcd__search *search) {
-  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
-  const nsvcd__transform pose = nsvcd__transform_of(&at);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
-  nsvcd__f3 target = nsvcd__f3_round(nsvcd__d3_load(p->fixed.body->centre));
-  size_t i = 0;
-  size_t j = 0;
-  // from one body to the other, and again
-  for (size_t round = 0; round < 2; round++) {
-    nsvcd__f3 on_moving = target;
-    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
-    nsvcd__to_nearest_patch(&p->moving, &pose, nsvcd__f3_round(seen), target, &i, &on_moving);
-    nsvcd__to_nearest_patch(&p->fixed, NULL, on_moving, on_moving, &j, &target);
-  }
-  const float lengths = p->lengths + nsvcd__f3_length(pose.position);
-  const double rounding = (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
-  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
-}
-
-// Proves what the search finds in the segments that are wanted.
-static nsvcd__verdict nsvcd__prove_segments(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__verdict verdict = NSVCD__FREE;
-  for (int more = 1; more && verdict == NSVCD__FREE;) {
-    more = nsvcd__collect(p, search);
-    verdict = nsvcd__sift_items(p, search);
-  }
-  return verdict == NSVCD__FREE ? nsvcd__settle_items(p, search) : verdict;
-}
-
-// The same, tile after tile.
-static nsvcd__verdict nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__verdict verdict;
+// The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
+// segments at a time, until there is a contact: it is the first of the tile.
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
+  const int in_order = p->ask.first > 0;
+  const size_t few = in_order ? NSVCD__IN_ORDER : search->segments;
+  nsvcd__outcome outcome = NSVCD__SETTLED;
   do {
-    verdict = nsvcd__prove_segments(p, search);
-  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search));
-  return verdict;
-}
-
-// Proves a tile, some segments at a time, until there is a contact: it is the first of the tile.
-static nsvcd__verdict nsvcd__prove_tile_in_order(nsvcd__proof *p, nsvcd__search *search) {
-  const uint64_t few = ((uint64_t)1 << NSVCD__IN_ORDER) - 1;
-  nsvcd__verdict verdict = NSVCD__FREE;
-  p->known.settled = 0;
-  for (size_t s = 0; s < search->segments && verdict == NSVCD__FREE; s += NSVCD__IN_ORDER) {
-    if (!nsvcd__matters(p, search, s))
-      break;
-    search->wanted = few << s;
-    search->step = 0;
-    search->waiting = 0;
-    p->in_group = p->in_both = 0;
-    verdict = nsvcd__prove_segments(p, search);
-    const size_t next =
-        s + NSVCD__IN_ORDER < search->segments ? s + NSVCD__IN_ORDER : search->segments;
-    if (verdict == NSVCD__FREE && !p->known.has_contact)
-      p->known.settled = (double)search->begin[next];
-  }
-  return verdict;
-}
-
-// The same, tile after tile. What is settled in one of several tells nothing of the others.
-static nsvcd__verdict nsvcd__prove_in_order(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd_body *moving = p->moving.body;
-  const nsvcd_body *fixed = p->fixed.body;
-  nsvcd__verdict verdict;
-  do {
-    verdict = nsvcd__prove_tile_in_order(p, search);
-  } while (verdict == NSVCD__FREE && nsvcd__search_next_tile(search));
-  if (nsvcd__is_large(moving) || nsvcd__is_large(fixed))
     p->known.settled = 0;
-  return verdict;
+    for (size_t s = 0; s < search->segments && outcome == NSVCD__SETTLED; s += few) {
+      const size_t next = s + few < search->segments ? s + few : search->segments;
+      if (!nsvcd__matters(p, search, s)) break;
+      if (in_order) search->wanted = (((uint64_t)1 << few) - 1) << s;
+      search->step = 0;
+      search->waiting = 0;
+      outcome = nsvcd__prove_segments(p, search);
+      if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+        p->known.settled = (double)search->begin[next];
+    }
+  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+  // what is settled in one of several tiles tells nothing of the others
+  if (nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body)) p->known.settled = 0;
+  return outcome;
 }
+#endif  // NSVCD_NO_PROOF
 
+// ----------------------------------------------------------------------------------- proof/verdict
+// In: a question. Out: the verdict; where asked, when they first meet, and how near they come.
+
+#ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
 static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
@@ -13015,48 +11114,36 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
 
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
-  if (p->unclear)
-    return 0;
-  return fmin(fmin(p->end, p->known.unsure), p->known.lost ? p->known.settled : NSVCD__NEVER);
+  if (p->unclear) return 0;
+  return fmin(fmin(p->ask.end, p->known.unsure),
+              p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
 // Makes a proof forget all that it knew of a motion.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
-  p->end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
-  p->doubts_end = 0;
+  p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
+  p->ask.doubts_end = 0;
   p->clipped = 0;
-  p->count = p->fresh_count = 0;
-  p->spans_known = 0;
-  p->held = nsvcd__f3_of(0, 0, 0);
-  p->plane = 0;
-  p->arc.first = 0;
-  p->arc.ticks = 0;
-  p->in_group = p->in_both = 0;
-  p->misses = 0;
-  p->window = 0;
-  p->parting = nsvcd__d3_of(0, 0, 0);
-  p->next_placed = 0;
-  for (size_t n = 0; n < NSVCD__PLACED; n++)
-    p->placed[n].ticks = 0;
+  p->count = p->fresh_count = p->misses = 0;
+  nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and settles what is found. UNDECIDED: the work
-// allowed was not enough.
-static NSVCD__APART nsvcd__verdict nsvcd__prove_motion(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
+// Searches a motion whose segments have been chosen, and settles what is found.
+static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
+                                                       nsvcd__search *search) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
   nsvcd__search_begin(p->moving.body, p->fixed.body, search);
-  p->first = p->share * (double)p->motion->ticks;
-  const nsvcd__verdict verdict =
-      p->first > 0 ? nsvcd__prove_in_order(p, search) : nsvcd__prove_tiles(p, search);
-  p->known.lost = verdict == NSVCD__UNDECIDED;
-  return verdict;
+  p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
+  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
+  p->known.lost = outcome == NSVCD__SPENT;
+  return outcome;
 }
 
 // The same, of any motion, whatever was known of one.
-static nsvcd__verdict nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__proof_restart(p);
-  nsvcd__choose_segments(p->motion, search);
+  nsvcd__choose_segments(p->ask.motion, search);
   return nsvcd__prove_motion(p, search);
 }
 
@@ -13078,115 +11165,199 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 // there? Then that is the contact that is known. If not, all that was known is lost.
 static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
                                         size_t units) {
-  nsvcd__motion *whole = p->motion;
-  nsvcd__motion still = nsvcd__end_of(whole, at_end);
-  const double share = p->share;
-  p->motion = &still;
-  p->share = 0;
-  p->limit = nsvcd__limit_after(p, units);
-  const int meets = nsvcd__prove_anew(p, search) == NSVCD__MEETS;
-  p->known.found.tick = at_end ? (double)whole->ticks : 0;
-  p->end = 0;
-  p->motion = whole;
-  p->share = share;
+  const nsvcd__asked asked = p->ask;
+  nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
+  p->ask.motion = &still;
+  p->ask.share = 0;
+  p->ask.limit = nsvcd__limit_after(p, units);
+  const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
+  p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
+  p->ask = asked;
+  p->ask.end = 0;
   return meets;
 }
 
 // A search whose segments have been chosen. Few questions take long, and of these some are about
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
 // before all is searched once more. The end says nothing about a first contact.
-static nsvcd__verdict nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search, size_t limit) {
-  p->is_brief = p->work + 4 * NSVCD__LONG < limit;
-  p->limit = p->is_brief ? p->work + NSVCD__LONG : limit;
-  const nsvcd__verdict verdict = nsvcd__prove_motion(p, search);
-  if (verdict != NSVCD__UNDECIDED || !p->is_brief)
-    return verdict;
-  p->is_brief = 0;
-  if (p->known.unsure < NSVCD__NEVER)  // a part of what a doubt leaves has been used
-    p->in_doubt -= p->in_doubt / 2;
-  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK))
-    return NSVCD__MEETS;
-  if (!(p->share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
-    return NSVCD__MEETS;
-  p->limit = limit;
+static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
+                                            size_t limit) {
+  p->ask.is_brief = p->work + 4 * NSVCD__LONG < limit;
+  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
+  const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
+  if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
+  p->ask.is_brief = 0;
+  // a part of what a doubt leaves has been used
+  if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
+  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK)) return NSVCD__ANSWERED;
+  if (!(p->ask.share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
+    return NSVCD__ANSWERED;
+  p->ask.limit = limit;
   return nsvcd__prove_anew(p, search);
 }
 
 // When do they meet first? What is proven of that stays, also where there is no more work left, and
 // then it is asked whether they meet at all.
-static nsvcd__verdict nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
-  const double share = p->share;
-  const nsvcd__verdict verdict = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
+  const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
   nsvcd__known known = p->known;
-  double end = p->end;
+  const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
-    if (nsvcd__meets_at(p, search, 0, p->most))
-      return NSVCD__MEETS;
+    if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
   } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
-    p->share = 0;
-    p->limit = p->most;
-    const nsvcd__verdict any = nsvcd__prove_anew(p, search);
-    p->share = share;
-    if (any == NSVCD__FREE && !(p->known.unsure < NSVCD__NEVER))
-      return any;
+    const double share = p->ask.share;
+    p->ask.share = 0;
+    p->ask.limit = p->given.work;
+    const nsvcd__outcome any = nsvcd__prove_anew(p, search);
+    p->ask.share = share;
+    if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
     known.has_contact = p->known.has_contact;
     known.found = p->known.found;
   }
   p->known = known;
-  p->end = end;
-  return verdict;
-}
-
-// The verdict on what is known in the end.
-static nsvcd__verdict nsvcd__conclude(nsvcd__proof *p, nsvcd__verdict verdict) {
-  const double clear = nsvcd__clear_until(p);
-  if (verdict == NSVCD__MEETS)
-    return verdict;
-  if (p->within && clear > 0)
-    return nsvcd__is_within(p);
-  if (p->known.has_contact)
-    return NSVCD__MEETS;
-  if (p->known.unsure < NSVCD__NEVER)
-    p->known.found = p->known.doubt;
-  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+  p->ask.end = end;
+  return outcome;
 }
 
 static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  const float lifted = nsvcd__f3_length(p->motion->lift);
-  const float apart = p->lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
-  p->limit = p->most;
-  p->in_doubt = p->most / (p->share > 0 ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
-  if (nsvcd__motion_gap(p->motion) > apart)
-    return NSVCD__FREE;
-  nsvcd__choose_segments(p->motion, search);
+  nsvcd__motion *motion = p->ask.motion;
+  const int in_order = p->ask.share > 0;
+  const float lifted = nsvcd__f3_length(motion->lift);
+  const float apart = p->given.lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  p->ask.limit = p->given.work;
+  p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
+  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
+  nsvcd__choose_segments(motion, search);
   if (nsvcd__starts_within(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
+    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
     return meets ? NSVCD__MEETS : nsvcd__is_within(p);
   }
-  const nsvcd__verdict verdict =
-      p->share > 0 ? nsvcd__prove_first(p, search) : nsvcd__prove_and_look(p, search, p->most);
-  return nsvcd__conclude(p, verdict);
+  const nsvcd__outcome outcome = in_order ? nsvcd__prove_first(p, search)
+                                          : nsvcd__prove_and_look(p, search, p->given.work);
+  const double clear = nsvcd__clear_until(p);
+  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
+  if (p->within && clear > 0) return nsvcd__is_within(p);
+  if (p->known.has_contact) return NSVCD__MEETS;
+  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
+  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // ---- the least distance
 
-// One pass: a search whose question shrinks, for a bracket as narrow as p->measure. What was known
-// stays known, and what is found is added. Returns whether there was work enough.
+// Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
+// a large body one near it, found by going down the levels of spheres, always to the nearest.
+static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
+  const nsvcd_body *body = f->body;
+  size_t from = 0;
+  size_t count = body->patches;
+  size_t patch = 0;
+  float least = HUGE_VALF;
+  size_t k = nsvcd__is_large(body) ? nsvcd__level_count(body->padded) : 0;
+  if (k > 0) count = nsvcd__level_of(body->padded, k - 1).count;
+  while (k-- > 0) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    const nsvcd__spheres all =
+        nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+    size_t nearest = from;
+    float best = HUGE_VALF;
+    for (size_t n = from; n < from + count && n < level.count; n++) {
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), place);
+      const float distance = nsvcd__f3_length(off) - all.r[n];
+      if (distance >= best) continue;
+      best = distance;
+      nearest = n;
+    }
+    from = NSVCD__GROUP * nearest;
+    count = NSVCD__GROUP;
+  }
+  for (size_t n = from; n < from + count && n < body->patches; n++) {
+    const float distance = nsvcd__f3_length(nsvcd__f3_sub(nsvcd__facet_centre(f, n), place));
+    if (f->hull_counts[n] == 0 || distance >= least) continue;
+    least = distance;
+    patch = n;
+  }
+  return patch;
+}
+
+// The moving body's placement at the ends of the segments: the one where the centres are nearest.
+static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
+                                                 const nsvcd__search *search) {
+  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
+  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
+  double least = HUGE_VAL;
+  nsvcd__placement nearest;
+  memset(&nearest, 0, sizeof nearest);
+  for (size_t s = 0; s <= search->segments; s++) {
+    double u;
+    const uint32_t first = nsvcd__arc_and_share(p->ask.motion, (double)search->begin[s], &u);
+    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
+    if (square < least) nearest = at;
+    least = fmin(least, square);
+  }
+  return nearest;
+}
+
+// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
+// fixed one.
+static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                    size_t i, size_t j) {
+  float lanes[3][NSVCD__LANES];
+  float least = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(pose, moving));
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
+    for (size_t n = 0; n < NSVCD__LANES; n++) {
+      const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
+      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+    }
+  }
+  return sqrt((double)least);
+}
+
+// How near the bodies come for certain, and a little more: the least distance between the vertices
+// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
+                                                  const nsvcd__search *search) {
+  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
+  const nsvcd__transform pose = nsvcd__transform_of(&at);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->memo.arc.scale);
+  nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
+  size_t i = 0;
+  size_t j = 0;
+  // from one body to the other, and again
+  for (size_t round = 0; round < 2; round++) {
+    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
+    i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+    const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
+    j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, centre));
+    target = nsvcd__facet_centre(&p->fixed, j);
+  }
+  const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+  const double rounding =
+      (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+}
+
+// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
+// known stays known, and what is found is added. Returns whether there was work enough.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
-  p->clearance = is_named ? fmax(p->low, p->high - p->measure) : p->high;
-  const nsvcd__verdict pass = nsvcd__prove_anew(p, search);
+  p->ask.clearance = is_named ? fmax(p->low, p->high - p->ask.measure) : p->high;
+  const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
   }
   p->known = known;
-  if (pass != NSVCD__UNDECIDED)
-    p->low = p->clearance;
-  return pass != NSVCD__UNDECIDED;
+  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
+  return pass != NSVCD__SPENT;
 }
 
 // Brackets the least distance over the motion, when it is known whether they come within the
@@ -13195,24 +11366,27 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
                                         nsvcd__verdict verdict, double finest) {
   const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
-  const float lifted = nsvcd__f3_length(p->motion->lift);
-  const float gap = nsvcd__motion_gap(p->motion) - p->lengths - 1.0001f * lifted;
-  p->low = fmax(verdict == NSVCD__FREE ? p->asked : 0, (double)gap);
-  nsvcd__choose_segments(p->motion, search);
+  const float lifted = nsvcd__f3_length(p->ask.motion->lift);
+  const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
+  p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  nsvcd__choose_segments(p->ask.motion, search);
   p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
-  if (is_named && !(p->high - p->low > finest))
-    return;
-  p->measure = finest;
-  p->limit = nsvcd__limit_after(p, p->most / 2);
+  if (is_named && !(p->high - p->low > finest)) return;
+  p->ask.measure = finest;
+  p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
   int wide = !nsvcd__measure_once(p, search);
-  p->limit = p->most;
-  for (p->measure = p->high - p->low; wide && p->measure > finest;) {
-    p->measure = fmax(finest, p->measure / NSVCD__FINER);
+  p->ask.limit = p->given.work;
+  for (p->ask.measure = p->high - p->low; wide && p->ask.measure > finest;) {
+    p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
     wide = nsvcd__measure_once(p, search);
   }
 }
+#endif  // NSVCD_NO_PROOF
 
-// ---- leaving a contact
+// ------------------------------------------------------------------------------------- proof/leave
+// In: a question with a skin. Out: the question about a body lifted off what it touches at the
+// start.
+//
 // What carries a body must not stop it. Which contacts are those? The body is asked about as if it
 // were lifted off all that it touches at the start, by a vector v that has the skin's length along
 // every normal there. That is a motion like any other, and what is proven of it is proven: the body
@@ -13220,26 +11394,7 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
 // into anything. What presses in deeper than the skin at the start has no such v, nor has what is
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
-// Gathers what the moving body touches at the start, or as much of it as can be looked at together.
-static void nsvcd__gather_contacts(nsvcd__proof *p, nsvcd__search *search) {
-  p->touch_count = 0;
-  nsvcd__choose_segments(p->motion, search);
-  nsvcd__cut_segments(p->motion, p->lengths, nsvcd__clearance_of(p), search);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
-  for (int more = 1; more && p->touch_count < NSVCD__TOUCHES && p->work <= p->limit;) {
-    more = nsvcd__collect(p, search) || nsvcd__search_next_tile(search);
-    for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
-      const nsvcd__item *item = &p->fresh[n];
-      if (p->plane && nsvcd__held_again(p, search, item))
-        continue;
-      if (nsvcd__item_is_parted(p, search, item))
-        continue;
-      (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
-    }
-    p->fresh_count = 0;
-  }
-}
-
+#ifndef NSVCD_NO_PROOF
 // How good a lift along n is: the more touches it undoes the better; of equals, the more of these
 // have a face that says so, and then, the shorter it needs to be. 0 if it undoes none.
 static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
@@ -13249,14 +11404,13 @@ static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
     nsvcd__d3 normals[3];
-    if (!nsvcd__undoes(p, n, t))
-      continue;
+    if (!nsvcd__undoes(p, n, t)) continue;
     nsvcd__touch_normals(t, normals);
     count++;
     faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
     longest = fmax(longest, nsvcd__lift_along(n, t->moving, t->fixed));
   }
-  return count * (NSVCD__TOUCHES + 2) + faces - longest / (p->skin + longest);
+  return count * (NSVCD__TOUCHES + 2) + faces - longest / (p->given.skin + longest);
 }
 
 // Takes a direction that is better than the best so far.
@@ -13264,8 +11418,7 @@ static NSVCD__APART void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, dou
                                          nsvcd__d3 *best) {
   const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
   const double good = known ? 0 : nsvcd__undone(p, n);
-  if (good > *most)
-    *best = n;
+  if (good > *most) *best = n;
   *most = fmax(*most, good);
 }
 
@@ -13276,10 +11429,10 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
   for (size_t k = 0; k < p->touch_count; k++) {
     nsvcd__d3 normals[3];
     nsvcd__touch_normals(&p->of.touches[k], normals);
-    for (size_t i = 0; i < 3; i++)
-      nsvcd__try_lift(p, normals[i], &most, best);
+    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, normals[i], &most, best);
   }
-  for (size_t k = 0; k < 9 && !(most > 0); k++) {  // an edge on an edge
+  // an edge on an edge
+  for (size_t k = 0; k < 9 && !(most > 0); k++) {
     const nsvcd__touch *t = &p->of.touches[0];
     const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
     const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
@@ -13296,13 +11449,11 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
   while (p->touch_count > 0) {
     nsvcd__d3 best = {0, 0, 0};
-    if (p->normal_count == NSVCD__LIFTS || !nsvcd__best_lift(p, &best))
-      return 0;
+    if (p->normal_count == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
     p->normals[p->normal_count++] = best;
     size_t left = 0;
     for (size_t k = 0; k < p->touch_count; k++) {
-      if (!nsvcd__undoes(p, best, &p->of.touches[k]))
-        p->of.touches[left++] = p->of.touches[k];
+      if (!nsvcd__undoes(p, best, &p->of.touches[k])) p->of.touches[left++] = p->of.touches[k];
     }
     p->touch_count = left;
   }
@@ -13316,15 +11467,12 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
     for (size_t k = 0; k < p->normal_count; k++) {
-      const double lacks = p->skin - nsvcd__d3_dot(lift, p->normals[k]);
+      const double lacks = p->given.skin - nsvcd__d3_dot(lift, p->normals[k]);
       most = fmax(most, lacks);
-      if (lacks > 0)
-        lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
+      if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * p->skin)
-      break;
-    if (most <= 0.01 * p->skin)
-      return lift;
+    if (nsvcd__d3_length(lift) > 4 * p->given.skin) break;
+    if (most <= 0.01 * p->given.skin) return lift;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
@@ -13335,20 +11483,19 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
 // to look at together: so what has been found is tried. If there is no way off all that was found,
 // then what was found first may have been the wrong way, and is forgotten, once.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__motion *whole = p->motion;
+  nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
-  p->motion = &start;
+  p->ask.motion = &start;
   p->normal_count = 0;
   // what is about to touch is lifted off too, and may not touch afterwards
-  const float quanta = p->motion->scale * nsvcd__widest_quantum(&p->moving);
+  const float quanta = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
   const double hair = (double)(quanta + nsvcd__widest_quantum(&p->fixed));
-  p->clearance = p->asked + 0.05 * p->skin + hair;
-  p->gathers = 1;
+  p->ask.clearance = p->given.clearance + 0.05 * p->given.skin + hair;
+  p->ask.gathers = 1;
   for (int turns = 0, more = 1; more;) {
-    nsvcd__proof_restart(p);
-    nsvcd__gather_contacts(p, search);
-    if (p->touch_count == 0)
-      break;
+    p->touch_count = 0;
+    (void)nsvcd__prove_anew(p, search);
+    if (p->touch_count == 0) break;
     const size_t known = p->normal_count;
     more = nsvcd__choose_lifts(p) && p->normal_count > known;
     nsvcd__d3 lift = nsvcd__lift_off(p);
@@ -13358,18 +11505,114 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     }
     more &= nsvcd__d3_dot(lift, lift) > 0;
     start.lift = more ? nsvcd__f3_round(lift) : nsvcd__f3_of(0, 0, 0);
-    p->clearance = p->asked + 0.01 * p->skin + hair;
+    p->ask.clearance = p->given.clearance + 0.01 * p->given.skin + hair;
   }
-  p->gathers = 0;
-  p->clearance = p->asked;
-  p->motion = whole;
+  p->ask.gathers = 0;
+  p->ask.clearance = p->given.clearance;
+  p->ask.motion = whole;
   whole->lift = start.lift;
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
 
+// ============================================================================= network: an opinion
+
+// ------------------------------------------------------------------------- network/latent_rotation
+// In: a rotation, and a latent. Out: the latent, turned.
+//
+// D(R), block-diagonal: R itself on degree 1, the real Wigner matrix of degree 2 on degree 2
+// (NeuralSVCD, appendix E). Computed from R directly, so D(R1 R2) = D(R1) D(R2) to rounding; R may
+// be improper (a mirror): both degrees are polynomial.
+
 #ifndef NSVCD_NO_NETWORK
-// ---------------------------------------------------------------------------------- winding number
+// numbers of a latent's vectors: (3, CHANNELS), then (5, CHANNELS)
+#define NSVCD__VECTORS (8 * NSVCD_W_CHANNELS)
+// numbers of D: (3, 3), then (5, 5)
+#define NSVCD__WIGNER 34
+// of a stored latent's numbers
+#define NSVCD__LATENT_STEP (1.0f / 127)
+
+// The degree 2 of the symmetric product of a and b, lane by lane: q (5), as nsvcd__degree2.
+static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v half_root3 = nsvcd__v_set(0.8660254037844386f);
+  const nsvcd__v xx = nsvcd__v_mul(a.x, b.x);
+  const nsvcd__v yy = nsvcd__v_mul(a.y, b.y);
+  const nsvcd__v zz = nsvcd__v_mul(a.z, b.z);
+  const nsvcd__v xy = nsvcd__v_fma(a.x, b.y, nsvcd__v_mul(a.y, b.x));
+  const nsvcd__v yz = nsvcd__v_fma(a.y, b.z, nsvcd__v_mul(a.z, b.y));
+  const nsvcd__v xz = nsvcd__v_fma(a.x, b.z, nsvcd__v_mul(a.z, b.x));
+  q[0] = nsvcd__v_mul(half_root3, xy);
+  q[1] = nsvcd__v_mul(half_root3, yz);
+  q[2] = nsvcd__v_sub(zz, nsvcd__v_mul(half, nsvcd__v_fma(a.x, b.x, yy)));
+  q[3] = nsvcd__v_mul(half_root3, xz);
+  q[4] = nsvcd__v_mul(half_root3, nsvcd__v_sub(xx, yy));
+}
+
+// D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
+// is the image of basis vector k, a degree 2 of m's columns.
+static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
+  const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
+  const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
+  const nsvcd__v twice = nsvcd__v_add(root, root);
+  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
+  const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
+  nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
+  nsvcd__v3_store_rows(scaled.x, out[0], NSVCD__SLICE);
+  nsvcd__v3_store_rows(scaled.y, out[3], NSVCD__SLICE);
+  nsvcd__v3_store_rows(scaled.z, out[6], NSVCD__SLICE);
+  nsvcd__v_degree2(columns.x, columns.y, xy);
+  nsvcd__v_degree2(columns.y, columns.z, yz);
+  nsvcd__v_degree2(columns.x, columns.z, xz);
+  nsvcd__v_degree2(columns.x, columns.x, xx);
+  nsvcd__v_degree2(columns.y, columns.y, yy);
+  nsvcd__v_degree2(columns.z, columns.z, zz);
+  for (size_t k = 0; k < 5; k++) {
+    float(*row)[NSVCD__SLICE] = out + 9 + 5 * k;
+    const nsvcd__v rest = nsvcd__v_add(xx[k], yy[k]);
+    const nsvcd__v upright = nsvcd__v_sub(nsvcd__v_add(zz[k], zz[k]), rest);
+    nsvcd__v_store(row[0], nsvcd__v_mul(twice, xy[k]));
+    nsvcd__v_store(row[1], nsvcd__v_mul(twice, yz[k]));
+    nsvcd__v_store(row[2], nsvcd__v_mul(third, upright));
+    nsvcd__v_store(row[3], nsvcd__v_mul(twice, xz[k]));
+    nsvcd__v_store(row[4], nsvcd__v_mul(root, nsvcd__v_sub(xx[k], yy[k])));
+  }
+}
+
+// One degree: out (size, CHANNELS) = D (size * size, SLICE) of lane l times latent (size,
+// CHANNELS).
+NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD__SLICE],
+                                        size_t l, size_t size, float *out) {
+  for (size_t i = 0; i < size; i++) {
+    float sum[NSVCD_W_CHANNELS] = {0};
+    for (size_t k = 0; k < size; k++) {
+      const float m = turn[size * i + k][l];
+      for (size_t c = 0; c < NSVCD_W_CHANNELS; c++)
+        sum[c] += m * latent[NSVCD_W_CHANNELS * k + c];
+    }
+    memcpy(out + NSVCD_W_CHANNELS * i, sum, sizeof sum);
+  }
+}
+
+// Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
+// the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
+static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
+                                 size_t place, float *row) {
+  float *vectors = row + NSVCD__VECTORS * place;
+  float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
+  // one after the other: it is the deepest place of a query
+  float degree[5 * NSVCD_W_CHANNELS];
+  for (size_t k = 0; k < 3 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  nsvcd__rotate_degree(degree, turn, l, 3, vectors);
+  z += 3 * NSVCD_W_CHANNELS;
+  for (size_t k = 0; k < 5 * NSVCD_W_CHANNELS; k++) degree[k] = (float)z[k];
+  nsvcd__rotate_degree(degree, turn + 9, l, 5, vectors + 3 * NSVCD_W_CHANNELS);
+  z += 5 * NSVCD_W_CHANNELS;
+  for (size_t k = 0; k < NSVCD_W_SCALARS; k++) scalars[k] = (float)z[k] * NSVCD__LATENT_STEP;
+}
+#endif  // NSVCD_NO_NETWORK
+
+// -------------------------------------------------------------------------- network/winding_number
 // In: two bodies and a pose. Out: is one inside the other? A body wholly inside another never
 // crosses its surface, so surfaces cannot tell. The winding number of a closed surface can
 // (Jacobson et al. 2013), and far from the surface each patch is as good as a dipole of its area
@@ -13388,6 +11631,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 // Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
 // sphere; of large bodies only those of groups nearby.
 
+#ifndef NSVCD_NO_NETWORK
 // places of the inner body that are looked at
 #define NSVCD__PLACES NSVCD__LANES
 // Distances, in radii. A place is far enough if no patch is nearer than this,
@@ -13396,21 +11640,6 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
-
-// A sphere over places (3, PLACES).
-static nsvcd__sphere nsvcd__cover_places(float (*places)[NSVCD__PLACES]) {
-  nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
-  nsvcd__f3 high = nsvcd__f3_scale(low, -1);
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    const nsvcd__f3 place = nsvcd__lane_of(places, k);
-    low = nsvcd__f3_min(low, place);
-    high = nsvcd__f3_max(high, place);
-  }
-  const nsvcd__f3 half_low = nsvcd__f3_scale(low, 0.5f);
-  const nsvcd__f3 centre = nsvcd__f3_add(half_low, nsvcd__f3_scale(high, 0.5f));
-  const nsvcd__sphere out = {centre, nsvcd__f3_length(nsvcd__f3_sub(high, centre))};
-  return out;
-}
 
 // A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
 // their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
@@ -13429,116 +11658,82 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Least |p_i - x| / r_i, squared, at a slice of places, over the patches of a group, or what it
-// was.
-static nsvcd__v nsvcd__square_in_radii(const nsvcd_body *body, size_t group, nsvcd__v3 place,
-                                       nsvcd__v least) {
-  const nsvcd__spheres patches = nsvcd__body_patches(body);
-  const size_t next = NSVCD__GROUP * (group + 1);
-  const size_t end = next < body->patches ? next : body->patches;
-  for (size_t i = NSVCD__GROUP * group; i < end; i++) {
-    const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
-    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
-    const float square = patch.radius * patch.radius;
-    const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
-    const nsvcd__v ratio = nsvcd__v_scale(nsvcd__v3_dot(d, d), inverse);
-    least = nsvcd__v_min(least, ratio);
-  }
-  return least;
-}
-
-// The same over all patches of a body, but NSVCD__AMPLE, squared, is the most it says. places: (3,
-// PLACES), out: (PLACES).
+// Least |p_i - x| / r_i, squared, over the patches of a body, at places (3, PLACES); NSVCD__AMPLE,
+// squared, is the most it says. out: (PLACES).
 static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVCD__PLACES],
                                     float *out) {
-  const nsvcd__sphere near_to = nsvcd__cover_places(places);
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
+  nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   nsvcd__walk walk;
   size_t g;
-  for (size_t k = 0; k < NSVCD__PLACES; k++)
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    low = nsvcd__f3_min(low, nsvcd__lane_of(places, k));
+    high = nsvcd__f3_max(high, nsvcd__lane_of(places, k));
     out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
-  nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &near_to);
+  }
+  nsvcd__sphere over;  // all places
+  over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  over.radius = nsvcd__f3_length(nsvcd__f3_sub(high, over.centre));
+  nsvcd__walk_begin(&walk, body, nsvcd__may_be_close, &over);
   while (nsvcd__walk_next(&walk, &g)) {
+    const size_t next = NSVCD__GROUP * (g + 1);
+    const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 place = nsvcd__v3_load(places, l);
-      const nsvcd__v least = nsvcd__v_load(out + l);
-      nsvcd__v_store(out + l, nsvcd__square_in_radii(body, g, place, least));
+      nsvcd__v least = nsvcd__v_load(out + l);
+      for (size_t i = NSVCD__GROUP * g; i < end; i++) {
+        const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
+        const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
+        const float square = patch.radius * patch.radius;
+        const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
+        least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v3_dot(d, d), inverse));
+      }
+      nsvcd__v_store(out + l, least);
     }
   }
 }
 
-// Spheres over parts of a surface, and the sums of the area vectors in them.
-typedef struct nsvcd__dipoles {
-  nsvcd__spheres spheres;
-  const float *areas;  // rows of x, y and z,
-  size_t stride;       // so many numbers apart
-} nsvcd__dipoles;
-
-static nsvcd__dipoles nsvcd__dipoles_of_patches(const nsvcd_body *body) {
-  nsvcd__dipoles out;
-  out.spheres = nsvcd__body_patches(body);
-  out.areas = nsvcd__body_areas(body);
-  out.stride = body->padded;
-  return out;
-}
-static nsvcd__dipoles nsvcd__dipoles_of_level(const nsvcd_body *body, size_t n) {
-  const nsvcd__level level = nsvcd__level_of(body->padded, n);
-  nsvcd__dipoles out;
-  out.spheres = nsvcd__level_spheres(body, level);
-  out.areas = nsvcd__level_areas(body, level);
-  out.stride = level.slots;
-  return out;
-}
-static nsvcd__dipoles nsvcd__dipoles_from(nsvcd__dipoles all, size_t first) {
-  all.spheres = nsvcd__spheres_from(all.spheres, first);
-  all.areas += first;
-  return all;
-}
-
-// Adds the terms of the winding number of the first `count` dipoles, a multiple of 16, lane by
-// lane. far_only: those that are too close to the point are left out, and returned as bits, of 64
-// dipoles at most.
-static uint64_t nsvcd__add_dipoles(nsvcd__dipoles all, size_t count, int far_only, nsvcd__f3 point,
-                                   float *lanes) {
+// Adds the terms of the winding number of so many spheres, a multiple of 16, from `first` on, lane
+// by lane. n: 0 of patches, else of level n - 1, 64 at most: those that are too close to the point
+// leave that to their members.
+static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, size_t count,
+                               nsvcd__f3 point, float *lanes) {
   const nsvcd__v3 at = nsvcd__v3_set(point);
-  const nsvcd__v zero = nsvcd__v_set(0);
+  nsvcd__spheres spheres = nsvcd__body_patches(body);
+  const float *areas = nsvcd__body_areas(body);
+  size_t stride = body->padded;
   uint64_t close = 0;
+  if (n > 0) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, n - 1);
+    spheres = nsvcd__level_spheres(body, level);
+    areas = nsvcd__level_areas(body, level);
+    stride = level.slots;
+  }
+  spheres = nsvcd__spheres_from(spheres, first);
   NSVCD__EACH_SLICE(l) {
     nsvcd__v sum = nsvcd__v_load(lanes + l);
     for (size_t i = l; i < count; i += NSVCD__LANES) {
-      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all.spheres, i), at);
-      const nsvcd__v3 area = nsvcd__v3_load_rows(all.areas + i, all.stride);
+      const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(spheres, i), at);
+      const nsvcd__v3 area = nsvcd__v3_load_rows(areas + first + i, stride);
       const nsvcd__v length = nsvcd__v_max(nsvcd__v3_length(d), nsvcd__v_set(1e-30f));
       const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), length);
       // step by step: the cube may overflow
       const nsvcd__v cosine = nsvcd__v_mul(nsvcd__v3_dot(area, d), inverse);
       nsvcd__v term = nsvcd__v_mul(nsvcd__v_mul(cosine, inverse), inverse);
-      if (far_only) {
-        const nsvcd__v radius = nsvcd__v_load(all.spheres.r + i);
+      if (n > 0) {
+        const nsvcd__v radius = nsvcd__v_load(spheres.r + i);
         const nsvcd__v least = nsvcd__v_scale(radius, NSVCD__DIPOLE);
         close |= (uint64_t)nsvcd__v_le(length, least) << i;
-        term = nsvcd__v_pick(length, least, zero, term);
+        term = nsvcd__v_pick(length, least, nsvcd__v_set(0), term);
       }
       sum = nsvcd__v_add(sum, term);
     }
     nsvcd__v_store(lanes + l, sum);
   }
-  return close;
-}
-
-// Adds the terms of `count` spheres of level n, from `first` on: of those that are far from the
-// point, and of the members of the others.
-static void nsvcd__add_level(const nsvcd_body *body, size_t n, size_t first, size_t count,
-                             nsvcd__f3 point, float *lanes) {
-  const nsvcd__dipoles level = nsvcd__dipoles_from(nsvcd__dipoles_of_level(body, n), first);
-  uint64_t close = nsvcd__add_dipoles(level, count, 1, point, lanes);
   for (; close; close &= close - 1) {
     const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
-    if (n > 0) {
-      nsvcd__add_level(body, n - 1, member, NSVCD__GROUP, point, lanes);
-      continue;
-    }
-    const nsvcd__dipoles patches = nsvcd__dipoles_of_patches(body);
-    nsvcd__add_dipoles(nsvcd__dipoles_from(patches, member), NSVCD__GROUP, 0, point, lanes);
+    nsvcd__add_dipoles(body, n - 1, member, NSVCD__GROUP, point, lanes);
   }
 }
 
@@ -13546,61 +11741,44 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   float lanes[NSVCD__LANES] = {0};
   float total = 0;
   const size_t top = nsvcd__level_count(body->padded) - 1;
-  if (top > 0) {
-    const size_t slots = nsvcd__level_of(body->padded, top).slots;
-    nsvcd__add_level(body, top, 0, slots, point, lanes);
-  } else {
-    nsvcd__add_dipoles(nsvcd__dipoles_of_patches(body), body->padded, 0, point, lanes);
-  }
+  const size_t slots = nsvcd__level_of(body->padded, top).slots;
+  if (top > 0)
+    nsvcd__add_dipoles(body, top + 1, 0, slots, point, lanes);
+  else
+    nsvcd__add_dipoles(body, 0, 0, body->padded, point, lanes);
   // in this order, whatever the slices
-  for (size_t l = 0; l < NSVCD__LANES; l++)
-    total += lanes[l];
+  for (size_t l = 0; l < NSVCD__LANES; l++) total += lanes[l];
   return total / 12.5663706f;
-}
-
-// Some centres of the patches of a body of this scale and at this pose: places (3, PLACES).
-static void nsvcd__places_of(const nsvcd_body *body, float scale, const nsvcd__transform *pose,
-                             float (*places)[NSVCD__PLACES]) {
-  const nsvcd__spheres patches = nsvcd__body_patches(body);
-  for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    // neighbours are stored together: equal steps spread over it
-    const nsvcd__f3 own = nsvcd__centre_of(patches, k * body->patches / NSVCD__PLACES);
-    const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
-    const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(place, places, k);
-  }
-}
-
-// Are all places (3, PLACES) within the sphere of a body?
-static int nsvcd__all_in_sphere(const nsvcd_body *body, float (*places)[NSVCD__PLACES]) {
-  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(body->centre));
-  uint32_t within = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
-    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(body->radius)) << l;
-  }
-  return within == 0xffff;
 }
 
 // 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const nsvcd__transform *pose) {
+  const nsvcd__spheres patches = nsvcd__body_patches(inner);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
   float places[3][NSVCD__PLACES];
   float squares[NSVCD__PLACES];
-  if (outer->open)
-    return 0;
-  nsvcd__places_of(inner, scale, pose, places);
-  // One that sticks out of the outer body's sphere says it all.
-  if (!nsvcd__all_in_sphere(outer, places))
-    return 0;
-  nsvcd__squares_in_radii(outer, places, squares);
+  uint32_t within = 0;
   size_t best = 0;
-  for (size_t k = 1; k < NSVCD__PLACES; k++)
-    best = squares[k] > squares[best] ? k : best;
-  if (squares[best] < NSVCD__FAR_ENOUGH * NSVCD__FAR_ENOUGH)
-    return 0;
-  const float winding = nsvcd__winding_number(outer, nsvcd__lane_of(places, best));
-  return fabsf(winding) > 0.5f;  // -1 where the mesh is inside out
+  if (outer->open) return 0;
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    // neighbours are stored together: equal steps spread over it
+    const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PLACES);
+    const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
+    const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
+    nsvcd__lane_set(place, places, k);
+  }
+  // One that sticks out of the outer body's sphere says it all.
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
+    within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+  }
+  if (within != 0xffff) return 0;
+  nsvcd__squares_in_radii(outer, places, squares);
+  for (size_t k = 1; k < NSVCD__PLACES; k++) best = squares[k] > squares[best] ? k : best;
+  if (squares[best] < NSVCD__FAR_ENOUGH * NSVCD__FAR_ENOUGH) return 0;
+  // -1 where the mesh is inside out
+  return fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places, best))) > 0.5f;
 }
 
 // 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this
@@ -13614,10 +11792,11 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
   return nsvcd__is_inside(moving, fixed, scale, pose) ||
          nsvcd__is_inside(fixed, moving, 1 / scale, &back);
 }
+#endif  // NSVCD_NO_NETWORK
 
-// ----------------------------------------------------------------------------------------- decoder
+// ----------------------------------------------------------------------------------- network/pairs
 // In: candidate pairs of patches and the motion over the intervals in which their balls meet.
-// Out: a logit each.
+// Out: their invariants (n, DECODER_IN), of which the decoder makes a logit each.
 //
 // The motion is linearised about the middle of the interval; then everything is expressed in a
 // frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
@@ -13638,6 +11817,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // lane (only their latents are turned pair by pair, channels side by side), and these go through
 // the layers some rows at a time.
 
+#ifndef NSVCD_NO_NETWORK
 #define NSVCD__BATCH NSVCD__LANES
 // Rows of inputs at a time, and the step in which the layers of floats go through them: where there
 // are no vectors, there may be no stack for more, and without floats nothing is gained by more than
@@ -13655,10 +11835,11 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 // What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
 // numbers.
 enum {
-  NSVCD__FACT_DISTANCE = 0,  // of the centres
-  NSVCD__FACT_RADIUS = 1,    // the larger one
-  NSVCD__FACT_CLOSEST = 2,   // distance of the centres, when they come closest,
-  NSVCD__FACT_TAU = 3,       // and when that is: -1 and 1 are the ends of the interval
+  // of the centres
+  NSVCD__FACT_DISTANCE = 0,
+  NSVCD__FACT_RADIUS = 1,   // the larger one
+  NSVCD__FACT_CLOSEST = 2,  // distance of the centres, when they come closest,
+  NSVCD__FACT_TAU = 3,      // and when that is: -1 and 1 are the ends of the interval
   NSVCD__FACT_VELOCITY = 4,
   NSVCD__FACT_TURN = 7,
   NSVCD__FACT_SPEED = 10,  // the lengths of these two
@@ -13678,7 +11859,8 @@ enum {
 #define NSVCD__WIDEST NSVCD__WIDEST_TINY
 #endif
 // of a layer
-#define NSVCD__MOST_INPUTS (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
+#define NSVCD__MOST_INPUTS \
+  (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
 #define NSVCD__LEAN 0.05f  // share of the lean in axis 2
 #define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
 
@@ -13688,13 +11870,14 @@ enum {
 typedef struct nsvcd__pairs {
   // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
   nsvcd__v3 p1, p2;
-  nsvcd__v r1, r2;        // the balls' radii
+  // the balls' radii
+  nsvcd__v r1, r2;
   nsvcd__vmat3 rotation;  // of the moving body at mid-interval
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
   nsvcd__v3 w;  // half rotation vector
   // latents, in the bodies' frames
-  const int8_t *z1[NSVCD__SLICE], *z2[NSVCD__SLICE];
+  const int8_t *z[2][NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
@@ -13706,8 +11889,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
   const nsvcd__v sign = nsvcd__v_sign(q.w);
   const nsvcd__v square = nsvcd__v3_dot(axis, axis);
   nsvcd__v ratio = nsvcd__v_set(0.02237216f);
-  for (size_t k = 0; k < 5; k++)
-    ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
+  for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
   // over 60 degrees: a motion of few poses
   uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
   if (wide) {
@@ -13727,16 +11909,10 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
   return nsvcd__v3_scale(axis, nsvcd__v_mul(sign, ratio));
 }
 
-// What is to be added to a, the whole way, to go straight to b, or to -b where that is nearer.
-static nsvcd__quat nsvcd__quat_chord(nsvcd__quat a, nsvcd__quat b) {
-  const float sign = nsvcd__quat_dot(a, b) < 0 ? -1.0f : 1.0f;
-  return nsvcd__quat_of(sign * b.x - a.x, sign * b.y - a.y, sign * b.z - a.z, sign * b.w - a.w);
-}
-
 // A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
 // positions from an origin.
-static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t, size_t count,
-                                           nsvcd__f3 origin) {
+static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
+                                           size_t count, nsvcd__f3 origin) {
   float share[NSVCD__SLICE] = {0};
   float rotation[4 * NSVCD__SLICE] = {0};
   float turned[4 * NSVCD__SLICE] = {0};
@@ -13744,8 +11920,7 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float moved[3 * NSVCD__SLICE] = {0};
   const int moves = track->count > 1;
   const size_t last = moves ? track->count - 2 : 0;
-  for (size_t l = count; l < NSVCD__SLICE; l++)
-    rotation[3 * NSVCD__SLICE + l] = 1;
+  for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
     const float at = moves ? t[l] * (float)(last + 1) : 0;
     const size_t k = (size_t)at < last ? (size_t)at : last;
@@ -13755,13 +11930,17 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     const nsvcd__f3 to = nsvcd__f3_load(b->position);
     nsvcd__quat q = nsvcd__quat_load(a->rotation);
     const nsvcd__quat next = nsvcd__quat_load(b->rotation);
+    const float cosine = nsvcd__quat_dot(q, next);
+    const float sign = cosine < 0 ? -1.0f : 1.0f;
+    const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
+                               sign * next.w - q.w};
     share[l] = at - (float)k;
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
-    if (fabsf(nsvcd__quat_dot(q, next)) < 0.999f)
+    if (fabsf(cosine) < 0.999f)
       q = nsvcd__quat_slerp(q, next, share[l]);
     else
-      nsvcd__quat_put(nsvcd__quat_chord(q, next), turned + l, NSVCD__SLICE);
+      nsvcd__quat_put(chord, turned + l, NSVCD__SLICE);
     nsvcd__quat_put(q, rotation + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(from, origin), position + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(to, from), moved + l, NSVCD__SLICE);
@@ -13777,7 +11956,8 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
 }
 
 // The moving body's poses in the fixed frame at `count` times, 1 to SLICE, one per lane.
-static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t, size_t count) {
+static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t,
+                                       size_t count) {
   const nsvcd__f3 origin = motion->fixed_position;
   nsvcd__v_pose pose = nsvcd__track_poses_at(&motion->moving, t, count, origin);
   nsvcd__v_poses at = {pose.rotation, pose.rotation, pose.position};
@@ -13789,95 +11969,68 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
-// The moving body's poses where the intervals of some pairs begin, where they end, and halfway.
-typedef struct nsvcd__passes {
-  nsvcd__v_pose enter, leave, middle;
-} nsvcd__passes;
-
-// The pairs of `count` candidates, with their poses.
-static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                                 float scale, const nsvcd__passes *passes,
-                                                 nsvcd__candidate *const *candidates, size_t count,
-                                                 nsvcd__pairs *pairs) {
-  float centres1[3 * NSVCD__SLICE] = {0};
-  float centres2[3 * NSVCD__SLICE] = {0};
-  float r1[NSVCD__SLICE] = {0};
-  float r2[NSVCD__SLICE] = {0};
-  const nsvcd__spheres patches1 = nsvcd__body_patches(moving);
-  const nsvcd__spheres patches2 = nsvcd__body_patches(fixed);
-  for (size_t l = 0; l < count; l++) {
-    const nsvcd__candidate *candidate = candidates[l];
-    const size_t i = candidate->moving;
-    const size_t j = candidate->fixed;
-    const nsvcd__sphere patch1 = nsvcd__sphere_of(patches1, i);
-    const nsvcd__sphere patch2 = nsvcd__sphere_of(patches2, j);
-    nsvcd__f3_put(nsvcd__f3_scale(patch1.centre, scale), centres1 + l, NSVCD__SLICE);
-    nsvcd__f3_put(patch2.centre, centres2 + l, NSVCD__SLICE);
-    r1[l] = scale * patch1.radius;
-    r2[l] = patch2.radius;
-    pairs->z1[l] = nsvcd__body_latents(moving) + NSVCD__LATENT * i;
-    pairs->z2[l] = nsvcd__body_latents(fixed) + NSVCD__LATENT * j;
-  }
-
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres1, NSVCD__SLICE);
-  const nsvcd__v_pose *enter = &passes->enter;
-  const nsvcd__v_pose *leave = &passes->leave;
-  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(enter->rotation), centre);
-  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(leave->rotation), centre);
-  const nsvcd__v3 moved = nsvcd__v3_sub(leave->position, enter->position);
-  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(enter->rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(leave->rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(passes->middle.rotation);
-  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
-  pairs->p1 = nsvcd__v3_add(turned, passes->middle.position);
-  pairs->p2 = nsvcd__v3_load_rows(centres2, NSVCD__SLICE);
-  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
-  pairs->r1 = nsvcd__v_load(r1);
-  pairs->r2 = nsvcd__v_load(r2);
-}
-
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
 static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                          const nsvcd__motion *motion,
                                          nsvcd__candidate *const *candidates, size_t count,
                                          nsvcd__pairs *pairs) {
-  float enter[NSVCD__SLICE];
-  float leave[NSVCD__SLICE];
-  float middle[NSVCD__SLICE];
+  // of entry, of exit, and halfway
+  float times[3][NSVCD__SLICE];
+  nsvcd__v_pose at[3];
+  float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  float radii[2][NSVCD__SLICE] = {{0}, {0}};
   for (size_t l = 0; l < count; l++) {
-    enter[l] = candidates[l]->t_enter;
-    leave[l] = candidates[l]->t_exit;
-    middle[l] = 0.5f * (enter[l] + leave[l]);
+    const nsvcd__candidate *candidate = candidates[l];
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_body *body = n == 0 ? moving : fixed;
+      const size_t i = n == 0 ? candidate->moving : candidate->fixed;
+      const float scale = n == 0 ? motion->scale : 1;
+      const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(body), i);
+      nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
+      radii[n][l] = scale * patch.radius;
+      pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+    }
+    times[0][l] = candidate->t_enter;
+    times[1][l] = candidate->t_exit;
+    times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
   }
-  nsvcd__passes passes;
-  passes.enter = nsvcd__v_poses_at(motion, enter, count);
-  passes.leave = nsvcd__v_poses_at(motion, leave, count);
-  passes.middle = nsvcd__v_poses_at(motion, middle, count);
-  nsvcd__pairs_in_passing(moving, fixed, motion->scale, &passes, candidates, count, pairs);
+  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
+
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres[0], NSVCD__SLICE);
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
+  pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
+  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+  pairs->r1 = nsvcd__v_load(radii[0]);
+  pairs->r2 = nsvcd__v_load(radii[1]);
 }
 
 // ---- frames and facts
 
-// The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
-static nsvcd__v nsvcd__v_unit_of_length(const nsvcd__pairs *pairs) {
-  const nsvcd__v3 line = nsvcd__v3_sub(pairs->p2, pairs->p1);
-  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(line), nsvcd__v3_length(pairs->v));
-  const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
-  return nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
-}
-
 // Pairs in their own units, in the fixed body's axes, and their frames.
 typedef struct nsvcd__views {
-  nsvcd__v inverse, k1, k2;  // 1 over the unit of length; the radii
-  nsvcd__v swap;             // -1: the other patch is the larger
-  nsvcd__v3 d;               // the line from the larger patch to the smaller one
+  // 1 over the unit of length; the radii
+  nsvcd__v inverse, k1, k2;
+  // -1: the other patch is the larger
+  nsvcd__v swap;
+  // the line from the larger patch to the smaller one
+  nsvcd__v3 d;
   nsvcd__v3 lean;
-  nsvcd__v3 v, w;      // reversed where time is to run backwards
-  nsvcd__vmat3 frame;  // rows are its axes in the fixed body's frame
-  nsvcd__v side;       // -1 where mirrored, else 1
+  // reversed where time is to run backwards
+  nsvcd__v3 v, w;
+  // rows are its axes in the fixed body's frame
+  nsvcd__vmat3 frame;
+  // -1 where mirrored, else 1
+  nsvcd__v side;
 } nsvcd__views;
 
 // Removes from a its part along the unit vector e.
@@ -13896,37 +12049,64 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
                       nsvcd__v_pick(length, floor, instead.z, unit.z));
 }
 
-// The coordinate axis farthest from e.
-static nsvcd__v3 nsvcd__v_farthest_axis(nsvcd__v3 e) {
-  const nsvcd__v zero = nsvcd__v_set(0);
-  const nsvcd__v one = nsvcd__v_set(1);
-  const nsvcd__v3 size = nsvcd__v3_max(e, nsvcd__v3_negate(e));
-  const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
-  const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
-  const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
-  return nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
+static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
+  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
 }
 
-// Chooses the pairs' frames, and which way their time runs.
-static void nsvcd__views_set_frame(nsvcd__views *view) {
+// Views of the first `count` pairs of a slice.
+static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
+  const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v3 lean = view->lean;
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
+  float means[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  for (size_t n = 0; n < 2; n++) {
+    for (size_t l = 0; l < count; l++)
+      nsvcd__f3_put(nsvcd__mean_direction(pairs->z[n][l]), means[n] + l, NSVCD__SLICE);
+  }
+  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[0], NSVCD__SLICE), step);
+  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[1], NSVCD__SLICE), step);
+  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
+  // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
+  const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
+  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
+  const nsvcd__v inverse = nsvcd__v_div(one, unit);
+  view->inverse = inverse;
+  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
+  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
+  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
+  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
+  // can stay.
+  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
+  const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
+  const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
+  view->lean = lean;
+  view->d = nsvcd__v3_scale(nsvcd__v3_scale(between, inverse), view->swap);
+
+  // The frames, and which way time runs.
   const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
   const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_plus(lean.x, 1e-6f), lean.y, lean.z);
   nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
   const nsvcd__v3 e1 = nsvcd__v_unit_or(view->d, 1e-5f, instead);
   const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
-  const nsvcd__v3 v_across = nsvcd__v_across(view->v, e1);
+  const nsvcd__v3 v_across = nsvcd__v_across(v, e1);
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
-  view->v = nsvcd__v3_scale(view->v, sign);
-  view->w = nsvcd__v3_scale(view->w, sign);
+  view->v = nsvcd__v3_scale(v, sign);
+  view->w = nsvcd__v3_scale(pairs->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
   const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
-  // where the reference vanishes in some lane
+  // where the reference vanishes in some lane: the coordinate axis farthest from e1
   if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
-    const nsvcd__v3 axis = nsvcd__v_across(nsvcd__v_farthest_axis(e1), e1);
-    instead = nsvcd__v_unit_or(axis, 1e-9f, x_axis);
+    const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
+    const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
+    const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
+    const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
+    const nsvcd__v3 axis = nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+    instead = nsvcd__v_unit_or(nsvcd__v_across(axis, e1), 1e-9f, x_axis);
   }
   const nsvcd__v3 e2 = nsvcd__v_unit_or(ref, 1e-7f, instead);
   const nsvcd__v3 e3 = nsvcd__v3_cross(e1, e2);
@@ -13937,45 +12117,14 @@ static void nsvcd__views_set_frame(nsvcd__views *view) {
   view->frame.z = nsvcd__v3_scale(e3, view->side);
 }
 
-// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
-static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
-  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
-}
-
-// Views of the first `count` pairs of a slice.
-static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
-  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  float means1[3 * NSVCD__SLICE] = {0};
-  float means2[3 * NSVCD__SLICE] = {0};
-  for (size_t l = 0; l < count; l++) {
-    nsvcd__f3_put(nsvcd__mean_direction(pairs->z1[l]), means1 + l, NSVCD__SLICE);
-    nsvcd__f3_put(nsvcd__mean_direction(pairs->z2[l]), means2 + l, NSVCD__SLICE);
-  }
-  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means1, NSVCD__SLICE), step);
-  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means2, NSVCD__SLICE), step);
-  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
-  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_unit_of_length(pairs));
-  view->inverse = inverse;
-  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
-  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
-  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, nsvcd__v_set(1), nsvcd__v_set(-1));
-  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
-  // can stay.
-  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
-  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
-  const nsvcd__v3 line = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), inverse);
-  view->lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
-  view->d = nsvcd__v3_scale(line, view->swap);
-  view->v = nsvcd__v3_scale(pairs->v, inverse);
-  view->w = pairs->w;
-  nsvcd__views_set_frame(view);
-}
-
 // What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
 typedef struct nsvcd__scenes {
-  nsvcd__vmat3 turn1, turn2;  // from the bodies' frames to the pairs'
-  nsvcd__v k1, k2;            // radii, in units of the pairs' lengths
-  uint32_t keep;              // lanes in which the first patch is the larger
+  // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
+  // radii, in units of the pairs' lengths
+  nsvcd__vmat3 turn[2];
+  nsvcd__v k[2];
+  // lanes in which the first patch is the larger
+  uint32_t keep;
   float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
@@ -13984,10 +12133,10 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
                                           nsvcd__scenes *scene) {
   nsvcd__views view;
   nsvcd__views_of(pairs, count, &view);
-  scene->turn1 = nsvcd__vmat3_mul(view.frame, pairs->rotation);
-  scene->turn2 = view.frame;
-  scene->k1 = view.k1;
-  scene->k2 = view.k2;
+  scene->turn[0] = nsvcd__vmat3_mul(view.frame, pairs->rotation);
+  scene->turn[1] = view.frame;
+  scene->k[0] = view.k1;
+  scene->k[1] = view.k2;
   scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.swap);
 
   const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
@@ -14014,25 +12163,21 @@ static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t coun
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene, const nsvcd__pairs *pairs,
-                                          size_t count, float *x) {
-  float wigner[NSVCD__WIGNER][NSVCD__SLICE];
+static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
+                                          const nsvcd__pairs *pairs, size_t count, float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  nsvcd__wigner(&scene->turn1, nsvcd__v_mul(scene->k1, step), wigner);
-  for (size_t l = 0; l < count; l++) {
-    const size_t place = scene->keep >> l & 1 ? 0 : 1;
-    nsvcd__rotate_latent(pairs->z1[l], wigner, l, place, x + NSVCD__DECODER_IN * l);
+  float wigner[NSVCD__WIGNER][NSVCD__SLICE];
+  for (size_t n = 0; n < 2; n++) {
+    nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
+    for (size_t l = 0; l < count; l++) {
+      const size_t place = (scene->keep >> l & 1) == n;
+      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, place, x + NSVCD__DECODER_IN * l);
+    }
   }
-  nsvcd__wigner(&scene->turn2, nsvcd__v_mul(scene->k2, step), wigner);
   for (size_t l = 0; l < count; l++) {
-    const size_t place = scene->keep >> l & 1 ? 1 : 0;
-    float *row = x + NSVCD__DECODER_IN * l;
-    float *facts = row + 2 * NSVCD__LATENT;
-    nsvcd__rotate_latent(pairs->z2[l], wigner, l, place, row);
-    for (size_t k = 0; k < NSVCD__FACTS; k++)
-      facts[k] = scene->facts[k][l];
-    for (size_t k = NSVCD__INPUTS; k < NSVCD__DECODER_IN; k++)
-      row[k] = 0;
+    float *facts = x + NSVCD__DECODER_IN * l + 2 * NSVCD__LATENT;
+    for (size_t k = 0; k < NSVCD__DECODER_IN - 2 * NSVCD__LATENT; k++)
+      facts[k] = k < NSVCD__FACTS ? scene->facts[k][l] : 0;
   }
 }
 
@@ -14041,27 +12186,19 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__inputs_in(&scene, pairs, count, x);
 }
+#endif  // NSVCD_NO_NETWORK
 
-// The inputs of the decoder for `count` candidates, x (count, DECODER_IN), a slice of them at a
-// time.
-static void nsvcd__inputs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                             const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
-                             size_t count, float *x) {
-  for (size_t l = 0; l < count; l += NSVCD__SLICE) {
-    const size_t size = count - l < NSVCD__SLICE ? count - l : NSVCD__SLICE;
-    nsvcd__pairs pairs;
-    nsvcd__pairs_of(moving, fixed, motion, candidates + l, size, &pairs);
-    nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
-  }
-}
+// --------------------------------------------------------------------------------- network/decoder
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each.
 
-// ---- layers
-
+#ifndef NSVCD_NO_NETWORK
 // Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
 typedef struct nsvcd__layer {
   size_t inputs, outputs;  // multiples of 4, and of 16
-  size_t weights;          // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
-  size_t first;            // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
+  // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
+  size_t weights;
+  // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
+  size_t first;
   int relu;
 } nsvcd__layer;
 
@@ -14095,19 +12232,16 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   NSVCD__UNROLL
   for (size_t p = 0; p < rows; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++)
-      sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
   }
   for (size_t i = 0; i < inputs; i++, w += outputs) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++)
-      column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
+    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
     NSVCD__UNROLL
     for (size_t p = 0; p < rows; p++) {
       const nsvcd__v input = nsvcd__v_set(x[pitch * p + i]);
       NSVCD__UNROLL
-      for (size_t t = 0; t < tiles; t++)
-        sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
+      for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
     }
   }
   NSVCD__UNROLL
@@ -14121,72 +12255,62 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   }
 }
 
-// One layer for `rows` pairs, a multiple of 4: x, of which a row begins every `pitch` floats, and y
-// (rows, WIDEST). The weights of the largest decoder do not fit into the first cache, so the more
-// rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16 outputs, or by 4 slices
-// where that is less, in fewer.
+// As nsvcd__decoder_logits, in fp32. The weights of the largest decoder do not fit into the first
+// cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
+// outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static void nsvcd__run_layer(const nsvcd__layer *layer, const float *x, size_t pitch, float *y,
-                             size_t rows) {
-  const size_t outputs = layer->outputs;
-  size_t p = 0;
-  size_t o;
+static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
+                                                  const float *x, size_t count,
+                                                  float *logits) {
+  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
+  float a[NSVCD__ROWS * NSVCD__WIDEST];
+  float b[NSVCD__ROWS * NSVCD__WIDEST];
+  float *y = a;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    const size_t outputs = layer.outputs;
+    size_t p = 0;
+    size_t o;
 #if NSVCD__SLICE == 16
-  for (; p + 8 <= rows; p += 8) {
-    const float *from = x + pitch * p;
-    float *to = y + NSVCD__WIDEST * p;
-    for (o = 0; o + 32 <= outputs; o += 32)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 2);
-    if (o < outputs)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 8, 1);
-  }
-  for (; p < rows; p += 4) {
-    const float *from = x + pitch * p;
-    float *to = y + NSVCD__WIDEST * p;
-    for (o = 0; o + 64 <= outputs; o += 64)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 4);
-    for (; o + 32 <= outputs; o += 32)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 2);
-    if (o < outputs)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 4, 1);
-  }
-#else
-  for (; p < rows; p += 4) {
-    const float *from = x + pitch * p;
-    float *to = y + NSVCD__WIDEST * p;
-    for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
-      nsvcd__layer_tile(layer, o, from, pitch, to, 4, NSVCD__TILES);
-  }
+    for (; p + 8 <= rows; p += 8) {
+      const float *from = x + pitch * p;
+      float *to = y + NSVCD__WIDEST * p;
+      for (o = 0; o + 32 <= outputs; o += 32)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 2);
+      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 1);
+    }
 #endif
+    for (; p < rows; p += 4) {
+      const float *from = x + pitch * p;
+      float *to = y + NSVCD__WIDEST * p;
+#if NSVCD__SLICE == 16
+      for (o = 0; o + 64 <= outputs; o += 64)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 4);
+      for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 2);
+      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 1);
+#else
+      for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, NSVCD__TILES);
+#endif
+    }
+    x = y;
+    pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
+  }
+  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_FLOAT
 
 #ifndef NSVCD_NO_INT8
-// A layer in integers: its inputs over the largest of them are bytes in [1, 255] about 128, because
-// the processors' instructions multiply unsigned by signed bytes; sums are exact in int32, and 128
-// times the sum of the weights too much. BYTE_ROWS rows at a time share the weights that are
-// loaded.
-//   nsvcd__to_bytes   x (inputs) -> bytes (inputs); returns the step
-//   nsvcd__dot_bytes  bytes (BYTE_ROWS, inputs) -> dot (BYTE_ROWS, outputs), by weights of
-//                     (inputs / 4, outputs, 4)
-//   nsvcd__from_dots  dot (outputs) -> y (outputs)
+// nsvcd__layer_by_bytes is a layer in integers, for BYTE_ROWS rows, which share the weights that
+// are loaded: x, of which a row begins every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may
+// take x's place. Inputs over the largest of them are bytes in [1, 255] about 128, because the
+// processors' instructions multiply unsigned by signed bytes, by weights of (inputs / 4, outputs,
+// 4); sums are exact in int32, and 128 times the sum of the weights too much.
 #ifdef NSVCD__VNNI
 #define NSVCD__BYTE_ROWS 4
-static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
-  __m512 most = _mm512_set1_ps(1e-20f);
-  for (size_t i = 0; i < inputs; i += 16)
-    most = nsvcd__v_max(most, _mm512_abs_ps(_mm512_loadu_ps(x + i)));
-  const float largest = 0 - nsvcd__v_least(nsvcd__v_sub(nsvcd__v_set(0), most));
-  const __m512 inverse = _mm512_set1_ps(127 / largest);
-  const __m512 middle = _mm512_set1_ps(128.5f);
-  for (size_t i = 0; i < inputs; i += 16) {
-    const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(x + i), inverse, middle);
-    const __m512i value = _mm512_maskz_cvttps_epi32(NSVCD__ALL, scaled);
-    _mm_storeu_si128((__m128i *)(void *)(bytes + i), _mm512_maskz_cvtepi32_epi8(NSVCD__ALL, value));
-  }
-  return largest / 127;
-}
-// Outputs o .. o + 16 tiles - 1.
+// Outputs o .. o + 16 tiles - 1 of bytes (4, inputs): dot (4, outputs).
 NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const uint8_t *bytes,
                                    int32_t *dot, size_t tiles) {
   const size_t inputs = layer->inputs;
@@ -14196,8 +12320,7 @@ NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const ui
   NSVCD__UNROLL
   for (size_t p = 0; p < 4; p++) {
     NSVCD__UNROLL
-    for (size_t t = 0; t < tiles; t++)
-      sum[p][t] = _mm512_setzero_si512();
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = _mm512_setzero_si512();
   }
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
     NSVCD__UNROLL
@@ -14218,47 +12341,68 @@ NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const ui
       _mm512_storeu_si512((void *)(dot + outputs * p + o + 16 * t), sum[p][t]);
   }
 }
-static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, size_t pitch,
+                                  float *y) {
   const size_t outputs = layer->outputs;
-  size_t o = 0;
-  for (; o + 64 <= outputs; o += 64)
-    nsvcd__dot_tile(layer, o, bytes, dot, 4);
-  for (; o + 32 <= outputs; o += 32)
-    nsvcd__dot_tile(layer, o, bytes, dot, 2);
-  if (o < outputs)
-    nsvcd__dot_tile(layer, o, bytes, dot, 1);
-}
-static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
-  const float *sum = nsvcd_w_decoder_sum + layer->first;
+  const float *weights = nsvcd_w_decoder_sum + layer->first;
   const float *scale = nsvcd_w_decoder_scale + layer->first;
   const float *bias = nsvcd_w_decoder_bias + layer->first;
+  uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
+  int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
+  float step[NSVCD__BYTE_ROWS];
+  for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
+    const float *row = x + pitch * p;
+    uint8_t *to = bytes + layer->inputs * p;
+    __m512 most = _mm512_set1_ps(1e-20f);
+    for (size_t i = 0; i < layer->inputs; i += 16)
+      most = nsvcd__v_max(most, _mm512_abs_ps(_mm512_loadu_ps(row + i)));
+    const float largest = 0 - nsvcd__v_least(nsvcd__v_sub(nsvcd__v_set(0), most));
+    const __m512 inverse = _mm512_set1_ps(127 / largest);
+    const __m512 middle = _mm512_set1_ps(128.5f);
+    for (size_t i = 0; i < layer->inputs; i += 16) {
+      const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(row + i), inverse, middle);
+      const __m512i value = _mm512_maskz_cvttps_epi32(NSVCD__ALL, scaled);
+      const __m128i narrow = _mm512_maskz_cvtepi32_epi8(NSVCD__ALL, value);
+      _mm_storeu_si128((__m128i *)(void *)(to + i), narrow);
+    }
+    step[p] = largest / 127;
+  }
+  size_t o = 0;
+  for (; o + 64 <= outputs; o += 64) nsvcd__dot_tile(layer, o, bytes, dot, 4);
+  for (; o + 32 <= outputs; o += 32) nsvcd__dot_tile(layer, o, bytes, dot, 2);
+  if (o < outputs) nsvcd__dot_tile(layer, o, bytes, dot, 1);
   const __m512 least = _mm512_set1_ps(layer->relu ? 0 : -1e30f);
-  const __m512 steps = _mm512_set1_ps(step);
   const __m512 middle = _mm512_set1_ps(-128);
-  for (size_t o = 0; o < layer->outputs; o += 16) {
-    const __m512i whole = _mm512_loadu_si512((const void *)(dot + o));
-    const __m512 value = _mm512_maskz_cvtepi32_ps(NSVCD__ALL, whole);
-    const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(sum + o), middle, value);
-    const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
-    const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
-    _mm512_storeu_ps(y + o, nsvcd__v_max(least, out));
+  for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
+    const __m512 steps = _mm512_set1_ps(step[p]);
+    for (o = 0; o < outputs; o += 16) {
+      const __m512i whole = _mm512_loadu_si512((const void *)(dot + outputs * p + o));
+      const __m512 value = _mm512_maskz_cvtepi32_ps(NSVCD__ALL, whole);
+      const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(weights + o), middle, value);
+      const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
+      const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
+      _mm512_storeu_ps(y + NSVCD__WIDEST * p + o, nsvcd__v_max(least, out));
+    }
   }
 }
 #else
 #define NSVCD__BYTE_ROWS 1
-static float nsvcd__to_bytes(const float *x, size_t inputs, uint8_t *bytes) {
-  float most = 1e-20f;
-  for (size_t i = 0; i < inputs; i++)
-    most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
-  const float inverse = 127 / most;
-  for (size_t i = 0; i < inputs; i++)
-    bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
-  return most / 127;
-}
-static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, int32_t *dot) {
+static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, size_t pitch,
+                                  float *y) {
   const size_t inputs = layer->inputs;
   const size_t outputs = layer->outputs;
   const int8_t *w = nsvcd_w_decoder_int8 + layer->weights;
+  const float *weights = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  uint8_t bytes[NSVCD__MOST_INPUTS];
+  int32_t dot[NSVCD__WIDEST];
+  float most = 1e-20f;
+  (void)pitch;
+  for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
+  const float inverse = 127 / most;
+  const float step = most / 127;
+  for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
   memset(dot, 0, outputs * sizeof *dot);
   for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
     const int32_t x0 = bytes[i];
@@ -14269,69 +12413,29 @@ static void nsvcd__dot_bytes(const nsvcd__layer *layer, const uint8_t *bytes, in
       dot[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
     }
   }
-}
-static void nsvcd__from_dots(const nsvcd__layer *layer, const int32_t *dot, float step, float *y) {
-  const float *sum = nsvcd_w_decoder_sum + layer->first;
-  const float *scale = nsvcd_w_decoder_scale + layer->first;
-  const float *bias = nsvcd_w_decoder_bias + layer->first;
-  for (size_t o = 0; o < layer->outputs; o++) {
-    const float exact = (float)dot[o] - 128 * sum[o];
+  for (size_t o = 0; o < outputs; o++) {
+    const float exact = (float)dot[o] - 128 * weights[o];
     const float value = bias[o] + exact * (step * scale[o]);
     y[o] = layer->relu && value < 0 ? 0 : value;
   }
 }
 #endif
 
-// As nsvcd__decoder_logits, in int8 arithmetic. A row is bytes before its outputs are written: they
-// may take its place.
+// As nsvcd__decoder_logits, in int8 arithmetic.
 static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
                                                  size_t count, float *logits) {
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    for (size_t first = 0; first < count; first += NSVCD__BYTE_ROWS) {
-      uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
-      int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
-      float step[NSVCD__BYTE_ROWS];
-      for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        const float *row = x + pitch * (first + p);
-        step[p] = nsvcd__to_bytes(row, layer.inputs, bytes + layer.inputs * p);
-      }
-      nsvcd__dot_bytes(&layer, bytes, dot);
-      for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
-        float *row = y + NSVCD__WIDEST * (first + p);
-        nsvcd__from_dots(&layer, dot + layer.outputs * p, step[p], row);
-      }
-    }
+    for (size_t p = 0; p < count; p += NSVCD__BYTE_ROWS)
+      nsvcd__layer_by_bytes(&layer, x + pitch * p, pitch, y + NSVCD__WIDEST * p);
     x = y;
     pitch = NSVCD__WIDEST;
   }
-  for (size_t p = 0; p < count; p++)
-    logits[p] = x[pitch * p];
+  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
 }
 #endif  // NSVCD_NO_INT8
-
-#ifndef NSVCD_NO_FLOAT
-// As nsvcd__decoder_logits, in fp32.
-static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder, const float *x,
-                                                  size_t count, float *logits) {
-  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
-  float a[NSVCD__ROWS * NSVCD__WIDEST];
-  float b[NSVCD__ROWS * NSVCD__WIDEST];
-  float *y = a;
-  size_t pitch = NSVCD__DECODER_IN;
-  for (size_t n = 0; n < decoder->layers; n++) {
-    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    nsvcd__run_layer(&layer, x, pitch, y, rows);
-    x = y;
-    pitch = NSVCD__WIDEST;
-    y = y == a ? b : a;
-  }
-  for (size_t p = 0; p < count; p++)
-    logits[p] = x[pitch * p];
-}
-#endif  // NSVCD_NO_FLOAT
 
 // x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by a decoder, in fp32 or int8
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
@@ -14350,11 +12454,12 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
     nsvcd__decoder_by_floats(decoder, x, count, logits);
 #endif
 }
-
 #endif  // NSVCD_NO_NETWORK
 
-// ------------------------------------------------------------------------------------------- query
-// In: two bodies and a motion. Out: an answer, by proof (section *proof*) or by the network
+// =============================================================== query: a question, and its answer
+
+// -------------------------------------------------------------------------------------- query/task
+// In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
 // (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
 //
 //   check       is it in order, which method can answer it, and is the workspace large enough?
@@ -14401,54 +12506,15 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 // nsvcd__answer_by_network
 #define NSVCD__MISLEADS 2
 
-// The threshold to subtract from the logit. weights.h has one per decoder, recall and N = 32, 64,
-// ..., 512; between those, and for two bodies that differ, it is interpolated at the mean of log2
-// N. Returns 0 for any other recall.
-static int nsvcd__threshold(size_t model, float recall, size_t points1, size_t points2,
-                            float *threshold) {
-  if (!nsvcd__is_finite(recall))
-    return 0;
-  for (size_t k = 0; k < NSVCD_W_RECALLS; k++) {
-    if (recall < nsvcd_w_recall[k] || recall > nsvcd_w_recall[k])
-      continue;
-    const float last = NSVCD_W_SIZES - 1;
-    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
-    const float at = size < 0 ? 0 : size > last ? last : size;
-    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
-    const float low = nsvcd_w_threshold[model][row][k];
-    const float high = nsvcd_w_threshold[model][row + 1][k];
-    *threshold = low + (at - (float)row) * (high - low);
-    return 1;
-  }
-  return 0;
-}
-
-// Scores `count` candidates, 1 to 16, by a decoder.
-static void nsvcd__decode(const nsvcd_body *moving, const nsvcd_body *fixed,
-                          const nsvcd__motion *motion, nsvcd__candidate *const *candidates,
-                          size_t count, const nsvcd__decoder *decoder, int int8) {
-  for (size_t first = 0; first < count; first += NSVCD__ROWS) {
-    const size_t left = count - first;
-    const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
-    float x[NSVCD__ROWS * NSVCD__DECODER_IN];
-    float logits[NSVCD__ROWS];
-    nsvcd__inputs_of(moving, fixed, motion, candidates + first, rows, x);
-    // The layers take some rows at a time.
-    const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
-    memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__decoder_logits(decoder, x, rows, int8, logits);
-    for (size_t k = 0; k < rows; k++)
-      candidates[first + k]->score = logits[k];
-  }
-}
-
 // The network's options, with the defaults filled in.
 typedef struct nsvcd__settings {
-  size_t pairs;      // K
-  size_t shortlist;  // pairs that are kept
+  size_t pairs;  // K
+  // pairs that are kept
+  size_t shortlist;
   const nsvcd__decoder *decoder, *ranker;
   int int8;
-  float threshold;  // subtracted from the decoder's logit
+  // subtracted from the decoder's logit
+  float threshold;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -14456,7 +12522,6 @@ typedef struct nsvcd__decisive {
   nsvcd__candidate candidate;
   const nsvcd__decoder *decoder;
 } nsvcd__decisive;
-
 #endif  // NSVCD_NO_NETWORK
 
 // ---- tasks, and their memory
@@ -14465,17 +12530,17 @@ typedef struct nsvcd__decisive {
 typedef struct nsvcd__task {
   const nsvcd_body *moving, *fixed;
   nsvcd__motion motion;
-  int swapped;          // the moving body is b, not a
-  float lengths;        // extents of both bodies, in the fixed one's units
+  int swapped;  // the moving body is b, not a
+  // extents of both bodies, in the fixed one's units
+  float lengths;
   nsvcd_method method;  // PROOF or NETWORK
-  size_t work;
-  // as options has them, in the fixed body's units
-  float tolerance, clearance, measure, skin;
-  float first;                         // a share of the motion
-  const nsvcd_sweep_options *options;  // the caller's
+  // the caller's
+  const nsvcd_sweep_options *options;
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__settings settings;   // of the network
-  nsvcd__decisive *decisive;  // written unless NULL
+  // of the network
+  nsvcd__settings settings;
+  // written unless NULL
+  nsvcd__decisive *decisive;
 #endif
 } nsvcd__task;
 
@@ -14485,7 +12550,8 @@ typedef struct nsvcd__query {
   nsvcd__task task;
   // The memory of the network and that of the proof are in one place, for one follows the other.
 #ifndef NSVCD_NO_NETWORK
-  nsvcd__candidate *kept;  // (shortlist)
+  // (shortlist)
+  nsvcd__candidate *kept;
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__proof *proof;
@@ -14495,37 +12561,21 @@ typedef struct nsvcd__query {
 
 // What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
 // compile they are wrong.
-typedef char
-    nsvcd__constants_hold[sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
-                                  sizeof(nsvcd__segments) <= 148 * 16 &&
-                                  sizeof(nsvcd__chords) <= 512 && sizeof(nsvcd__cut) <= 16 * 512 &&
-                                  NSVCD__TILE_SLOTS == 32 && NSVCD_ALIGNMENT == sizeof(uint64_t)
-                              ? 1
-                              : -1];
+typedef char nsvcd__constants_hold
+    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
+             sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
+             sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
+             NSVCD_ALIGNMENT == sizeof(uint64_t)
+         ? 1
+         : -1];
 #ifndef NSVCD_NO_PROOF
-typedef char nsvcd__proof_constants_hold[sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168
-                                             ? 1
-                                             : -1];
+typedef char nsvcd__proof_constants_hold
+    [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
 typedef char nsvcd__network_constants_hold
     [NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
 #endif
-
-// What any question may need.
-static nsvcd__needs nsvcd__needs_most(void) {
-  nsvcd__needs needs;
-  needs.moving_groups = NSVCD__TILE_SLOTS;
-  needs.fixed_groups = NSVCD__TILE_SLOTS;
-  needs.large = 1;
-  needs.segments = NSVCD__MAX_SEGMENTS;
-  needs.candidates = 0;
-  needs.proof = 1;
-#ifndef NSVCD_NO_NETWORK
-  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
-#endif
-  return needs;
-}
 
 // Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
 // bytes that it takes.
@@ -14545,7 +12595,8 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
 #ifndef NSVCD_NO_PROOF
   uint64_t proof = used;
   const size_t spans = needs->proof ? needs->segments : 0;
-  query->proof = (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
+  query->proof =
+      (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
   query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
   end = proof > end ? proof : end;
 #endif
@@ -14567,26 +12618,29 @@ static void nsvcd__answer_free(nsvcd_answer *answer) {
 typedef struct nsvcd__hint {
   int known;
   int misled;
-  uint32_t moving, fixed;  // patches
+  // patches
+  uint32_t moving, fixed;
 } nsvcd__hint;
 
-// ---- by the network
+// -------------------------------------------------------------------------------- query/by_network
+// In: a task. Out: its answer, by the network: candidates, ranked, and a logit for the best of
+// them.
 
 #ifndef NSVCD_NO_NETWORK
-
 // The settings for two bodies of so many patches. An error where the options ask for what is not
-// there; *settings is then not whole.
-static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_t points1,
+// there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
+// 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
+// of log2 N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *o, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
-  const nsvcd_sweep_options *o = options;
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
     return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
   const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
-  if (!nsvcd_w_decoders[decoder].layers)
-    return NSVCD_ERROR_ARGUMENT;  // compiled out
+  // compiled out
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_ARGUMENT;
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[decoder];
@@ -14597,62 +12651,66 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *options, size_
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
 #endif
 #ifdef NSVCD_NO_INT8
-  if (settings->int8)
-    return NSVCD_ERROR_ARGUMENT;
+  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
 #endif
-  if (!nsvcd__threshold(decoder, o->recall, points1, points2, &settings->threshold))
-    return NSVCD_ERROR_ARGUMENT;
-  return NSVCD_OK;
+  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
+    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
+    const float low = nsvcd_w_threshold[decoder][row][k];
+    const float high = nsvcd_w_threshold[decoder][row + 1][k];
+    settings->threshold = low + (at - (float)row) * (high - low);
+    return NSVCD_OK;
+  }
+  return NSVCD_ERROR_ARGUMENT;
 }
 
-// Is a part of one body inside of the other at the start?
-static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
-  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
-  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
+// Scores `count` candidates, 1 to 16, by a decoder.
+static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *candidates,
+                          size_t count, const nsvcd__decoder *decoder) {
+  for (size_t first = 0; first < count; first += NSVCD__ROWS) {
+    const size_t left = count - first;
+    const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
+    // The layers take some rows at a time.
+    const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
+    float x[NSVCD__ROWS * NSVCD__DECODER_IN];
+    float logits[NSVCD__ROWS];
+    for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
+      const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
+      nsvcd__pairs pairs;
+      nsvcd__pairs_of(task->moving, task->fixed, &task->motion, candidates + first + l, size,
+                      &pairs);
+      nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
+    }
+    memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
+    nsvcd__decoder_logits(decoder, x, rows, task->settings.int8, logits);
+    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+  }
 }
 
 // Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
 // heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
 static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
                         size_t most) {
-  const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *batch[NSVCD__BATCH];
   size_t count = 0;
   size_t left = 0;
-  for (size_t k = 0; k < kept->count; k++)
-    left += kept->items[k].score <= NSVCD__NO_SCORE;
-  if (left < least || left == 0)
-    return 0;
+  for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
+  if (left < least || left == 0) return 0;
   left = left < most ? left : most;
   for (size_t k = kept->count; left > 0; k--) {
     nsvcd__candidate *candidate = &kept->items[k - 1];
-    if (candidate->score > NSVCD__NO_SCORE)
-      continue;
+    if (candidate->score > NSVCD__NO_SCORE) continue;
     batch[count++] = candidate;
-    if (count < NSVCD__BATCH && count < left)
-      continue;
+    if (count < NSVCD__BATCH && count < left) continue;
     NSVCD__TALLY(ranked, count);
-    nsvcd__decode(task->moving, task->fixed, &task->motion, batch, count, settings->ranker,
-                  settings->int8);
+    nsvcd__decode(task, batch, count, task->settings.ranker);
     left -= count;
     count = 0;
   }
   return 1;
-}
-
-// Puts the `count` candidates of the highest scores, among `of`, first, in falling order.
-static void nsvcd__best_first(nsvcd__candidate *items, size_t count, size_t of) {
-  for (size_t k = 0; k < count; k++) {
-    size_t best = k;
-    for (size_t i = k + 1; i < of; i++) {
-      const float d = items[i].score - items[best].score;
-      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i])))
-        best = i;
-    }
-    const nsvcd__candidate first = items[best];
-    items[best] = items[k];
-    items[k] = first;
-  }
 }
 
 // Answers with a candidate, of which a decoder has given the score.
@@ -14683,32 +12741,38 @@ static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kep
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
-  if (yes || no)
-    nsvcd__answer_with(task, most, task->settings.ranker, answer);
+  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, answer);
   return yes || no;
 }
 
 // The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
 // portion at a time, until one is clearly positive.
-static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept, nsvcd_answer *answer) {
+static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
+                         nsvcd_answer *answer) {
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
-  nsvcd__best_first(items, count, kept->count);
-  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
-    count--;
+  // those of the highest scores come first, in falling order
+  for (size_t k = 0; k < count; k++) {
+    size_t best = k;
+    for (size_t i = k + 1; i < kept->count; i++) {
+      const float d = items[i].score - items[best].score;
+      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
+    }
+    const nsvcd__candidate first = items[best];
+    items[best] = items[k];
+    items[k] = first;
+  }
+  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
   for (size_t first = 0; first < count; first += NSVCD__PORTION) {
-    if (!(answer->logit < NSVCD__CLEAR_LOGIT))
-      break;
+    if (!(answer->logit < NSVCD__CLEAR_LOGIT)) break;
     nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
-    for (size_t k = 0; k < size; k++)
-      portion[k] = &items[first + k];
+    for (size_t k = 0; k < size; k++) portion[k] = &items[first + k];
     if (settings->decoder != settings->ranker) {
       NSVCD__TALLY(judged, size);
-      nsvcd__decode(task->moving, task->fixed, &task->motion, portion, size, settings->decoder,
-                    settings->int8);
+      nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
       const int is_first = first + k == 0;
@@ -14719,29 +12783,27 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept, nsvcd
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(const nsvcd__task *task, const nsvcd__hint *hint,
-                                              nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
+                                              nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP, task->fixed,
-                      hint->fixed, &kept);
-  if (!nsvcd__score(task, &kept, 1, kept.count))
-    return 0;
+  nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
+                      task->fixed, hint->fixed, &kept);
+  if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
   answer->candidates = kept.total;
   answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(task, &kept, 0, answer))
-    return 1;
-  if (settings->decoder == settings->ranker)
-    return 0;
+  if (nsvcd__is_clear(task, &kept, 0, answer)) return 1;
+  if (settings->decoder == settings->ranker) return 0;
   nsvcd__judge(task, &kept, answer);
   return answer->logit >= NSVCD__CLEAR_LOGIT;
 }
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *task, nsvcd__query *query,
-                                                 nsvcd_answer *answer) {
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__candidates kept;
@@ -14754,41 +12816,41 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__task *task, nsvcd__query
     more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
-    if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth))
-      continue;
+    if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
     clear = nsvcd__is_clear(task, &kept, 0, answer);
-    if (worth == NSVCD__FIRST_LOOK)
-      worth = NSVCD__BATCH;
+    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
   }
 
   answer->candidates = kept.total;
   if (kept.total > 0)
     answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (clear || kept.count == 0)
-    return;
+  if (clear || kept.count == 0) return;
   nsvcd__score(task, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(task, &kept, 1, answer))
-    nsvcd__judge(task, &kept, answer);
+  if (!nsvcd__is_clear(task, &kept, 1, answer)) nsvcd__judge(task, &kept, answer);
+}
+
+// Is a part of one body inside of the other at the start?
+static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
+  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
 // Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer_by_network(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
                                      nsvcd_answer *answer) {
+  nsvcd__task *task = &query->task;
+  const int hinted = hint && hint->known;
   // checked before
   (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
                            &task->settings);
   nsvcd__answer_free(answer);
-  if (nsvcd__motion_gap(&task->motion) > task->lengths)
-    return;
+  if (nsvcd__motion_gap(&task->motion) > task->lengths) return;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-
-  const int hinted = hint && hint->known;
-  if (!hinted || !nsvcd__collides_again(task, hint, query, answer)) {
+  if (!hinted || !nsvcd__collides_again(query, hint, answer)) {
     nsvcd__answer_free(answer);
-    if (hinted)
-      hint->known = ++hint->misled < NSVCD__MISLEADS;
-    nsvcd__search_and_judge(task, query, answer);
+    if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
+    nsvcd__search_and_judge(query, answer);
   }
   if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
     const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
@@ -14804,10 +12866,10 @@ static void nsvcd__answer_by_network(nsvcd__task *task, nsvcd__query *query, nsv
   }
   answer->collides = answer->logit > 0;
 }
-
 #endif  // NSVCD_NO_NETWORK
 
-// ---- by proof
+// ---------------------------------------------------------------------------------- query/by_proof
+// In: a task. Out: its answer, by proof, with the contact as places in the world.
 
 #ifndef NSVCD_NO_PROOF
 // From the fixed body's frame and units to the world, at time t.
@@ -14830,149 +12892,115 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
-// Has a proof found triangles that an answer is to name? If not a contact, then a doubt.
-static int nsvcd__names_triangles(const nsvcd__proof *p, nsvcd__verdict verdict) {
-  const int is_doubt = verdict == NSVCD__UNDECIDED && p->known.unsure < NSVCD__NEVER;
-  return p->known.has_contact || is_doubt;
+// Makes the proof ready for a question whose motion has been prepared.
+static void nsvcd__proof_begin(nsvcd__query *query) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd_sweep_options *o = task->options;
+  const float unit = task->motion.unit;
+  nsvcd__proof *p = query->proof;
+  p->spans = query->spans;
+  p->ask.motion = &query->task.motion;
+  p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
+  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
+  p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
+  p->given.tolerance = (double)(o->tolerance / unit);
+  p->given.clearance = p->ask.clearance = (double)(o->clearance / unit);
+  p->given.skin = (double)(o->skin / unit);
+  p->given.share = p->ask.share = (double)o->first;
+  p->given.work = p->ask.limit = o->work ? o->work : NSVCD_DEFAULT_WORK;
+  p->given.tells = o->first > 0 || o->measure / unit > 0 || o->skin / unit > 0;
+  p->ask.measure = p->ask.first = p->low = 0;
+  p->high = HUGE_VAL;
+  p->work = 0;
+  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = 0;
+  nsvcd__proof_restart(p);
 }
 
 // Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
 // fixed body that counts as lifted, the other way.
-static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped, nsvcd_answer *answer) {
+static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped,
+                                       nsvcd_answer *answer) {
   const nsvcd__contact *found = &p->known.found;
-  const int rests = p->motion->moving.count == 1 && !p->motion->fixed_moves;
-  const double time = rests ? 0 : found->tick / (double)p->motion->ticks;
-  const nsvcd__to_world world = nsvcd__to_world_at(p->motion, time);
-  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->motion->lift), swapped);
+  const int rests = p->ask.motion->moving.count == 1 && !p->ask.motion->fixed_moves;
+  const double time = rests ? 0 : found->tick / (double)p->ask.motion->ticks;
+  const nsvcd__to_world world = nsvcd__to_world_at(p->ask.motion, time);
+  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->ask.motion->lift), swapped);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
-  const nsvcd__d3 turned = nsvcd__dmat3_apply(&world.rotation, seen);
-  const nsvcd__f3 point = nsvcd__f3_round(nsvcd__d3_add(turned, world.position));
-  const nsvcd__f3 normal = nsvcd__f3_round(nsvcd__dmat3_apply(&world.rotation, found->normal));
+  const nsvcd__d3 point =
+      nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
+  const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   answer->contact_time = (float)time;
   answer->patch_a = found->moving_patch;
   answer->patch_b = found->fixed_patch;
   answer->triangle_a = found->moving_triangle;
   answer->triangle_b = found->fixed_triangle;
-  memcpy(answer->point, &point, sizeof answer->point);
-  memcpy(answer->normal, &normal, sizeof answer->normal);
-}
-
-// What is proven of clearances and times.
-static void nsvcd__answer_with_bounds(const nsvcd__proof *p, nsvcd__verdict verdict,
-                                      nsvcd_answer *answer) {
-  const double unit = (double)p->motion->unit;
-  const double until = nsvcd__clear_until(p) / (double)p->motion->ticks;
-  const int is_free = verdict == NSVCD__FREE;
-  double proven = is_free;
-  if (!is_free && p->share > 0 && verdict != NSVCD__WITHIN)
-    proven = fmin(fmax(until, 0), 1);
-  const double low = is_free ? fmax(p->asked, p->low) : p->low;
-  answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
-  answer->clearance_low = (float)(low * unit * (1 - 1e-6));
-  answer->clearance_high = (float)(p->high * unit * (1 + 1e-6));
-  if (verdict == NSVCD__WITHIN) {
-    answer->clearance_high = 0;
-  } else if (nsvcd__names_triangles(p, verdict)) {
-    const float quanta =
-        nsvcd__quanta_of(p, p->known.found.moving_patch, p->known.found.fixed_patch);
-    const double distance = p->known.found.distance + (double)quanta;
-    answer->clearance_high = (float)(distance * unit * (1 + 1e-6));
-  }
-}
-
-// Makes the proof ready for a question whose motion has been prepared.
-static void nsvcd__proof_begin(nsvcd__task *task, nsvcd__query *query) {
-  nsvcd__proof *p = query->proof;
-  p->spans = query->spans;
-  p->motion = &task->motion;
-  p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
-  p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
-  p->lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->tolerance = (double)task->tolerance;
-  p->clearance = (double)task->clearance;
-  p->asked = p->clearance;
-  p->measure = 0;
-  p->low = 0;
-  p->high = HUGE_VAL;
-  p->share = (double)task->first;
-  p->first = 0;
-  p->most = p->limit = task->work;
-  p->skin = (double)task->skin;
-  p->gathers = 0;
-  p->is_brief = 0;
-  p->work = 0;
-  p->tells = task->first > 0 || task->measure > 0 || task->skin > 0;
-  p->within = 0;
-  p->unclear = 0;
-  nsvcd__proof_restart(p);
-}
-
-// By what the moving body was lifted, in the world at the start.
-static nsvcd__f3 nsvcd__lift_of(const nsvcd__proof *p) {
-  const nsvcd__to_world start = nsvcd__to_world_at(p->motion, 0);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->motion->lift));
-  return nsvcd__f3_round(nsvcd__d3_scale(lift, p->skin > 0 ? start.unit : 0));
-}
-
-// Measures the least distance, and decides by that what was left undecided.
-static nsvcd__verdict nsvcd__verdict_of_distance(nsvcd__proof *p, nsvcd__search *search,
-                                                 double measure, nsvcd__verdict verdict) {
-  nsvcd__measure(p, search, verdict, measure);
-  if (verdict != NSVCD__UNDECIDED)
-    return verdict;
-  if (p->known.has_contact && p->known.found.distance <= p->asked)
-    return NSVCD__MEETS;
-  // a distance tells nothing of what is inside of what
-  const int is_clear = p->low > 0 && p->low >= p->asked && !p->unclear && !p->within;
-  return is_clear ? NSVCD__FREE : NSVCD__UNDECIDED;
-}
-
-static nsvcd_status nsvcd__status_of(nsvcd__verdict verdict) {
-  switch (verdict) {
-    case NSVCD__MEETS:
-      return NSVCD_STATUS_WITNESS;
-    case NSVCD__WITHIN:
-      return NSVCD_STATUS_INSIDE;
-    case NSVCD__FREE:
-      return NSVCD_STATUS_CERTIFIED_FREE;
-    case NSVCD__UNDECIDED:
-    case NSVCD__TOO_LONG:
-    case NSVCD__TAKEN:
-      break;
-  }
-  return NSVCD_STATUS_UNDECIDED;
+  nsvcd__f3_store(nsvcd__f3_round(point), answer->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), answer->normal);
 }
 
 // Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
 // says yes.
-static void nsvcd__answer_by_proof(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
-  nsvcd__proof *p = query->proof;
+static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const double unit = (double)task->motion.unit;
+  const double measure = (double)(task->options->measure / task->motion.unit);
   nsvcd__search *search = &query->broad_phase;
-  nsvcd__proof_begin(task, query);
-  if (p->skin > 0)
-    nsvcd__lift_motion(p, search);
+  nsvcd__proof *p = query->proof;
+  nsvcd__proof_begin(query);
+  if (p->given.skin > 0) nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (task->measure > 0 && verdict != NSVCD__WITHIN)
-    verdict = nsvcd__verdict_of_distance(p, search, (double)task->measure, verdict);
+  if (measure > 0 && verdict != NSVCD__WITHIN) {
+    nsvcd__measure(p, search, verdict, measure);
+    // A distance decides what was left undecided, but tells nothing of what is inside of what.
+    const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
+    const int is_clear =
+        p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->within;
+    if (verdict == NSVCD__UNDECIDED && (meets || is_clear))
+      verdict = meets ? NSVCD__MEETS : NSVCD__FREE;
+  }
 
+  // The triangles that the answer names are those of a contact, or else of a doubt.
+  const int is_doubt = verdict == NSVCD__UNDECIDED && p->known.unsure < NSVCD__NEVER;
+  const int names = p->known.has_contact || is_doubt;
+  const int is_within = verdict == NSVCD__WITHIN;
+  const int is_free = verdict == NSVCD__FREE;
   nsvcd__answer_free(answer);
   answer->work = p->work;
-  if (nsvcd__names_triangles(p, verdict) || verdict == NSVCD__WITHIN)
-    nsvcd__answer_with_contact(p, task->swapped, answer);
-  nsvcd__answer_with_bounds(p, verdict, answer);
-  nsvcd__f3_store(nsvcd__lift_of(p), answer->lift);
-  answer->status = nsvcd__status_of(verdict);
-  answer->collides = verdict != NSVCD__FREE;
-  answer->logit = answer->collides ? NSVCD_LOGIT_CERTAIN : -NSVCD_LOGIT_CERTAIN;
-}
-#endif
+  if (names || is_within) nsvcd__answer_with_contact(p, task->swapped, answer);
 
-// ---- check
+  // What is proven of clearances and times.
+  const double until = nsvcd__clear_until(p) / (double)p->ask.motion->ticks;
+  double proven = is_free;
+  if (!is_free && p->given.share > 0 && !is_within) proven = fmin(fmax(until, 0), 1);
+  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
+  double high = p->high;
+  if (names) {
+    const nsvcd__contact *found = &p->known.found;
+    const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
+    high = found->distance + (double)quanta;
+  }
+  answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
+  answer->clearance_low = (float)(low * unit * (1 - 1e-6));
+  answer->clearance_high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
 
-// Is something asked that the network knows nothing of?
-static int nsvcd__needs_proof(const nsvcd_sweep_options *options) {
-  return options->clearance > 0 || options->measure > 0 || options->first > 0 || options->skin > 0;
+  // By what the moving body was lifted, in the world at the start.
+  const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
+  const nsvcd__d3 lift =
+      nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
+  const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
+  nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+
+  answer->status = NSVCD_STATUS_UNDECIDED;
+  if (is_free) answer->status = NSVCD_STATUS_CERTIFIED_FREE;
+  if (is_within) answer->status = NSVCD_STATUS_INSIDE;
+  if (verdict == NSVCD__MEETS) answer->status = NSVCD_STATUS_WITNESS;
+  answer->collides = !is_free;
+  answer->logit = is_free ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
 }
+#endif  // NSVCD_NO_PROOF
+
+// ---------------------------------------------------------------------------------- query/question
+// In: questions and a workspace. Out: answers, or why not.
 
 // The method that answers, or DEFAULT where there is none.
 static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed,
@@ -14985,69 +13013,48 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 #ifndef NSVCD_NO_NETWORK
   can_ask = moving->weights_id && fixed->weights_id;
 #endif
-  if (can_prove && wanted != NSVCD_METHOD_NETWORK)
-    return NSVCD_METHOD_PROOF;
-  if (can_ask && wanted != NSVCD_METHOD_PROOF)
-    return NSVCD_METHOD_NETWORK;
+  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
+  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
   (void)moving;
   (void)fixed;
   return NSVCD_METHOD_DEFAULT;
 }
 
-// Are both sides one and the same body in the same motion? Then something was passed twice.
-static int nsvcd__is_itself(const nsvcd_question *question) {
+// Is a question in order?
+static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
+  const nsvcd_sweep_options *o = &question->options;
+  nsvcd_result result = nsvcd__mover_check(a);
+  if (!result) result = nsvcd__mover_check(b);
+  if (result) return result;
+  // One and the same body in the same motion: something was passed twice.
   const float scale_a = nsvcd__scale_of(a);
   const float scale_b = nsvcd__scale_of(b);
   const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
-  return a->body == b->body && a->poses == b->poses && a->count == b->count && same_size;
-}
+  const int same_motion = a->poses == b->poses && a->count == b->count;
+  if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
-// Are the options' numbers in their ranges, and do they go together?
-static nsvcd_result nsvcd__options_check(const nsvcd_sweep_options *options) {
-  if ((unsigned)options->method > (unsigned)NSVCD_METHOD_NETWORK)
+  // Are the options' numbers in their ranges, and do they go together?
+  const float lengths[5] = {o->tolerance, o->clearance, o->measure, o->skin, o->first};
+  if ((unsigned)o->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if (o->segments > NSVCD__MAX_SEGMENTS || o->segments % NSVCD__LANES)
     return NSVCD_ERROR_ARGUMENT;
-  if (options->segments > NSVCD__MAX_SEGMENTS || options->segments % NSVCD__LANES)
-    return NSVCD_ERROR_ARGUMENT;
-  const float lengths[4] = {options->tolerance, options->clearance, options->measure,
-                            options->skin};
-  for (size_t k = 0; k < 4; k++) {
-    if (!nsvcd__is_finite(lengths[k]))
-      return NSVCD_ERROR_TOLERANCE;
-    if (lengths[k] < 0 || lengths[k] > NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_TOLERANCE;
+  for (size_t k = 0; k < 5; k++) {
+    const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
+    if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
+    if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
   }
-  if (!nsvcd__is_finite(options->first) || options->first < 0 || options->first > 1)
-    return NSVCD_ERROR_TOLERANCE;
-  if (options->first > 0 && options->measure > 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (nsvcd__needs_proof(options) && options->method == NSVCD_METHOD_NETWORK)
-    return NSVCD_ERROR_ARGUMENT;
-  return NSVCD_OK;
-}
-
-// Is a question in order?
-static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
-  const nsvcd_body *a = question->a.body;
-  const nsvcd_body *b = question->b.body;
-  const nsvcd_sweep_options *options = &question->options;
-  nsvcd_result result = nsvcd__mover_check(&question->a);
-  if (!result)
-    result = nsvcd__mover_check(&question->b);
-  if (result)
-    return result;
-  if (nsvcd__is_itself(question))
-    return NSVCD_ERROR_SAME;
-  result = nsvcd__options_check(options);
-  if (result)
-    return result;
-  const nsvcd_method wanted = nsvcd__needs_proof(options) ? NSVCD_METHOD_PROOF : options->method;
-  if (nsvcd__method_of(a, b, wanted) == NSVCD_METHOD_DEFAULT)
+  if (o->first > 0 && o->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  // of these the network knows nothing
+  const int needs_proof = o->clearance > 0 || o->measure > 0 || o->first > 0 || o->skin > 0;
+  if (needs_proof && o->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : o->method;
+  if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
     return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
-  return nsvcd__settings_of(options, a->patches, b->patches, &unused);
+  return nsvcd__settings_of(o, a->body->patches, b->body->patches, &unused);
 #else
   return NSVCD_OK;
 #endif
@@ -15061,24 +13068,73 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
-  if ((count_a > 1) != (count_b > 1))
-    return count_b > 1;
+  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
   const float size_a = nsvcd__scale_of(a) * a->body->extent;
   const float size_b = nsvcd__scale_of(b) * b->body->extent;
-  if (size_a < size_b || size_b < size_a)
-    return size_b < size_a;
-  if (a->body->checksum != b->body->checksum)
-    return b->body->checksum < a->body->checksum;
-  if (count_a != count_b)
-    return count_b < count_a;
+  if (size_a < size_b || size_b < size_a) return size_b < size_a;
+  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
+  if (count_a != count_b) return count_b < count_a;
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
   return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
 }
 
-// The task of a question that is in order.
-static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *task) {
+// ---- lay out
+
+// What a question that is in order needs; NULL: what any may need. Which of its bodies is to be the
+// moving one makes no difference to how much that is.
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
+  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+#ifndef NSVCD_NO_NETWORK
+  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
+#endif
+  if (!question) return needs;
+  const nsvcd_body *a = question->a.body;
+  const nsvcd_body *b = question->b.body;
   const nsvcd_sweep_options *options = &question->options;
+  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
+  const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
+  if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
+  if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
+  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
+  if (options->segments) needs.segments = nsvcd__round_up(options->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
+#ifndef NSVCD_NO_NETWORK
+  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
+  if (!a->weights_id || !b->weights_id) needs.candidates = 0;
+#endif
+  return needs;
+}
+
+// As nsvcd_sweep_workspace_size.
+static size_t nsvcd__sweep_size(const nsvcd_question *question) {
+  if (question && nsvcd__question_check(question)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  return nsvcd__query_layout(&needs, NULL);
+}
+
+// Checks a question, and that the workspace is large enough for it.
+static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
+                                              const void *workspace, size_t workspace_size) {
+  const nsvcd_result result = nsvcd__question_check(question);
+  if (result) return result;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const size_t size = nsvcd__query_layout(&needs, NULL);
+  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+}
+
+// Lays a question that has been checked out in the workspace, and chooses who moves.
+static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+                                                    void *workspace) {
+  const nsvcd_sweep_options *options = &question->options;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  nsvcd__query *query = (nsvcd__query *)workspace;
+  nsvcd__task *task = &query->task;
+  (void)nsvcd__query_layout(&needs, (char *)workspace);
   task->swapped = nsvcd__is_swapped(&question->a, &question->b);
   const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
   const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
@@ -15086,113 +13142,29 @@ static void nsvcd__task_of(const nsvcd_question *question, nsvcd__task *task) {
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->work = options->work ? options->work : NSVCD_DEFAULT_WORK;
-  task->tolerance = options->tolerance / task->motion.unit;
-  task->clearance = options->clearance / task->motion.unit;
-  task->measure = options->measure / task->motion.unit;
-  task->skin = options->skin / task->motion.unit;
-  task->first = options->first;
   task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
   task->options = options;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
 #endif
-}
-
-// ---- lay out
-
-// How many groups of a body are searched together.
-static size_t nsvcd__tile_groups(const nsvcd_body *body) {
-  const size_t groups = nsvcd__body_groups(body);
-  return groups < NSVCD__TILE_SLOTS ? groups : NSVCD__TILE_SLOTS;
-}
-
-// What a question that is in order needs. Which of its bodies is to be the moving one makes no
-// difference to how much that is.
-static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
-  const nsvcd_body *a = question->a.body;
-  const nsvcd_body *b = question->b.body;
-  const nsvcd_sweep_options *options = &question->options;
-  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
-  const size_t segments = options->segments ? options->segments : NSVCD__MAX_SEGMENTS;
-  nsvcd__needs needs;
-  needs.moving_groups = nsvcd__tile_groups(swapped ? b : a);
-  needs.fixed_groups = nsvcd__tile_groups(swapped ? a : b);
-  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  needs.segments = nsvcd__round_up(segments, NSVCD__LANES);
-  needs.candidates = 0;
-  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
-#ifndef NSVCD_NO_NETWORK
-  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
-  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
-  if (a->weights_id && b->weights_id)
-    needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
-#endif
-  return needs;
-}
-
-// As nsvcd_sweep_workspace_size.
-static size_t nsvcd__sweep_size(const nsvcd_question *question) {
-  if (question && nsvcd__question_check(question))
-    return 0;
-  const nsvcd__needs needs = question ? nsvcd__needs_of(question) : nsvcd__needs_most();
-  return nsvcd__query_layout(&needs, NULL);
-}
-
-// Checks a question, and that the workspace is large enough for it.
-static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question, const void *workspace,
-                                              size_t workspace_size) {
-  const nsvcd_result result = nsvcd__question_check(question);
-  if (result)
-    return result;
-  if (!workspace || !nsvcd__is_aligned(workspace))
-    return NSVCD_ERROR_WORKSPACE;
-  const nsvcd__needs needs = nsvcd__needs_of(question);
-  const size_t size = nsvcd__query_layout(&needs, NULL);  // counts
-  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
-}
-
-// Lays a question that has been checked out in the workspace, and chooses who moves.
-static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
-                                                    void *workspace) {
-  const nsvcd__needs needs = nsvcd__needs_of(question);
-  nsvcd__query *query = (nsvcd__query *)workspace;
-  (void)nsvcd__query_layout(&needs, (char *)workspace);
-  nsvcd__task_of(question, &query->task);
   return query;
 }
 
 // ---- answer, and write
 
-// What was found out about moving and fixed, said about a and b.
-static void nsvcd__turn_answer(nsvcd_answer *answer) {
-  const uint32_t patch = answer->patch_a;
-  const uint32_t triangle = answer->triangle_a;
-  answer->patch_a = answer->patch_b;
-  answer->patch_b = patch;
-  answer->triangle_a = answer->triangle_b;
-  answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++)
-    answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++)
-    answer->lift[k] = 0 - answer->lift[k];
-}
-
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
 // Adds the network's opinion, where it has one, to what a proof has left undecided.
-static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_answer *answer) {
+static void nsvcd__add_opinion(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
   const nsvcd_sweep_options *options = task->options;
   nsvcd_answer opinion;
-  if (!task->moving->weights_id || !task->fixed->weights_id)
-    return;
-  if (options->clearance > 0 || options->measure > 0 || options->skin > 0)
-    return;
-  nsvcd__answer_by_network(task, query, NULL, &opinion);
+  if (!task->moving->weights_id || !task->fixed->weights_id) return;
+  if (options->clearance > 0 || options->measure > 0 || options->skin > 0) return;
+  nsvcd__answer_by_network(query, NULL, &opinion);
   answer->logit = opinion.logit;
   answer->collides = opinion.collides;
   answer->candidates = opinion.candidates;
-  if (answer->triangle_a != NSVCD_NO_TRIANGLE)
-    return;
+  if (answer->triangle_a != NSVCD_NO_TRIANGLE) return;
   answer->contact_time = opinion.contact_time;
   answer->patch_a = opinion.patch_a;
   answer->patch_b = opinion.patch_b;
@@ -15201,106 +13173,93 @@ static void nsvcd__add_opinion(nsvcd__task *task, nsvcd__query *query, nsvcd_ans
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
 // network.
-static void nsvcd__answer_task(nsvcd__task *task, nsvcd__query *query, nsvcd__hint *hint,
-                               nsvcd_answer *answer) {
+static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+  (void)hint;
 #ifndef NSVCD_NO_PROOF
-  if (task->method == NSVCD_METHOD_PROOF)
-    nsvcd__answer_by_proof(task, query, answer);
+  if (query->task.method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  if (task->method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
-    nsvcd__add_opinion(task, query, answer);
+  if (query->task.method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(query, answer);
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (task->method == NSVCD_METHOD_NETWORK)
-    nsvcd__answer_by_network(task, query, hint, answer);
+  if (query->task.method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(query, hint, answer);
 #endif
-  (void)hint;
-  if (task->swapped)
-    nsvcd__turn_answer(answer);
-}
-
-// Are two questions about the same bodies, in the same order?
-static int nsvcd__same_bodies(const nsvcd_question *p, const nsvcd_question *q) {
-  return p->a.body == q->a.body && p->b.body == q->b.body;
+  if (!query->task.swapped) return;
+  // What was found out about moving and fixed, said about a and b.
+  const uint32_t patch = answer->patch_a;
+  const uint32_t triangle = answer->triangle_a;
+  answer->patch_a = answer->patch_b;
+  answer->patch_b = patch;
+  answer->triangle_a = answer->triangle_b;
+  answer->triangle_b = triangle;
+  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
 }
 
 // As nsvcd_sweep_batch.
 static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
                                        void *workspace, size_t workspace_size,
                                        nsvcd_answer *answers) {
-  if (count > 0 && (!questions || !answers))
-    return NSVCD_ERROR_ARGUMENT;
-  for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
-    if (result)
-      return result;
-  }
-
   const nsvcd__hint none = {0, 0, 0, 0};
   nsvcd__hint hint = none;
   int swapped = 0;
+  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
-    nsvcd__query *query = nsvcd__query_open(&questions[k], workspace);
-    nsvcd__task *task = &query->task;
+    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
+    if (result) return result;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_question *q = &questions[k];
+    nsvcd__query *query = nsvcd__query_open(q, workspace);
     // The hint is about patches of the moving body and of the fixed one.
-    const int same = k > 0 && nsvcd__same_bodies(&questions[k], &questions[k - 1]);
-    if (!same || task->swapped != swapped)
-      hint = none;
-    swapped = task->swapped;
-    nsvcd__answer_task(task, query, &hint, &answers[k]);
+    const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
+    if (!same || query->task.swapped != swapped) hint = none;
+    swapped = query->task.swapped;
+    nsvcd__answer_query(query, &hint, &answers[k]);
   }
   return NSVCD_OK;
 }
 
-// ---- the self test: a question by hand, whose answer is known
+// --------------------------------------------------------------------------------- query/self_test
+// In: nothing. Out: does this build reckon as it should?
 
-// The place of a body's point (1, 0, 0) at 16 ticks. The body turns by 90 degrees about z on its
-// way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x, y, z are y, z, x.
-static void nsvcd__self_chords(float turn, nsvcd__chords *out) {
+// As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
+// degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
+// y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
+static nsvcd_result nsvcd__self_test(void) {
+  // or the compiler would reckon instead
+  const volatile float half = 0.70710678f;
+  const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
   const nsvcd_mover moving = {NULL, path, 2, 0};
   const nsvcd_mover fixed = {NULL, &rest, 1, 0};
-  nsvcd__motion motion;
-  nsvcd__knots knots;
-  uint32_t ticks[NSVCD__LANES];
-  for (uint32_t l = 0; l < NSVCD__LANES; l++)
-    ticks[l] = l;
-  nsvcd__motion_init(&moving, &fixed, &motion);
-  nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
-  nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
-    const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
-    const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
-    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
-    const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-    const nsvcd__v3 place = nsvcd__vmat3_apply_add(rotation, arm, seen.position);
-    nsvcd__chords_store(out, l, place, way, nsvcd__v_set(0.1f));
+  float places[3][NSVCD__LANES];
+  // in a block: the stack is shared with what comes after it
+  {
+    nsvcd__motion motion;
+    nsvcd__knots knots;
+    uint32_t ticks[NSVCD__LANES];
+    for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
+    nsvcd__motion_init(&moving, &fixed, &motion);
+    nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
+    nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+      const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
+      const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+      nsvcd__v3_store(places, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+    }
   }
-}
-
-#ifndef NSVCD_NO_PROOF
-// Two triangles that meet; and with `lift`, by which one is lifted, as far apart as that.
-static int nsvcd__self_triangles(double lift) {
-  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  const nsvcd__nearest meeting = nsvcd__triangles_nearest(a, b);
-  for (size_t k = 0; k < 3; k++)
-    b[k].z += 1 + lift;
-  const nsvcd__nearest apart = nsvcd__triangles_nearest(a, b);
-  return !(meeting.square > 0) && fabs(apart.square - lift * lift) < 1e-9;
-}
-#endif
-
-// As nsvcd_self_test.
-static nsvcd_result nsvcd__self_test(void) {
-  const volatile float half = 0.70710678f;  // or the compiler would reckon instead
   nsvcd__chords chords;
-  nsvcd__sphere resting;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+    nsvcd__chords_store(&chords, l, nsvcd__v3_load(places, l), way, nsvcd__v_set(0.1f));
+  }
   int right = 1;
-  nsvcd__self_chords(half, &chords);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
     const double x = 3 - 0.5 * (double)l + cos(angle);
@@ -15309,19 +13268,24 @@ static nsvcd_result nsvcd__self_test(void) {
     right &= fabs((double)chords.start[2][l] - x) < 1e-4;
   }
   // only two of these chords come within 0.2 of the ninth place
-  resting.centre = nsvcd__f3_of(half - 2, -3, half - 1);
-  resting.radius = 0.1f;
+  nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
   right &= nsvcd__meet(&chords, resting) == 0x180;
   resting.centre.y += 1;
   right &= nsvcd__meet(&chords, resting) == 0;
 #ifndef NSVCD_NO_PROOF
-  right &= nsvcd__self_triangles(4 * (double)half);
+  const double lift = 4 * (double)half;
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  right &= !(nsvcd__triangles_nearest(a, b).square > 0);
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
+  right &= fabs(nsvcd__triangles_nearest(a, b).square - lift * lift) < 1e-9;
 #endif
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }
 
-#ifndef NSVCD_NO_GRADIENT
-// ---------------------------------------------------------------------------------------- gradient
+// ============================================================= gradient: of the logit by the poses
+
+// -------------------------------------------------------------------------------- gradient/by_pair
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
 // step by step from the end, over one pair and in scalars; `by_x` is the derivative of the logit by
 // x:
@@ -15338,6 +13302,7 @@ static nsvcd_result nsvcd__self_test(void) {
 // and a torque (by a small rotation about that). A force f on a point at `arm` from the origin is
 // that force, and the torque arm x f.
 
+#ifndef NSVCD_NO_GRADIENT
 // The derivative of |a| by a, times `by`. At 0, to rounding, where it has none, it is nothing: the
 // mean of all directions.
 static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
@@ -15345,26 +13310,29 @@ static nsvcd__f3 nsvcd__by_length(nsvcd__f3 a, float by) {
   return nsvcd__f3_scale(a, length > 1e-6f ? by / length : 0);
 }
 
-// What is in lane 0.
-static float nsvcd__first_lane(nsvcd__v a) {
-  float lanes[NSVCD__SLICE];
-  nsvcd__v_store(lanes, a);
-  return lanes[0];
+// Lane 0 of so many slices, one after the other: out (count).
+static void nsvcd__first_lanes(const void *slices, size_t count, void *out) {
+  for (size_t k = 0; k < count; k++) {
+    nsvcd__v slice;
+    float lanes[NSVCD__SLICE];
+    memcpy(&slice, (const char *)slices + k * sizeof slice, sizeof slice);
+    nsvcd__v_store(lanes, slice);
+    memcpy((char *)out + k * sizeof *lanes, lanes, sizeof *lanes);
+  }
 }
 static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
-  return nsvcd__f3_of(nsvcd__first_lane(a.x), nsvcd__first_lane(a.y), nsvcd__first_lane(a.z));
-}
-static nsvcd__mat3 nsvcd__first_mat3(const nsvcd__vmat3 *m) {
-  const nsvcd__mat3 out = {nsvcd__first_f3(m->x), nsvcd__first_f3(m->y), nsvcd__first_f3(m->z)};
+  nsvcd__f3 out;
+  nsvcd__first_lanes(&a, 3, &out);
   return out;
 }
 
-// sum + a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by
-// `angle`, times `across`. All that commutes with rotations about n is of this kind.
-static nsvcd__f3 nsvcd__add_turned(nsvcd__f3 sum, nsvcd__f3 a, nsvcd__f3 n, float along,
-                                   float across, float angle) {
+// a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`,
+// times `across`. All that commutes with rotations about n is of this kind.
+static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
+                               float angle) {
   const float c = across * cosf(angle);
   const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
+  nsvcd__f3 sum = {0, 0, 0};
   sum = nsvcd__f3_add_scaled(sum, c, a);
   sum = nsvcd__f3_add_scaled(sum, (along - c) * nsvcd__f3_dot(n, a), n);
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
@@ -15381,64 +13349,51 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
   const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + at;
   const float *scale = nsvcd_w_decoder_scale + layer->first + o;
   float lanes[NSVCD__SLICE];
-  for (size_t l = 0; l < NSVCD__SLICE; l++)
-    lanes[l] = (float)w[4 * l] * scale[l];
+  for (size_t l = 0; l < NSVCD__SLICE; l++) lanes[l] = (float)w[4 * l] * scale[l];
   return nsvcd__v_load(lanes);
 #endif
 }
 
-// What comes out of a layer, but for the last one: x (inputs) -> y (outputs).
-static void nsvcd__layer_values(const nsvcd__layer *layer, const float *x, float *y) {
-  memcpy(y, nsvcd_w_decoder_bias + layer->first, layer->outputs * sizeof *y);
-  for (size_t i = 0; i < layer->inputs; i++) {
-    if (!(x[i] < 0 || x[i] > 0))
-      continue;  // about half of them
-    const nsvcd__v input = nsvcd__v_set(x[i]);
-    for (size_t o = 0; o < layer->outputs; o += NSVCD__SLICE) {
-      const nsvcd__v w = nsvcd__weights_at(layer, i, o);
-      nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
-    }
-  }
-  for (size_t o = 0; o < layer->outputs; o++)
-    y[o] = y[o] > 0 ? y[o] : 0;
-}
-
-// The derivative by a layer's inputs, by_x (inputs), from that by its outputs, by (outputs). x:
-// the inputs, where they come from a ReLU, or NULL; a ReLU's derivative at 0 is 0.
-static void nsvcd__by_layer(const nsvcd__layer *layer, const float *x, const float *by,
-                            float *by_x) {
-  float lanes[NSVCD__LANES];
-  for (size_t i = 0; i < layer->inputs; i++) {
-    by_x[i] = 0;
-    if (x && !(x[i] > 0))
-      continue;
-    NSVCD__EACH_SLICE(l) {
-      nsvcd__v sum = nsvcd__v_set(0);
-      for (size_t o = l; o < layer->outputs; o += NSVCD__LANES) {
-        const nsvcd__v w = nsvcd__weights_at(layer, i, o);
-        sum = nsvcd__v_fma(w, nsvcd__v_load(by + o), sum);
-      }
-      nsvcd__v_store(lanes + l, sum);
-    }
-    for (size_t k = 0; k < NSVCD__LANES; k++)
-      by_x[i] += lanes[k];
-  }
-}
-
-// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN).
+// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at 0
+// is 0.
 static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
                                                  float *by_x) {
-  float values[5][NSVCD__WIDEST];  // of the layers, but for the last
+  // what comes out of the layers, but for the last
+  float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {1};
-  float by_inputs[NSVCD__MOST_INPUTS];
   const size_t last = decoder->layers - 1;
   for (size_t n = 0; n < last; n++) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    nsvcd__layer_values(&layer, n > 0 ? values[n - 1] : x, values[n]);
+    const float *from = n > 0 ? values[n - 1] : x;
+    float *y = values[n];
+    memcpy(y, nsvcd_w_decoder_bias + layer.first, layer.outputs * sizeof *y);
+    for (size_t i = 0; i < layer.inputs; i++) {
+      // about half of them
+      if (!(from[i] < 0 || from[i] > 0)) continue;
+      const nsvcd__v input = nsvcd__v_set(from[i]);
+      for (size_t o = 0; o < layer.outputs; o += NSVCD__SLICE) {
+        const nsvcd__v w = nsvcd__weights_at(&layer, i, o);
+        nsvcd__v_store(y + o, nsvcd__v_fma(input, w, nsvcd__v_load(y + o)));
+      }
+    }
+    for (size_t o = 0; o < layer.outputs; o++) y[o] = y[o] > 0 ? y[o] : 0;
   }
   for (size_t n = last + 1; n-- > 0;) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
-    nsvcd__by_layer(&layer, n > 0 ? values[n - 1] : NULL, by, by_inputs);
+    float by_inputs[NSVCD__MOST_INPUTS] = {0};
+    for (size_t i = 0; i < layer.inputs; i++) {
+      if (n > 0 && !(values[n - 1][i] > 0)) continue;
+      float lanes[NSVCD__LANES];
+      NSVCD__EACH_SLICE(l) {
+        nsvcd__v sum = nsvcd__v_set(0);
+        for (size_t o = l; o < layer.outputs; o += NSVCD__LANES) {
+          const nsvcd__v w = nsvcd__weights_at(&layer, i, o);
+          sum = nsvcd__v_fma(w, nsvcd__v_load(by + o), sum);
+        }
+        nsvcd__v_store(lanes + l, sum);
+      }
+      for (size_t k = 0; k < NSVCD__LANES; k++) by_inputs[i] += lanes[k];
+    }
     memcpy(by, by_inputs, layer.inputs * sizeof *by);
   }
   memcpy(by_x, by, NSVCD__DECODER_IN * sizeof *by_x);
@@ -15446,31 +13401,30 @@ static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, 
 
 // ---- pair
 
-// The part of degree 2 of nsvcd__latent_torque: q, h (5). root3: the root of 3.
-static nsvcd__f3 nsvcd__degree2_torque(const float *q, const float *h, float root3) {
-  const float x = h[3] * q[0] - h[0] * q[3] + root3 * (h[2] * q[1] - h[1] * q[2]);
-  const float y = h[0] * q[1] - h[1] * q[0] + root3 * (h[3] * q[2] - h[2] * q[3]);
-  const float z = h[1] * q[3] - h[3] * q[1] + 2 * (h[0] * q[4] - h[4] * q[0]);
-  return nsvcd__f3_of(x + h[4] * q[1] - h[1] * q[4], y + h[4] * q[3] - h[3] * q[4], z);
-}
-
 // The derivative by a small rotation of a latent's vectors, as they are (x) and the derivative by
 // them (by), both (3, CHANNELS), then (5, CHANNELS). On degree 2, in the basis of nsvcd__degree2, a
 // rotation by w adds to q
 //   (wy q1 - wx q3 + 2 wz q4, wz q3 - wy q0 - wx (r q2 + q4), r (wx q1 - wy q3),
 //    wx q0 - wz q1 + wy (r q2 - q4), wx q1 + wy q3 - 2 wz q0), r being the root of 3.
 static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
-  const float root3 = 1.7320508075688772f;
+  const float r = 1.7320508075688772f;
   nsvcd__f3 torque = {0, 0, 0};
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
-    float q[8];
-    float h[8];
+    float both[2][8];
     for (size_t k = 0; k < 8; k++) {
-      q[k] = x[NSVCD_W_CHANNELS * k + c];
-      h[k] = by[NSVCD_W_CHANNELS * k + c];
+      both[0][k] = x[NSVCD_W_CHANNELS * k + c];
+      both[1][k] = by[NSVCD_W_CHANNELS * k + c];
     }
-    torque = nsvcd__f3_add(torque, nsvcd__f3_cross(nsvcd__f3_load(q), nsvcd__f3_load(h)));
-    torque = nsvcd__f3_add(torque, nsvcd__degree2_torque(q + 3, h + 3, root3));
+    const float *q = both[0] + 3;
+    const float *h = both[1] + 3;
+    const nsvcd__f3 degree1 = nsvcd__f3_cross(nsvcd__f3_load(q - 3), nsvcd__f3_load(h - 3));
+    nsvcd__f3 degree2;
+    degree2.x = h[3] * q[0] - h[0] * q[3] + r * (h[2] * q[1] - h[1] * q[2]);
+    degree2.y = h[0] * q[1] - h[1] * q[0] + r * (h[3] * q[2] - h[2] * q[3]);
+    degree2.z = h[1] * q[3] - h[3] * q[1] + 2 * (h[0] * q[4] - h[4] * q[0]);
+    degree2.x = degree2.x + h[4] * q[1] - h[1] * q[4];
+    degree2.y = degree2.y + h[4] * q[3] - h[3] * q[4];
+    torque = nsvcd__f3_add(nsvcd__f3_add(torque, degree1), degree2);
   }
   return torque;
 }
@@ -15478,29 +13432,17 @@ static nsvcd__f3 nsvcd__latent_torque(const float *x, const float *by) {
 // The derivative of a logit by a pair, as nsvcd__pairs has it, in the fixed body's axes and units.
 typedef struct nsvcd__by_pair {
   nsvcd__f3 p1, v, w;
-  nsvcd__f3 rotation;  // by a small rotation of the moving patch about its centre
+  // by a small rotation of the moving patch about its centre
+  nsvcd__f3 rotation;
 } nsvcd__by_pair;
 
-// A pair in its own units: what nsvcd__views has in lane 0.
+// A pair in its own units: what nsvcd__views has in lane 0, number by number.
 typedef struct nsvcd__view {
-  float inverse, k1, swap, side;
-  nsvcd__f3 d, v, w, lean;
+  float inverse, k1, k2, swap;
+  nsvcd__f3 d, lean, v, w;
   nsvcd__mat3 frame;
+  float side;
 } nsvcd__view;
-
-static nsvcd__view nsvcd__first_view(const nsvcd__views *views) {
-  nsvcd__view out;
-  out.inverse = nsvcd__first_lane(views->inverse);
-  out.k1 = nsvcd__first_lane(views->k1);
-  out.swap = nsvcd__first_lane(views->swap);
-  out.side = nsvcd__first_lane(views->side);
-  out.d = nsvcd__first_f3(views->d);
-  out.v = nsvcd__first_f3(views->v);
-  out.w = nsvcd__first_f3(views->w);
-  out.lean = nsvcd__first_f3(views->lean);
-  out.frame = nsvcd__first_mat3(&views->frame);
-  return out;
-}
 
 // The derivative of a logit by what the frame sees, and the torque on that, in the frame.
 typedef struct nsvcd__by_view {
@@ -15525,7 +13467,8 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   out->d = nsvcd__f3_add(out->d, by_distance);
   out->d = nsvcd__f3_add(out->d, by_closest);
   out->v = nsvcd__f3_add_scaled(out->v, -tau, by_closest);
-  if (fabsf(tau) < 1) {  // else it is clamped
+  // else it is clamped
+  if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
     out->d = nsvcd__f3_add_scaled(out->d, by_tau, view->v);
@@ -15546,18 +13489,8 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   out->w = nsvcd__f3_add(out->w, nsvcd__by_length(view->w, by[NSVCD__FACT_SPIN]));
 }
 
-// The coordinate axis farthest from e.
-static nsvcd__f3 nsvcd__farthest_axis(nsvcd__f3 e) {
-  const float x = fabsf(e.x);
-  const float y = fabsf(e.y);
-  const float z = fabsf(e.z);
-  if (x <= y && x <= z)
-    return nsvcd__f3_of(1, 0, 0);
-  return y <= z ? nsvcd__f3_of(0, 1, 0) : nsvcd__f3_of(0, 0, 1);
-}
-
-// The adjoint of nsvcd__views_set_frame, whose conventions are constant between its switches, added
-// to `by`. Turning the frame does the opposite of turning all that it sees.
+// The adjoint of the frame in nsvcd__views_of, whose conventions are constant between its switches,
+// added to `by`. Turning the frame does the opposite of turning all that it sees.
 static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   const nsvcd__f3 e1 = view->frame.x;
   const nsvcd__f3 e2 = view->frame.y;
@@ -15570,7 +13503,12 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   nsvcd__f3 across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
   const int vanishes = nsvcd__f3_length(across) <= 1e-7f;
   if (vanishes) {
-    a = nsvcd__farthest_axis(e1);
+    // the coordinate axis farthest from e1
+    const float x = fabsf(e1.x);
+    const float y = fabsf(e1.y);
+    const float z = fabsf(e1.z);
+    a = y <= z ? nsvcd__f3_of(0, 1, 0) : nsvcd__f3_of(0, 0, 1);
+    if (x <= y && x <= z) a = nsvcd__f3_of(1, 0, 0);
     across = nsvcd__f3_sub(a, nsvcd__f3_scale(e1, nsvcd__f3_dot(a, e1)));
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
@@ -15593,9 +13531,11 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
 static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
                                               const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
+  nsvcd__view view;
+  nsvcd__mat3 rotation;
   nsvcd__views_of(pairs, 1, &views);
-  const nsvcd__view view = nsvcd__first_view(&views);
-  const nsvcd__mat3 rotation = nsvcd__first_mat3(&pairs->rotation);
+  nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
+  nsvcd__first_lanes(&pairs->rotation, 9, &rotation);
   // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
   const float same_v = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse;
@@ -15614,7 +13554,7 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   nsvcd__by_frame(&view, &seen);
 
-  const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z1[0]);
+  const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z[0][0]);
   const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.swap * view.k1 / 127);
   const nsvcd__f3 lean1 = nsvcd__mat3_apply(&rotation, scaled);
   const nsvcd__f3 none = {0, 0, 0};
@@ -15625,63 +13565,29 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   by->v = nsvcd__f3_scale(seen.v, sign * view.inverse);
   by->w = nsvcd__f3_scale(seen.w, sign);
 }
+#endif  // NSVCD_NO_GRADIENT
 
-// ---- poses
+// ------------------------------------------------------------------------------- gradient/gradient
+// In: derivatives by the pair. Out: those by the poses of both movers.
 
-// The derivative by the pose of a rigid body.
-typedef struct nsvcd__wrench {
-  nsvcd__f3 force, torque;
-} nsvcd__wrench;
-
-static nsvcd__wrench nsvcd__wrench_of(nsvcd__f3 force, nsvcd__f3 torque) {
-  const nsvcd__wrench out = {force, torque};
-  return out;
-}
-static inline nsvcd__wrench nsvcd__wrench_load(const float *row) {
-  return nsvcd__wrench_of(nsvcd__f3_load(row), nsvcd__f3_load(row + 3));
-}
-static inline nsvcd__wrench nsvcd__wrench_scale(nsvcd__wrench by, float s) {
-  return nsvcd__wrench_of(nsvcd__f3_scale(by.force, s), nsvcd__f3_scale(by.torque, s));
-}
-// row (6) += by.
-static void nsvcd__wrench_add(nsvcd__wrench by, float *row) {
-  const nsvcd__wrench sum = nsvcd__wrench_load(row);
-  nsvcd__f3_store(nsvcd__f3_add(sum.force, by.force), row);
-  nsvcd__f3_store(nsvcd__f3_add(sum.torque, by.torque), row + 3);
+#ifndef NSVCD_NO_GRADIENT
+// Adds to a wrench, row (6).
+static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
 }
 
-// The turn from a pose to the next on the shorter arc: by twice the angle h, about the axis n.
-typedef struct nsvcd__turn {
-  nsvcd__f3 n;  // of length 1, or 0 where nothing turns
-  float h;
-  float inverse;  // 1 / sin(h), or 0
-} nsvcd__turn;
-
-static nsvcd__turn nsvcd__turn_between(const nsvcd_pose *a, const nsvcd_pose *b) {
-  const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
-  const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
-  const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
-  const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);  // times sin(h)
-  const float sine = nsvcd__f3_length(axis);
-  nsvcd__turn out;
-  out.h = nsvcd__quat_arc(qa, nearer);
-  out.inverse = sine > 0 ? 1 / sine : 0;
-  out.n = nsvcd__f3_scale(axis, out.inverse);
-  return out;
-}
-
-// From a wrench on a body at time t, in the world, to `gradient` (count, 6), or NULL, by its poses
-// before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the shorter arc from
-// A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
+// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), or NULL,
+// by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the
+// shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
 //   along n    by (1 - u) a + u b,
 //   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
-static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__wrench by,
-                             float *gradient) {
+static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
+                             nsvcd__f3 torque, float *gradient) {
   const size_t arcs = track->count - 1;
   if (arcs == 0) {
-    if (gradient)
-      nsvcd__wrench_add(by, gradient);
+    if (gradient) nsvcd__wrench_add(force, torque, gradient);
     return 0;
   }
   const float at = t * (float)arcs;
@@ -15689,51 +13595,27 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__wrench b
   const float u = at - (float)k;
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
-  const nsvcd__turn turn = nsvcd__turn_between(a, b);
-  const nsvcd__f3 n = turn.n;
-  const float h = turn.h;
+  // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
+  const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
+  const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
+  const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
+  const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);
+  const float sine = nsvcd__f3_length(axis);
+  const float inverse = sine > 0 ? 1 / sine : 0;
+  const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
+  const float h = nsvcd__quat_arc(qa, nearer);
   if (gradient) {
-    const nsvcd__f3 none = {0, 0, 0};
-    const float wa = h > 1e-3f ? sinf((1 - u) * h) * turn.inverse : 1 - u;
-    const float wb = h > 1e-3f ? sinf(u * h) * turn.inverse : u;
-    nsvcd__wrench on_a;
-    nsvcd__wrench on_b;
-    on_a.force = nsvcd__f3_scale(by.force, 1 - u);
-    on_b.force = nsvcd__f3_scale(by.force, u);
-    on_a.torque = nsvcd__add_turned(none, by.torque, n, 1 - u, wa, -u * h);
-    on_b.torque = nsvcd__add_turned(none, by.torque, n, u, wb, (1 - u) * h);
-    nsvcd__wrench_add(on_a, gradient + 6 * k);
-    nsvcd__wrench_add(on_b, gradient + 6 * (k + 1));
+    const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
+    const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
+    const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
+    const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
+    nsvcd__wrench_add(nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
+    nsvcd__wrench_add(nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
   }
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
-  const float by_turn = 2 * h * nsvcd__f3_dot(by.torque, n);
-  return (float)arcs * (nsvcd__f3_dot(by.force, moved) + by_turn);
-}
-
-// The derivatives by both bodies' poses; NULL: not wanted.
-typedef struct nsvcd__gradients {
-  float *moving, *fixed;  // (count, 6)
-} nsvcd__gradients;
-
-// The same from a wrench on the moving body in the fixed one's axes and units. What it does to one
-// body it does to the other the opposite way.
-static float nsvcd__by_motion(const nsvcd__motion *motion, float t, nsvcd__wrench seen,
-                              const nsvcd__gradients *out) {
-  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
-  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
-  const nsvcd__mat3 from_fixed = nsvcd__mat3_of(fixed.rotation);
-  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&from_fixed, seen.force);
-  const float unit = motion->unit;
-  nsvcd__wrench by;
-  by.force = nsvcd__f3_of(force.x / unit, force.y / unit, force.z / unit);
-  by.torque = nsvcd__mat3_apply(&from_fixed, seen.torque);
-  nsvcd__wrench back;
-  back.force = nsvcd__f3_scale(by.force, -1);
-  back.torque = nsvcd__f3_sub(nsvcd__f3_cross(offset, back.force), by.torque);
-  const float by_moving = nsvcd__by_poses(&motion->moving, t, by, out->moving);
-  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, out->fixed);
+  const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
+  return (float)arcs * (nsvcd__f3_dot(force, moved) + by_turn);
 }
 
 // ---- instants and contact
@@ -15753,8 +13635,9 @@ enum {
 // The moving patch at these times, in the fixed body's axes and units.
 typedef struct nsvcd__instants {
   float t[NSVCD__INSTANTS];
-  nsvcd__f3 arm[NSVCD__INSTANTS];    // from the body's origin to its centre
-  nsvcd__f3 place[NSVCD__INSTANTS];  // its centre
+  // from the body's origin to its centre
+  float arm[3][NSVCD__LANES];
+  float place[3][NSVCD__LANES];  // its centre
   // does it within the segment? else at one of its ends, and these do not move
   int enters, leaves;
 } nsvcd__instants;
@@ -15769,86 +13652,75 @@ static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
   size_t a = 0;
   size_t b = 0;
-  while (!(t0 < time[a + 1]) && time[a + 1] < 1)
-    a++;
-  while (!(t1 <= time[b + 1]) && time[b + 1] < 1)
-    b++;
-  at->t[NSVCD__AT_ENTRY] = t0;
-  at->t[NSVCD__AT_EXIT] = t1;
-  at->t[NSVCD__AT_MIDDLE] = 0.5f * (t0 + t1);
-  at->t[NSVCD__ENTRY_BEGIN] = time[a];
-  at->t[NSVCD__ENTRY_END] = time[a + 1];
-  at->t[NSVCD__EXIT_BEGIN] = time[b];
-  at->t[NSVCD__EXIT_END] = time[b + 1];
+  while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
+  while (!(t1 <= time[b + 1]) && time[b + 1] < 1) b++;
+  const float t[] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
+  memcpy(at->t, t, sizeof t);
   at->enters = time[a] < t0 && t0 < time[a + 1];
   at->leaves = time[b] < t1 && t1 < time[b + 1];
 
   for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
     const size_t left = NSVCD__INSTANTS - first;
     const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
-    float arms[3][NSVCD__LANES];
-    float places[3][NSVCD__LANES];
-    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, at->t + first, count);
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
     const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
-    nsvcd__v3_store(arms, 0, arm);
-    nsvcd__v3_store(places, 0, nsvcd__v3_add(arm, pose.position));
-    for (size_t l = 0; l < count; l++) {
-      at->arm[first + l] = nsvcd__lane_of(arms, l);
-      at->place[first + l] = nsvcd__lane_of(places, l);
-    }
+    nsvcd__v3_store(at->arm, first, arm);
+    nsvcd__v3_store(at->place, first, nsvcd__v3_add(arm, pose.position));
   }
 }
 
-// From a force on the patch's centre at instant l, and a torque on the body. Returns the derivative
-// by the time.
-static float nsvcd__by_instant(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
-                               nsvcd__f3 force, nsvcd__f3 torque,
-                               const nsvcd__gradients *gradients) {
-  const nsvcd__f3 lever = nsvcd__f3_cross(at->arm[l], force);
-  const nsvcd__wrench by = nsvcd__wrench_of(force, nsvcd__f3_add(torque, lever));
-  return nsvcd__by_motion(&task->motion, at->t[l], by, gradients);
+// From a force on the patch's centre at instant l, and a torque on the moving body, in the fixed
+// one's axes and units, to the derivatives by the poses of the moving body and of the fixed one:
+// out (2), of which one may be NULL. What is done to one body is done to the other the opposite
+// way. Returns the derivative by the time.
+static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+                               nsvcd__f3 force, nsvcd__f3 torque, float *const *out) {
+  const float t = at->t[l];
+  const float unit = motion->unit;
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
+  const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
+  const nsvcd__f3 lever = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
+  const nsvcd__f3 seen = nsvcd__mat3_apply(&axes, force);
+  const nsvcd__f3 push = nsvcd__f3_of(seen.x / unit, seen.y / unit, seen.z / unit);
+  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, lever));
+  const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
+  const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
+  const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
+  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
 }
 
 // The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
 // from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
 // Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
 // where float32 has no digits left.
-static void nsvcd__by_contact(const nsvcd__task *task, const nsvcd__instants *at, size_t l,
-                              nsvcd__f3 centre, float by_time, const nsvcd__gradients *gradients) {
+static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+                              nsvcd__f3 centre, float by_time, float *const *out) {
   const nsvcd__f3 none = {0, 0, 0};
   const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
   const float length = at->t[s + 1] - at->t[s];
+  const nsvcd__f3 start = nsvcd__lane_of(at->place, s);
   const float tau = (at->t[l] - at->t[s]) / length;
-  const nsvcd__f3 chord = nsvcd__f3_sub(at->place[s + 1], at->place[s]);
-  const nsvcd__f3 from = nsvcd__f3_sub(at->place[s], centre);
+  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
+  const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
   const nsvcd__f3 y = nsvcd__f3_add_scaled(from, tau, chord);
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
-  if (!(least > 0))
-    return;
+  if (!(least > 0)) return;
   const float along = l == NSVCD__AT_ENTRY ? length : -length;
   const float rate = along * by_time / (dot > least ? dot : least);
   const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
   const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
-  nsvcd__by_instant(task, at, s, before, none, gradients);
-  nsvcd__by_instant(task, at, s + 1, after, none, gradients);
-}
-
-// From the derivative by w, half the rotation vector of R1 R0^-1, to those by small rotations of R0
-// and R1, which turn it as nsvcd__by_poses says.
-static void nsvcd__by_half_rotation(nsvcd__f3 w, nsvcd__f3 by, nsvcd__f3 *by0, nsvcd__f3 *by1) {
-  const nsvcd__f3 none = {0, 0, 0};
-  const float h = nsvcd__f3_length(w);
-  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
-  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
-  *by0 = nsvcd__add_turned(none, by, n, -0.5f, -half, -h);
-  *by1 = nsvcd__add_turned(none, by, n, 0.5f, half, h);
+  nsvcd__by_instant(motion, at, s, before, none, out);
+  nsvcd__by_instant(motion, at, s + 1, after, none, out);
 }
 
 // The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
 // ends.
 static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
-                            const float *time, const nsvcd__gradients *gradients) {
+                            const float *time, float *const *out) {
+  const nsvcd__motion *motion = &task->motion;
   nsvcd__candidate candidate = decisive->candidate;
   nsvcd__candidate *one = &candidate;
   nsvcd__pairs pairs;
@@ -15856,7 +13728,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   nsvcd__instants at;
   float x[NSVCD__DECODER_IN];
   float by_x[NSVCD__DECODER_IN];
-  nsvcd__pairs_of(task->moving, task->fixed, &task->motion, &one, 1, &pairs);
+  nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
   nsvcd__decoder_gradient(decisive->decoder, x, by_x);
   nsvcd__by_invariants(&pairs, x, by_x, &by);
@@ -15866,67 +13738,65 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   // centre half way to the other.
   const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
-  const nsvcd__f3 line = nsvcd__f3_sub(centre, at.place[NSVCD__AT_MIDDLE]);
+  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
-  const nsvcd__f3 enter = nsvcd__f3_scale(by.v, -0.5f);
-  const nsvcd__f3 leave = nsvcd__f3_scale(by.v, 0.5f);
-  nsvcd__f3 enter_torque;
-  nsvcd__f3 leave_torque;
-  by.w = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
-  by.p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
-  nsvcd__by_half_rotation(w, by.w, &enter_torque, &leave_torque);
-
+  const nsvcd__f3 p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
+  // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
+  // nsvcd__by_poses says.
+  const nsvcd__f3 none = {0, 0, 0};
+  float by_time[2];
+  const float h = nsvcd__f3_length(w);
+  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
+  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
   const float by_middle =
-      nsvcd__by_instant(task, &at, NSVCD__AT_MIDDLE, by.p1, by.rotation, gradients);
-  float by_enter = 0.5f * by_middle;
-  float by_exit = 0.5f * by_middle;
-  by_enter += nsvcd__by_instant(task, &at, NSVCD__AT_ENTRY, enter, enter_torque, gradients);
-  by_exit += nsvcd__by_instant(task, &at, NSVCD__AT_EXIT, leave, leave_torque, gradients);
-  if (at.enters)
-    nsvcd__by_contact(task, &at, NSVCD__AT_ENTRY, centre, by_enter, gradients);
-  if (at.leaves)
-    nsvcd__by_contact(task, &at, NSVCD__AT_EXIT, centre, by_exit, gradients);
+      nsvcd__by_instant(motion, &at, NSVCD__AT_MIDDLE, p1, by.rotation, out);
+  for (size_t l = NSVCD__AT_ENTRY; l <= NSVCD__AT_EXIT; l++) {
+    const float side = l == NSVCD__AT_ENTRY ? -1.0f : 1.0f;
+    const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
+    const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
+  }
+  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, centre, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, centre, by_time[1], out);
 }
 
 // As nsvcd_sweep_gradient.
 static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
                                           size_t workspace_size, nsvcd_answer *answer,
                                           float *gradient_a, float *gradient_b) {
-  if (!question || !answer || (!gradient_a && !gradient_b))
-    return NSVCD_ERROR_ARGUMENT;
-  if (question->options.method == NSVCD_METHOD_PROOF)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
+  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
   by_network.options.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
-  if (result)
-    return result;
-
+  if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *task = &query->task;
   nsvcd__decisive decisive;
   task->decisive = &decisive;
-  nsvcd__answer_task(task, query, NULL, answer);
-  nsvcd__gradients out;
-  out.moving = task->swapped ? gradient_b : gradient_a;
-  out.fixed = task->swapped ? gradient_a : gradient_b;
-  if (out.moving)
-    memset(out.moving, 0, 6 * task->motion.moving.count * sizeof(float));
-  if (out.fixed)
-    memset(out.fixed, 0, 6 * task->motion.fixed.count * sizeof(float));
+  nsvcd__answer_query(query, NULL, answer);
+  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
+                         task->swapped ? gradient_a : gradient_b};
+  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
+  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
   if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
-    nsvcd__gradient(task, &decisive, query->broad_phase.time, &out);
+    nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_GRADIENT
 
 #ifndef NSVCD__ISA
-// --------------------------------------------------------------------------------------- processor
+// ==================================================================== entry: the processor decides
+
+// --------------------------------------------------------------------------------- entry/processor
+// In: a question. Out: its answer, by the functions for the best vectors that the processor has.
+//
 // Where the compiler's flags allow SSE2 and no more, the default on x86-64, all that a query does
 // is compiled three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the
 // processor at hand decides which of them answers. NSVCD_NO_DISPATCH leaves the first only.
 //
-// This file takes itself in for that. Of it only the sections that use vectors are compiled again.
+// This file takes itself in for that. Of it only the rooms that use vectors are compiled again.
 // Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
@@ -15944,7 +13814,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
-// ---- the names, as tests/isa.py writes them
+// ---- the names, as src/make_header.py writes them
+#define NSVCD__ANSWERED NSVCD__NUMBER_AT(ANSWERED)
 #define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
 #define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
 #define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
@@ -15967,36 +13838,31 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
-#define NSVCD__TAKEN NSVCD__NUMBER_AT(TAKEN)
+#define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
+#define NSVCD__SETTLED NSVCD__NUMBER_AT(SETTLED)
+#define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
+#define NSVCD__SPENT NSVCD__NUMBER_AT(SPENT)
 #define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
 #define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
 #define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
-#define nsvcd__add_level NSVCD__AT(add_level)
 #define nsvcd__add_opinion NSVCD__AT(add_opinion)
-#define nsvcd__add_turned NSVCD__AT(add_turned)
-#define nsvcd__all_in_sphere NSVCD__AT(all_in_sphere)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_free NSVCD__AT(answer_free)
-#define nsvcd__answer_task NSVCD__AT(answer_task)
+#define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__answer_with_bounds NSVCD__AT(answer_with_bounds)
 #define nsvcd__answer_with_contact NSVCD__AT(answer_with_contact)
-#define nsvcd__apart_by_fixed_disc NSVCD__AT(apart_by_fixed_disc)
-#define nsvcd__apart_by_moving_disc NSVCD__AT(apart_by_moving_disc)
-#define nsvcd__approach NSVCD__AT(approach)
 #define nsvcd__arc NSVCD__AT(arc)
 #define nsvcd__arc_and_share NSVCD__AT(arc_and_share)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
-#define nsvcd__arc_bend NSVCD__AT(arc_bend)
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__at_origin NSVCD__AT(at_origin)
 #define nsvcd__bends NSVCD__AT(bends)
-#define nsvcd__best_first NSVCD__AT(best_first)
 #define nsvcd__best_lift NSVCD__AT(best_lift)
 #define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
@@ -16006,19 +13872,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
-#define nsvcd__box_of_way NSVCD__AT(box_of_way)
 #define nsvcd__boxes NSVCD__AT(boxes)
-#define nsvcd__boxes_grow NSVCD__AT(boxes_grow)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
 #define nsvcd__by_facts NSVCD__AT(by_facts)
 #define nsvcd__by_frame NSVCD__AT(by_frame)
-#define nsvcd__by_half_rotation NSVCD__AT(by_half_rotation)
 #define nsvcd__by_instant NSVCD__AT(by_instant)
 #define nsvcd__by_invariants NSVCD__AT(by_invariants)
-#define nsvcd__by_layer NSVCD__AT(by_layer)
 #define nsvcd__by_length NSVCD__AT(by_length)
-#define nsvcd__by_motion NSVCD__AT(by_motion)
 #define nsvcd__by_pair NSVCD__AT(by_pair)
 #define nsvcd__by_poses NSVCD__AT(by_poses)
 #define nsvcd__by_view NSVCD__AT(by_view)
@@ -16028,7 +13889,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certify_block NSVCD__AT(certify_block)
 #define nsvcd__certify_couple NSVCD__AT(certify_couple)
-#define nsvcd__certify_discs NSVCD__AT(certify_discs)
+#define nsvcd__certify_disc NSVCD__AT(certify_disc)
 #define nsvcd__certify_groups NSVCD__AT(certify_groups)
 #define nsvcd__certify_item NSVCD__AT(certify_item)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
@@ -16050,22 +13911,17 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance_of NSVCD__AT(clearance_of)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
-#define nsvcd__collect NSVCD__AT(collect)
 #define nsvcd__collect_items NSVCD__AT(collect_items)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
-#define nsvcd__comes_first NSVCD__AT(comes_first)
 #define nsvcd__comes_near NSVCD__AT(comes_near)
 #define nsvcd__comes_within NSVCD__AT(comes_within)
-#define nsvcd__common_divisor NSVCD__AT(common_divisor)
-#define nsvcd__conclude NSVCD__AT(conclude)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
-#define nsvcd__contact_of NSVCD__AT(contact_of)
 #define nsvcd__couple NSVCD__AT(couple)
+#define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
 #define nsvcd__couple_passes NSVCD__AT(couple_passes)
-#define nsvcd__cover_places NSVCD__AT(cover_places)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut NSVCD__AT(cut)
 #define nsvcd__cut_arc NSVCD__AT(cut_arc)
@@ -16074,9 +13930,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
 #define nsvcd__cut_ends NSVCD__AT(cut_ends)
 #define nsvcd__cut_knot NSVCD__AT(cut_knot)
-#define nsvcd__cut_last_arc NSVCD__AT(cut_last_arc)
 #define nsvcd__cut_motion NSVCD__AT(cut_motion)
-#define nsvcd__cut_off_chord NSVCD__AT(cut_off_chord)
 #define nsvcd__cut_segments NSVCD__AT(cut_segments)
 #define nsvcd__cut_starts NSVCD__AT(cut_starts)
 #define nsvcd__decisive NSVCD__AT(decisive)
@@ -16085,20 +13939,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_logits NSVCD__AT(decoder_logits)
-#define nsvcd__deeper_than_kept NSVCD__AT(deeper_than_kept)
-#define nsvcd__degree2_torque NSVCD__AT(degree2_torque)
 #define nsvcd__deviation NSVCD__AT(deviation)
-#define nsvcd__dipoles NSVCD__AT(dipoles)
-#define nsvcd__dipoles_from NSVCD__AT(dipoles_from)
-#define nsvcd__dipoles_of_level NSVCD__AT(dipoles_of_level)
-#define nsvcd__dipoles_of_patches NSVCD__AT(dipoles_of_patches)
 #define nsvcd__discs_meet NSVCD__AT(discs_meet)
-#define nsvcd__dot_bytes NSVCD__AT(dot_bytes)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
 #define nsvcd__edges_cross NSVCD__AT(edges_cross)
 #define nsvcd__edges_nearest NSVCD__AT(edges_nearest)
-#define nsvcd__edges_pass NSVCD__AT(edges_pass)
-#define nsvcd__edges_volume NSVCD__AT(edges_volume)
 #define nsvcd__encloses_any NSVCD__AT(encloses_any)
 #define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
@@ -16108,46 +13953,31 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__face_direction NSVCD__AT(face_direction)
 #define nsvcd__face_normal NSVCD__AT(face_normal)
 #define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
-#define nsvcd__farthest_axis NSVCD__AT(farthest_axis)
-#define nsvcd__find_passage NSVCD__AT(find_passage)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
-#define nsvcd__first_lane NSVCD__AT(first_lane)
-#define nsvcd__first_mat3 NSVCD__AT(first_mat3)
-#define nsvcd__first_view NSVCD__AT(first_view)
+#define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__foot_within NSVCD__AT(foot_within)
-#define nsvcd__from_dots NSVCD__AT(from_dots)
+#define nsvcd__forget NSVCD__AT(forget)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
-#define nsvcd__gather_contacts NSVCD__AT(gather_contacts)
+#define nsvcd__gather_items NSVCD__AT(gather_items)
+#define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
-#define nsvcd__gradients NSVCD__AT(gradients)
-#define nsvcd__greatest_height NSVCD__AT(greatest_height)
-#define nsvcd__greatest_lane NSVCD__AT(greatest_lane)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
-#define nsvcd__group_against_tile NSVCD__AT(group_against_tile)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
-#define nsvcd__groups_apart NSVCD__AT(groups_apart)
-#define nsvcd__groups_at_box NSVCD__AT(groups_at_box)
 #define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
-#define nsvcd__guess_normals NSVCD__AT(guess_normals)
 #define nsvcd__height NSVCD__AT(height)
-#define nsvcd__heights NSVCD__AT(heights)
-#define nsvcd__heights_over NSVCD__AT(heights_over)
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
 #define nsvcd__inputs_in NSVCD__AT(inputs_in)
-#define nsvcd__inputs_of NSVCD__AT(inputs_of)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
 #define nsvcd__intervals NSVCD__AT(intervals)
-#define nsvcd__intervals_are_cut NSVCD__AT(intervals_are_cut)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
-#define nsvcd__intervals_grow NSVCD__AT(intervals_grow)
 #define nsvcd__invariants NSVCD__AT(invariants)
 #define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
@@ -16156,9 +13986,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
-#define nsvcd__is_held NSVCD__AT(is_held)
 #define nsvcd__is_inside NSVCD__AT(is_inside)
-#define nsvcd__is_itself NSVCD__AT(is_itself)
 #define nsvcd__is_large NSVCD__AT(is_large)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_ray NSVCD__AT(is_on_ray)
@@ -16170,9 +13998,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
 #define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
-#define nsvcd__knot_at NSVCD__AT(knot_at)
 #define nsvcd__knots NSVCD__AT(knots)
-#define nsvcd__knots_copy NSVCD__AT(knots_copy)
 #define nsvcd__knots_keep NSVCD__AT(knots_keep)
 #define nsvcd__knots_load NSVCD__AT(knots_load)
 #define nsvcd__knots_read NSVCD__AT(knots_read)
@@ -16184,11 +14010,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
 #define nsvcd__latent_torque NSVCD__AT(latent_torque)
 #define nsvcd__layer NSVCD__AT(layer)
+#define nsvcd__layer_by_bytes NSVCD__AT(layer_by_bytes)
 #define nsvcd__layer_of NSVCD__AT(layer_of)
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
-#define nsvcd__layer_values NSVCD__AT(layer_values)
-#define nsvcd__least_height NSVCD__AT(least_height)
-#define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__leg NSVCD__AT(leg)
 #define nsvcd__leg_at NSVCD__AT(leg_at)
@@ -16196,7 +14020,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__leg_turn NSVCD__AT(leg_turn)
 #define nsvcd__lift_along NSVCD__AT(lift_along)
 #define nsvcd__lift_motion NSVCD__AT(lift_motion)
-#define nsvcd__lift_of NSVCD__AT(lift_of)
 #define nsvcd__lift_off NSVCD__AT(lift_off)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
@@ -16211,10 +14034,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__meet NSVCD__AT(meet)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
-#define nsvcd__meetings NSVCD__AT(meetings)
-#define nsvcd__meetings_of NSVCD__AT(meetings_of)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
 #define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
+#define nsvcd__memo NSVCD__AT(memo)
 #define nsvcd__method_of NSVCD__AT(method_of)
 #define nsvcd__motion NSVCD__AT(motion)
 #define nsvcd__motion_gap NSVCD__AT(motion_gap)
@@ -16224,41 +14046,31 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
-#define nsvcd__names_triangles NSVCD__AT(names_triangles)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_placement NSVCD__AT(nearest_placement)
 #define nsvcd__needs NSVCD__AT(needs)
-#define nsvcd__needs_most NSVCD__AT(needs_most)
 #define nsvcd__needs_of NSVCD__AT(needs_of)
-#define nsvcd__needs_proof NSVCD__AT(needs_proof)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
 #define nsvcd__next_knot NSVCD__AT(next_knot)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_part NSVCD__AT(normals_part)
-#define nsvcd__on_one_side NSVCD__AT(on_one_side)
-#define nsvcd__options_check NSVCD__AT(options_check)
+#define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__pairs NSVCD__AT(pairs)
-#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__part_groups NSVCD__AT(part_groups)
 #define nsvcd__passage NSVCD__AT(passage)
-#define nsvcd__passes NSVCD__AT(passes)
-#define nsvcd__patch_is_near NSVCD__AT(patch_is_near)
 #define nsvcd__patch_reach NSVCD__AT(patch_reach)
-#define nsvcd__patches_on_ray NSVCD__AT(patches_on_ray)
-#define nsvcd__patches_towards NSVCD__AT(patches_towards)
+#define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__place_point NSVCD__AT(place_point)
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
 #define nsvcd__placed NSVCD__AT(placed)
 #define nsvcd__placed_at NSVCD__AT(placed_at)
 #define nsvcd__placement NSVCD__AT(placement)
 #define nsvcd__placement_at NSVCD__AT(placement_at)
-#define nsvcd__places_of NSVCD__AT(places_of)
 #define nsvcd__plane_parts NSVCD__AT(plane_parts)
 #define nsvcd__pose_count NSVCD__AT(pose_count)
-#define nsvcd__pose_hulls NSVCD__AT(pose_hulls)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
@@ -16270,26 +14082,20 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__prove_and_look NSVCD__AT(prove_and_look)
 #define nsvcd__prove_anew NSVCD__AT(prove_anew)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
-#define nsvcd__prove_in_order NSVCD__AT(prove_in_order)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
-#define nsvcd__prove_tile_in_order NSVCD__AT(prove_tile_in_order)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
 #define nsvcd__quanta_of NSVCD__AT(quanta_of)
-#define nsvcd__quat_chord NSVCD__AT(quat_chord)
 #define nsvcd__query NSVCD__AT(query)
 #define nsvcd__query_layout NSVCD__AT(query_layout)
 #define nsvcd__query_open NSVCD__AT(query_open)
 #define nsvcd__question_check NSVCD__AT(question_check)
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
-#define nsvcd__ray_of NSVCD__AT(ray_of)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
 #define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
 #define nsvcd__row_left NSVCD__AT(row_left)
-#define nsvcd__run_layer NSVCD__AT(run_layer)
-#define nsvcd__same_bodies NSVCD__AT(same_bodies)
 #define nsvcd__scale_of NSVCD__AT(scale_of)
 #define nsvcd__scenes NSVCD__AT(scenes)
 #define nsvcd__scenes_of NSVCD__AT(scenes_of)
@@ -16304,26 +14110,22 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__search_patch NSVCD__AT(search_patch)
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
+#define nsvcd__see_to_items NSVCD__AT(see_to_items)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
 #define nsvcd__seek_item NSVCD__AT(seek_item)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
 #define nsvcd__segments NSVCD__AT(segments)
-#define nsvcd__segments_apart NSVCD__AT(segments_apart)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
-#define nsvcd__self_chords NSVCD__AT(self_chords)
 #define nsvcd__self_test NSVCD__AT(self_test)
-#define nsvcd__self_triangles NSVCD__AT(self_triangles)
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
-#define nsvcd__settle_arc NSVCD__AT(settle_arc)
 #define nsvcd__settle_couple NSVCD__AT(settle_couple)
 #define nsvcd__settle_item NSVCD__AT(settle_item)
 #define nsvcd__settle_items NSVCD__AT(settle_items)
 #define nsvcd__settle_row NSVCD__AT(settle_row)
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
-#define nsvcd__sift_down NSVCD__AT(sift_down)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
@@ -16333,12 +14135,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
-#define nsvcd__spheres_on_ray NSVCD__AT(spheres_on_ray)
-#define nsvcd__square_in_radii NSVCD__AT(square_in_radii)
 #define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
-#define nsvcd__status_of NSVCD__AT(status_of)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
@@ -16351,17 +14150,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__take_doubt NSVCD__AT(take_doubt)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
 #define nsvcd__task NSVCD__AT(task)
-#define nsvcd__task_of NSVCD__AT(task_of)
-#define nsvcd__threshold NSVCD__AT(threshold)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
-#define nsvcd__tile_groups NSVCD__AT(tile_groups)
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
-#define nsvcd__to_bytes NSVCD__AT(to_bytes)
-#define nsvcd__to_nearest_patch NSVCD__AT(to_nearest_patch)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
 #define nsvcd__touch NSVCD__AT(touch)
@@ -16373,15 +14167,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
-#define nsvcd__triangles_are_parted NSVCD__AT(triangles_are_parted)
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
 #define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
-#define nsvcd__triangles_pass NSVCD__AT(triangles_pass)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
-#define nsvcd__turn NSVCD__AT(turn)
-#define nsvcd__turn_answer NSVCD__AT(turn_answer)
-#define nsvcd__turn_between NSVCD__AT(turn_between)
-#define nsvcd__two_groups NSVCD__AT(two_groups)
+#define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone NSVCD__AT(undone)
 #define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
@@ -16410,10 +14199,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v3_unit NSVCD__AT(v3_unit)
 #define nsvcd__v_abs NSVCD__AT(v_abs)
 #define nsvcd__v_across NSVCD__AT(v_across)
-#define nsvcd__v_add NSVCD__AT(v_add)
 #define nsvcd__v_add_to NSVCD__AT(v_add_to)
 #define nsvcd__v_approach NSVCD__AT(v_approach)
-#define nsvcd__v_approach_load NSVCD__AT(v_approach_load)
 #define nsvcd__v_arc NSVCD__AT(v_arc)
 #define nsvcd__v_arc_bound NSVCD__AT(v_arc_bound)
 #define nsvcd__v_bits NSVCD__AT(v_bits)
@@ -16425,19 +14212,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_disc_load NSVCD__AT(v_disc_load)
 #define nsvcd__v_disc_range NSVCD__AT(v_disc_range)
 #define nsvcd__v_disc_set NSVCD__AT(v_disc_set)
-#define nsvcd__v_div NSVCD__AT(v_div)
-#define nsvcd__v_farthest_axis NSVCD__AT(v_farthest_axis)
-#define nsvcd__v_fma NSVCD__AT(v_fma)
 #define nsvcd__v_half_rotation NSVCD__AT(v_half_rotation)
 #define nsvcd__v_keep_most NSVCD__AT(v_keep_most)
-#define nsvcd__v_le NSVCD__AT(v_le)
 #define nsvcd__v_least NSVCD__AT(v_least)
-#define nsvcd__v_load NSVCD__AT(v_load)
 #define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
-#define nsvcd__v_lt NSVCD__AT(v_lt)
 #define nsvcd__v_max NSVCD__AT(v_max)
 #define nsvcd__v_min NSVCD__AT(v_min)
-#define nsvcd__v_mul NSVCD__AT(v_mul)
 #define nsvcd__v_negate NSVCD__AT(v_negate)
 #define nsvcd__v_part NSVCD__AT(v_part)
 #define nsvcd__v_part_by_fixed NSVCD__AT(v_part_by_fixed)
@@ -16451,27 +14231,20 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_range NSVCD__AT(v_range)
 #define nsvcd__v_scale NSVCD__AT(v_scale)
 #define nsvcd__v_seen NSVCD__AT(v_seen)
-#define nsvcd__v_set NSVCD__AT(v_set)
 #define nsvcd__v_shorter_turn_between NSVCD__AT(v_shorter_turn_between)
 #define nsvcd__v_sign NSVCD__AT(v_sign)
 #define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
 #define nsvcd__v_span NSVCD__AT(v_span)
 #define nsvcd__v_span_load NSVCD__AT(v_span_load)
 #define nsvcd__v_span_set NSVCD__AT(v_span_set)
-#define nsvcd__v_sqrt NSVCD__AT(v_sqrt)
-#define nsvcd__v_store NSVCD__AT(v_store)
-#define nsvcd__v_sub NSVCD__AT(v_sub)
 #define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
 #define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
-#define nsvcd__v_unit_of_length NSVCD__AT(v_unit_of_length)
 #define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
 #define nsvcd__verdict NSVCD__AT(verdict)
-#define nsvcd__verdict_of_distance NSVCD__AT(verdict_of_distance)
 #define nsvcd__vertices_apart NSVCD__AT(vertices_apart)
 #define nsvcd__view NSVCD__AT(view)
 #define nsvcd__views NSVCD__AT(views)
 #define nsvcd__views_of NSVCD__AT(views_of)
-#define nsvcd__views_set_frame NSVCD__AT(views_set_frame)
 #define nsvcd__vmat3 NSVCD__AT(vmat3)
 #define nsvcd__vmat3_apply NSVCD__AT(vmat3_apply)
 #define nsvcd__vmat3_apply_add NSVCD__AT(vmat3_apply_add)
@@ -16480,6 +14253,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__vmat3_load NSVCD__AT(vmat3_load)
 #define nsvcd__vmat3_mul NSVCD__AT(vmat3_mul)
 #define nsvcd__vmat3_of NSVCD__AT(vmat3_of)
+#define nsvcd__vmat3_rows NSVCD__AT(vmat3_rows)
 #define nsvcd__vmat3_scale NSVCD__AT(vmat3_scale)
 #define nsvcd__vmat3_set NSVCD__AT(vmat3_set)
 #define nsvcd__vmat3_square NSVCD__AT(vmat3_square)
@@ -16504,11 +14278,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__world_pose NSVCD__AT(world_pose)
 #define nsvcd__world_pose_between NSVCD__AT(world_pose_between)
 #define nsvcd__world_pose_of NSVCD__AT(world_pose_of)
-#define nsvcd__wrench NSVCD__AT(wrench)
 #define nsvcd__wrench_add NSVCD__AT(wrench_add)
-#define nsvcd__wrench_load NSVCD__AT(wrench_load)
-#define nsvcd__wrench_of NSVCD__AT(wrench_of)
-#define nsvcd__wrench_scale NSVCD__AT(wrench_scale)
 
 // ---- the passes
 
@@ -16532,7 +14302,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #pragma GCC target("avx512f,avx512vl,avx512vnni")
 #elif defined(__clang__)
 #pragma clang attribute pop
-#pragma clang attribute push(                                                         \
+#pragma clang attribute push( \
     __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
     apply_to = function)
 #endif
@@ -16563,48 +14333,41 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
 
 #if defined(_MSC_VER) && !defined(__clang__)
-// What the processor and the system have.
-static nsvcd__isa nsvcd__ask_processor(void) {
+// What the processor and the system have, remembered: one word, which all threads that may write it
+// at a time write alike.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  static volatile long known = -1;
   int first[4];
   int seventh[4];
+  if (known >= 0) return (nsvcd__isa)known;
   __cpuid(first, 0);
-  if (first[0] < 7)
-    return NSVCD__SSE2;
+  if (first[0] < 7) return NSVCD__SSE2;
   __cpuid(first, 1);
   __cpuidex(seventh, 7, 0);
-  const int keeps_registers = first[2] >> 27 & 1;  // the system, of vectors: OSXSAVE
+  // the system, of vectors: OSXSAVE
+  const int keeps_registers = first[2] >> 27 & 1;
   const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
   const int fma = first[2] >> 12 & 1;
   const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
-  const int avx2 = seventh[1] >> 5 & 1;
-  const int avx512 = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
-  if ((kept & 6) != 6 || !fma || !bmi || !avx2)
-    return NSVCD__SSE2;
-  return (kept & 0xe0) == 0xe0 && avx512 ? NSVCD__AVX512 : NSVCD__AVX2;
-}
-
-// The same, remembered: one word, which all threads that may write it at a time write alike.
-static nsvcd__isa nsvcd__isa_at_hand(void) {
-  static volatile long known = -1;
-  if (known < 0)
-    known = nsvcd__ask_processor();
+  const int avx2 = (kept & 6) == 6 && fma && bmi && seventh[1] >> 5 & 1;
+  const int vnni = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
   return (nsvcd__isa)known;
 }
 #else
 // What the processor and the system have. The compiler's own library asks them before main.
 static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  if (!fma || !__builtin_cpu_supports("avx2"))
-    return NSVCD__SSE2;
+  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
   if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
     return NSVCD__AVX512;
   return NSVCD__AVX2;
 }
 #endif
 
-#define NSVCD__BEST(name)                                         \
+#define NSVCD__BEST(name) \
   (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
-   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2   \
+   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
                                          : nsvcd__##name)
 #else
 #define NSVCD__BEST(name) nsvcd__##name
@@ -16622,8 +14385,7 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
-  if (!question)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!question) return NSVCD_ERROR_ARGUMENT;
   return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
 }
 
@@ -16642,12 +14404,16 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 }
 #endif
 
-#ifndef NSVCD_NO_OPTIMIZER
-// ------------------------------------------------------------------------------------------ spline
+// ================================================================ plan: a motion that hits nothing
+
+// ------------------------------------------------------------------------------------- plan/spline
+// In: control points. Out: positions and derivatives; the weights of both.
+//
 // Control points -> positions and derivatives. All is linear in the control points, and the same
 // for each joint: what the joints are at one moment is a sum of the points by weights (M + 2), and
 // the mean of its square over the motion a quadratic form (M + 2, M + 2).
 
+#ifndef NSVCD_NO_OPTIMIZER
 // A derivative at u of a polynomial of degree five, times `scale`.
 static double nsvcd__polynomial(const double *coefficients, double u, size_t derivative,
                                 double scale) {
@@ -16655,8 +14421,7 @@ static double nsvcd__polynomial(const double *coefficients, double u, size_t der
   double power = scale;
   for (size_t n = derivative; n < 6; n++, power *= u) {
     double factor = coefficients[n];
-    for (size_t d = 0; d < derivative; d++)
-      factor *= (double)(n - d);
+    for (size_t d = 0; d < derivative; d++) factor *= (double)(n - d);
     value += factor * power;
   }
   return value;
@@ -16673,17 +14438,16 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
   const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (double)last;
   const size_t left = (size_t)at < last ? (size_t)at : last - 1;
   const double u = at - (double)left;
-  double scale = 1;  // derivatives by t, not by u
-  for (size_t k = 0; k < derivative; k++)
-    scale *= (double)last;
-  for (size_t k = 0; k <= last; k++)
-    weights[k] = 0;
+  // derivatives by t, not by u
+  double scale = 1;
+  for (size_t k = 0; k < derivative; k++) scale *= (double)last;
+  for (size_t k = 0; k <= last; k++) weights[k] = 0;
   for (size_t end = 0; end < 2; end++) {
     const double(*polynomials)[6] = basis + 3 * end;
     const size_t point = left + end;
     weights[point] += nsvcd__polynomial(polynomials[0], u, derivative, scale);
-    if (point == 0 || point == last)
-      continue;  // at rest
+    // at rest
+    if (point == 0 || point == last) continue;
     const double velocity = nsvcd__polynomial(polynomials[1], u, derivative, scale);
     const double acceleration = nsvcd__polynomial(polynomials[2], u, derivative, scale);
     weights[point + 1] += 0.5 * velocity + acceleration;
@@ -16695,8 +14459,7 @@ static void nsvcd__spline_weights(size_t via, double t, size_t derivative, doubl
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out) {
   double weights[NSVCD_MAX_VIA_POINTS + 2];
-  if (via_points > NSVCD_MAX_VIA_POINTS || derivative > 3)
-    return;
+  if (via_points > NSVCD_MAX_VIA_POINTS || derivative > 3) return;
   nsvcd__spline_weights(via_points, (double)t, derivative, weights);
   for (size_t j = 0; j < joints; j++) {
     double sum = 0;
@@ -16708,7 +14471,8 @@ NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joint
 
 // Adds weight * mean over t of the derivative's square to the form (M + 2, M + 2). Five points of
 // Gauss and Legendre per piece: exact, as the squares are of degree 8 at most.
-static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight, double *form) {
+static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
+                                   double *form) {
   static const double nodes[5] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                   0.953089922969332};
   static const double shares[5] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
@@ -16722,8 +14486,7 @@ static void nsvcd__add_mean_square(size_t via, size_t derivative, double weight,
       nsvcd__spline_weights(via, t, derivative, w);
       for (size_t i = 0; i < count; i++) {
         const double scaled = weight * shares[n] / pieces * w[i];
-        for (size_t j = 0; j < count; j++)
-          form[i * count + j] += scaled * w[j];
+        for (size_t j = 0; j < count; j++) form[i * count + j] += scaled * w[j];
       }
     }
   }
@@ -16736,49 +14499,51 @@ static void nsvcd__cholesky(const double *a, size_t n, double *l) {
     const double least = 1e-9 * a[i * n + i];
     for (size_t j = 0; j < n; j++) {
       double sum = a[i * n + j];
-      for (size_t k = 0; k < (i < j ? i : j); k++)
-        sum -= l[i * n + k] * l[j * n + k];
-      if (j < i)
-        l[i * n + j] = sum / l[j * n + j];
-      if (j == i)
-        l[i * n + i] = sqrt(sum > least ? sum : least);
-      if (j > i)
-        l[i * n + j] = 0;
+      for (size_t k = 0; k < (i < j ? i : j); k++) sum -= l[i * n + k] * l[j * n + k];
+      if (j < i) l[i * n + j] = sum / l[j * n + j];
+      if (j == i) l[i * n + i] = sqrt(sum > least ? sum : least);
+      if (j > i) l[i * n + j] = 0;
     }
   }
 }
-static void nsvcd__solve_lower(const double *l, size_t n, double *x) {  // x = L^-1 x
+// x = L^-1 x
+static void nsvcd__solve_lower(const double *l, size_t n, double *x) {
   for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < i; k++)
-      x[i] -= l[i * n + k] * x[k];
+    for (size_t k = 0; k < i; k++) x[i] -= l[i * n + k] * x[k];
     x[i] /= l[i * n + i];
   }
 }
-static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L^-T x
+// x = L^-T x
+static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
   for (size_t i = n; i-- > 0;) {
-    for (size_t k = i + 1; k < n; k++)
-      x[i] -= l[k * n + i] * x[k];
+    for (size_t k = i + 1; k < n; k++) x[i] -= l[k * n + i] * x[k];
     x[i] /= l[i * n + i];
   }
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// --------------------------------------------------------------------------------------- optimizer
-// In: a problem. Out: control points. Top to bottom:
+// ------------------------------------------------------------------------------------ plan/problem
+// In: a problem. Out: a planner: everything in the caller's workspace. The floor, top to bottom:
 //
-//   memory      everything in the caller's workspace
-//   culling     which bodies may meet in which segments: a broad phase of whole bodies
-//   collision   poses along a trajectory -> cost, and its derivative by the poses (wrenches)
+//   problem     everything in the caller's workspace
+//   culling     which bodies may meet in which segments: a broad phase of whole bodies; poses along
+//               a trajectory -> cost, and its derivative by the poses (wrenches)
 //   cost        control points -> smoothness + limits + collision, and the derivative by the
 //               control points
 //   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
 //   refine      L-BFGS with bundled gradients, in the metric of the smoothness
 //   plan        start and goal, several seeds, and the last check
 //
+// The planner asks as any program does, by the public functions. Of what is private to the floors
+// above entry it uses nsvcd__settings_of, nsvcd__poses_are_valid and nsvcd__is_aligned, to refuse
+// what a query would, and NSVCD__ROUNDING.
+//
 // A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
 // between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
 // changes over which L-BFGS takes the mean of a gradient. Letters of shapes: M via points, F
 // joints, B bodies, P pairs.
 
+#ifndef NSVCD_NO_OPTIMIZER
 // The schedule of the search.
 // cost: of joints out of their limits, per radian^2 or metre^2, mean over the moments
 #define NSVCD__LIMIT_COST 1e5f
@@ -16809,6 +14574,12 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {  // x = L
 // plan: looks, at least, at how far a piece of the spline strays
 #define NSVCD__STRAY_LOOKS 16
 
+// A body, in its own axes: its bounding sphere, and the box of its patches.
+typedef struct nsvcd__shape {
+  nsvcd__sphere sphere;
+  nsvcd__box box;
+} nsvcd__shape;
+
 // A body at a moment.
 typedef struct nsvcd__stance {
   nsvcd__transform pose;
@@ -16820,64 +14591,108 @@ typedef struct nsvcd__stance {
 // One way of looking at trajectories: while exploring, refining, or for the last check.
 typedef struct nsvcd__stage {
   size_t via, moments;  // M; segments + 1
+  // of the via points, M F
+  size_t numbers;
+  // of all control points
+  size_t bytes;
   size_t iterations;
-  size_t draws;      // rollouts of an iteration, or gradients in a bundle
-  float noise;       // their standard deviation, radians or metres
-  double *form;      // (M + 2, M + 2): smoothness
-  double *factor;    // (M, M): Cholesky's, of the rows and columns of the via points
-  double deviation;  // of factor^-T times normal numbers: the greatest of a via point
-  float *weights;    // (moments, M + 2): of the control points, in the joints
+  // rollouts of an iteration, or gradients in a bundle
+  size_t draws;
+  // their standard deviation, radians or metres
+  float noise;
+  double *form;  // (M + 2, M + 2): smoothness
+  // (M, M): Cholesky's, of the rows and columns of the via points
+  double *factor;
+  // of factor^-T times normal numbers: the greatest of a via point
+  double deviation;
+  // (moments, M + 2): of the control points, in the joints
+  float *weights;
 } nsvcd__stage;
 
 typedef struct nsvcd__planner {
   const nsvcd_plan_problem *problem;
-  nsvcd_plan_options options;  // with the defaults filled in
+  // with the defaults filled in
+  nsvcd_plan_options options;
   nsvcd__stage explore, refine, check;
-  void *query;  // workspace of queries
+  // workspace of queries
+  void *query;
   size_t query_size;
-  uint64_t random;     // the state of the random numbers
-  nsvcd_result error;  // the first that a query or a pose gave
+  uint64_t random;  // the state of the random numbers
+  // the first that a query or a pose gave
+  nsvcd_result error;
   size_t trajectories, sweeps;
+  // the one that is searched from
+  size_t seed;
+  // of all seeds, both stages
+  size_t iterations;
+  // by the progress callback
+  int cancelled;
 
   // the trajectory that is looked at
-  float *path;             // (moments, F)
-  nsvcd_pose *poses;       // (moments, B)
-  nsvcd__stance *stances;  // (moments, B)
-  nsvcd__box *boxes;       // (B): of a body's patches, in its own axes
-  unsigned char *meets;    // (moments): may the pair at hand meet there?
-  uint32_t *queue;         // (P): pairs, in the order in which they are looked at
-  float *wrenches;         // (moments, B, 6)
-  nsvcd_pose *moved;       // (B): at a moment, with one joint moved
-  float *jacobian;         // (B, 6, F)
-  float *by_path;          // (F): derivative by the joints of a moment
+  float *path;  // (moments, F)
+  // (moments, B)
+  nsvcd_pose *poses;
+  // (moments, B)
+  nsvcd__stance *stances;
+  nsvcd__shape *shapes;  // (B)
+  // (moments): may the pair at hand meet there?
+  unsigned char *meets;
+  // (P): pairs, in the order in which they are looked at
+  uint32_t *queue;
+  float *wrenches;  // (moments, B, 6)
+  // (B): at a moment, with one joint moved
+  nsvcd_pose *moved;
+  float *jacobian;  // (B, 6, F)
+  // (F): derivative by the joints of a moment
+  float *by_path;
 
   // control points, (M + 2, F) each; the gradient's and those below have rows for via points only
-  float *result;    // the best of all seeds
-  float *control;   // where the search is: MPPI's mean, L-BFGS's last point
-  float *best;      // of this seed
-  float *trial;     // the one that is costed
+  float *result;  // the best of all seeds
+  // where the search is: MPPI's mean, L-BFGS's last point
+  float *control;
+  float *best;  // of this seed
+  // the one that is costed
+  float *trial;
   float *gradient;  // at `trial`, (M + 2, F)
-  float *sum;       // means of offsets, or of gradients
-  float *offset;    // a change, or a direction
-  float *drawn;     // (draws, M, F): the random changes
-  float *costs;     // (draws): of rollouts, then their weights
-  float *steps;     // (HISTORY, M, F): of L-BFGS,
-  float *changes;   // (HISTORY, M, F): and what they changed in the gradient
-  double *vector;   // (M + 2): scratch
+  // means of offsets, or of gradients
+  float *sum;
+  // a change, or a direction
+  float *offset;
+  float *drawn;  // (draws, M, F): the random changes
+  // (draws): of rollouts, then their weights
+  float *costs;
+  float *steps;  // (HISTORY, M, F): of L-BFGS,
+  // (HISTORY, M, F): and what they changed in the gradient
+  float *changes;
+  // (M + 2): scratch
+  double *vector;
 } nsvcd__planner;
 
 // What a trajectory costs.
 typedef struct nsvcd__cost {
   float total, smoothness, collision;
-  int collides;  // in segments looked at
-  size_t joint;  // that leaves its limits, or NSVCD_NONE
+  int collides;  // in what was looked at
+  // that leaves its limits, or NSVCD_NONE
+  size_t joint;
+  // of the last check, which looks closer: the most suspicious moment, and who is suspected
+  float logit, time;
+  size_t pair;
+  // a proof has found it, INSIDE too, or could not rule it out
+  int proven;
 } nsvcd__cost;
+
+static const nsvcd__cost nsvcd__no_cost = {
+    0, 0, 0, 0, NSVCD_NONE, -NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
 
 static int nsvcd__is_free(const nsvcd__cost *cost) {
   return !cost->collides && cost->joint == NSVCD_NONE;
 }
 
 // ---- memory
+
+static size_t nsvcd__larger(size_t a, size_t b) {
+  return a > b ? a : b;
+}
 
 // A weight: the default where 0 is given, 0 where it is negative.
 static float nsvcd__weight_of(float given, float otherwise) {
@@ -16891,47 +14706,29 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
   stage->via = given->via_points ? given->via_points : defaults.via_points;
   stage->moments = segments + 1;
   stage->iterations = given->iterations ? given->iterations : defaults.iterations;
-  if (given->iterations == NSVCD_NONE)
-    stage->iterations = 0;
+  if (given->iterations == NSVCD_NONE) stage->iterations = 0;
   stage->draws = given->draws ? given->draws : defaults.draws;
   stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
-  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS)
-    return 0;
+  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS) return 0;
   return stage->draws <= 10000 && stage->iterations <= 100000;
 }
 
 // Is the problem one that can be stated?
 static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->place)
-    return 0;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS || problem->body_count > 65536)
-    return 0;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal)
-    return 0;
+  if (!problem || !problem->place) return 0;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return 0;
+  if (problem->body_count > 65536) return 0;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
   const int by_network = !problem->collision;
   if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
     return 0;
   for (size_t k = 0; k < problem->pair_count; k++) {
-    const nsvcd_body_pair pair = problem->pairs[k];
-    if (pair.a >= problem->body_count || pair.b >= problem->body_count || pair.a == pair.b)
-      return 0;
-    if (by_network && (!problem->bodies[pair.a] || !problem->bodies[pair.b]))
-      return 0;
+    const size_t a = problem->pairs[k].a;
+    const size_t b = problem->pairs[k].b;
+    if (a >= problem->body_count || b >= problem->body_count || a == b) return 0;
+    if (by_network && (!problem->bodies[a] || !problem->bodies[b])) return 0;
   }
   return 1;
-}
-
-// Are the options' numbers finite, and those of the queries in order?
-static int nsvcd__plan_options_are_valid(const nsvcd_plan_options *o) {
-  const float floats[9] = {o->velocity,      o->acceleration, o->jerk,
-                           o->collision,     o->duration,     o->margin,
-                           o->explore.noise, o->refine.noise, o->sweep.recall};
-  for (size_t k = 0; k < 9; k++) {
-    if (!nsvcd__is_finite(floats[k]))
-      return 0;
-  }
-  nsvcd__settings unused;
-  return nsvcd__settings_of(&o->sweep, 1, 1, &unused) == NSVCD_OK;
 }
 
 // Fills in the defaults. Returns 0 for what cannot be.
@@ -16940,36 +14737,34 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   // via points, segments, iterations, draws, noise
   static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
   static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
+  nsvcd__settings unused;
   memset(p, 0, sizeof *p);
-  if (!nsvcd__problem_is_whole(problem))
-    return 0;
+  if (!nsvcd__problem_is_whole(problem)) return 0;
   p->problem = problem;
-  if (options)
-    p->options = *options;
+  if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
-  if (!nsvcd__plan_options_are_valid(o))
-    return 0;
-  if (!nsvcd__stage_of(&o->explore, explore, &p->explore))
-    return 0;
-  if (!nsvcd__stage_of(&o->refine, refine, &p->refine))
-    return 0;
-  if (o->refine.iterations == NSVCD_NONE)
-    p->refine.via = p->explore.via;
+  const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
+                          o->duration, o->margin,       o->explore.noise, o->refine.noise};
+  for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
+    if (!nsvcd__is_finite(floats[k])) return 0;
+  }
+  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
+  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
+  if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
 
   o->seeds = o->seeds ? o->seeds : 6;
   o->velocity = nsvcd__weight_of(o->velocity, 10);
   o->acceleration = nsvcd__weight_of(o->acceleration, 2);
   o->jerk = nsvcd__weight_of(o->jerk, 10);
   // something must be least
-  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0))
-    o->velocity = 1e-3f;
+  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
   o->collision = nsvcd__weight_of(o->collision, 20);
   o->duration = o->duration > 0 ? o->duration : 20;
   o->margin = nsvcd__weight_of(o->margin, 2);
 
   p->check = p->refine;
-  const int explores_finer = p->explore.moments > p->refine.moments;
-  const size_t finest = explores_finer ? p->explore.moments : p->refine.moments;
+  const size_t finest = nsvcd__larger(p->explore.moments, p->refine.moments);
   const size_t most = 4 * NSVCD_MAX_PLAN_SEGMENTS;
   const size_t dense = NSVCD__CHECKS * (finest - 1);
   o->check = o->check ? o->check : dense < most ? dense : most;
@@ -16977,28 +14772,17 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   return o->check <= most && o->seeds <= 1000;
 }
 
-// The next rows of so many floats, or doubles, of a workspace: nsvcd__take.
+// The next rows of so many floats of a workspace: nsvcd__take.
 static float *nsvcd__take_floats(char *base, uint64_t *used, size_t rows, size_t floats) {
   return (float *)nsvcd__take(base, used, rows, floats * sizeof(float));
-}
-static double *nsvcd__take_doubles(char *base, uint64_t *used, size_t rows, size_t doubles) {
-  return (double *)nsvcd__take(base, used, rows, doubles * sizeof(double));
-}
-
-static void nsvcd__stage_memory(nsvcd__stage *stage, char *base, uint64_t *used) {
-  const size_t via = stage->via;
-  stage->form = nsvcd__take_doubles(base, used, via + 2, via + 2);
-  stage->factor = nsvcd__take_doubles(base, used, via, via);
-  stage->weights = nsvcd__take_floats(base, used, stage->moments, via + 2);
-}
-
-static size_t nsvcd__larger(size_t a, size_t b) {
-  return a > b ? a : b;
 }
 
 // Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
 // 0 if they are more than can be counted.
 static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
+  nsvcd__stage *const stages[3] = {&p->explore, &p->refine, &p->check};
+  float **const points[7] = {&p->result,   &p->control, &p->best,  &p->trial,
+                             &p->gradient, &p->sum,     &p->offset};
   const size_t f = p->problem->joints;
   const size_t bodies = p->problem->body_count;
   const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
@@ -17009,17 +14793,23 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   const size_t point = (via + 2) * f;
   uint64_t used = 0;
 
-  const nsvcd__needs needs = nsvcd__needs_most();
-  p->query_size = nsvcd__query_layout(&needs, NULL);
+  p->query_size = nsvcd_sweep_workspace_size(NULL);
   p->query = nsvcd__take(base, &used, 1, p->query_size);
-  nsvcd__stage_memory(&p->explore, base, &used);
-  nsvcd__stage_memory(&p->refine, base, &used);
-  nsvcd__stage_memory(&p->check, base, &used);
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__stage *stage = stages[k];
+    const size_t all = stage->via + 2;
+    stage->numbers = stage->via * f;
+    stage->bytes = all * f * sizeof(float);
+    stage->form = (double *)nsvcd__take(base, &used, all, all * sizeof(double));
+    stage->factor =
+        (double *)nsvcd__take(base, &used, stage->via, stage->via * sizeof(double));
+    stage->weights = nsvcd__take_floats(base, &used, stage->moments, all);
+  }
 
   p->path = nsvcd__take_floats(base, &used, moments, f);
   p->poses = (nsvcd_pose *)nsvcd__take(base, &used, placed, sizeof(nsvcd_pose));
   p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
-  p->boxes = (nsvcd__box *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__box));
+  p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
   p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
   p->queue = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
   p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
@@ -17027,44 +14817,29 @@ static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
   p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
   p->by_path = nsvcd__take_floats(base, &used, 1, f);
 
-  p->result = nsvcd__take_floats(base, &used, 1, point);
-  p->control = nsvcd__take_floats(base, &used, 1, point);
-  p->best = nsvcd__take_floats(base, &used, 1, point);
-  p->trial = nsvcd__take_floats(base, &used, 1, point);
-  p->gradient = nsvcd__take_floats(base, &used, 1, point);
-  p->sum = nsvcd__take_floats(base, &used, 1, point);
-  p->offset = nsvcd__take_floats(base, &used, 1, point);
+  for (size_t k = 0; k < 7; k++) *points[k] = nsvcd__take_floats(base, &used, 1, point);
   p->drawn = nsvcd__take_floats(base, &used, draws, point);
   p->costs = nsvcd__take_floats(base, &used, 1, draws);
   p->steps = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
   p->changes = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
-  p->vector = nsvcd__take_doubles(base, &used, 1, via + 2);
+  p->vector = (double *)nsvcd__take(base, &used, 1, (via + 2) * sizeof(double));
   return used <= SIZE_MAX ? (size_t)used : 0;
-}
-
-// Fills in the stage's form: the smoothness of control points is a quadratic form of them.
-static void nsvcd__stage_form(const nsvcd_plan_options *o, nsvcd__stage *stage) {
-  const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
-  const size_t all = stage->via + 2;
-  double rate = 1;
-  for (size_t k = 0; k < all * all; k++)
-    stage->form[k] = 0;
-  for (size_t d = 1; d <= 3; d++) {
-    rate /= (double)o->duration * (double)o->duration;
-    nsvcd__add_mean_square(stage->via, d, rate * weights[d - 1], stage->form);
-  }
 }
 
 // Fills in what a stage knows beforehand.
 static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
+  const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
   const size_t via = stage->via;
   const size_t all = via + 2;
   double w[NSVCD_MAX_VIA_POINTS + 2];
-  nsvcd__stage_form(o, stage);
-  for (size_t i = 0; i < via; i++) {
-    for (size_t j = 0; j < via; j++)
-      stage->factor[i * via + j] = stage->form[(i + 1) * all + j + 1];
+  double rate = 1;
+  for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
+  for (size_t d = 1; d <= 3; d++) {
+    rate /= (double)o->duration * (double)o->duration;
+    nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
   }
+  for (size_t k = 0; k < via * via; k++)
+    stage->factor[k] = stage->form[(k / via + 1) * all + k % via + 1];
   // in place: row i is read before it is written
   nsvcd__cholesky(stage->factor, via, stage->factor);
 
@@ -17072,29 +14847,24 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
   // the variance of via point k is |L^-1 e_k|^2
   for (size_t k = 0; k < via; k++) {
     double square = 0;
-    for (size_t i = 0; i < via; i++)
-      w[i] = i == k;
+    for (size_t i = 0; i < via; i++) w[i] = i == k;
     nsvcd__solve_lower(stage->factor, via, w);
-    for (size_t i = 0; i < via; i++)
-      square += w[i] * w[i];
+    for (size_t i = 0; i < via; i++) square += w[i] * w[i];
     stage->deviation = fmax(sqrt(square), stage->deviation);
   }
 
   const size_t last = stage->moments - 1;
   for (size_t s = 0; s <= last; s++) {
-    const double t = last > 0 ? (double)s / (double)last : 0;
-    nsvcd__spline_weights(via, t, 0, w);
-    for (size_t k = 0; k < all; k++)
-      stage->weights[s * all + k] = (float)w[k];
+    nsvcd__spline_weights(via, last > 0 ? (double)s / (double)last : 0, 0, w);
+    for (size_t k = 0; k < all; k++) stage->weights[s * all + k] = (float)w[k];
   }
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// ---- culling
-//
+// ------------------------------------------------------------------------------------ plan/culling
 // A plan asks about each pair in each segment, and most of these are far from a collision. This
 // rules them out for less than a query costs. It is a broad phase of whole bodies along a whole
-// trajectory; that of section *broad phase* then goes through the patches of two bodies in one
-// segment.
+// trajectory; that of search/search then goes through the patches of two bodies in one segment.
 //
 // In: the poses at the moments, and of each body its bounding sphere and the box of its patches.
 // Out: for a pair, p->meets (moments): 0 where the query about the segment from there on would
@@ -17111,27 +14881,26 @@ static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) 
 //   more than an eighth of its acceleration, c^2 |v| + 2 c |u|: u is its way in b's axes, and no
 //   longer than its way in a's axes + c |v|. In all c (c |v| 3 / 8 + its way in a's axes / 4).
 
-// The boxes of all bodies' patches.
-static void nsvcd__find_boxes(nsvcd__planner *p) {
-  const nsvcd_plan_problem *problem = p->problem;
-  if (problem->collision || !problem->bodies)
-    return;
-  for (size_t b = 0; b < problem->body_count; b++) {
-    const nsvcd_body *body = problem->bodies[b];
-    if (!body)
-      continue;
-    const nsvcd__spheres patches = nsvcd__body_patches(body);
-    nsvcd__f3 low = nsvcd__f3_of(INFINITY, INFINITY, INFINITY);
-    nsvcd__f3 high = nsvcd__f3_of(-INFINITY, -INFINITY, -INFINITY);
-    for (size_t i = 0; i < body->patches; i++) {
-      const nsvcd__f3 centre = nsvcd__centre_of(patches, i);
-      const float r = patches.r[i];
+#ifndef NSVCD_NO_OPTIMIZER
+// The shapes of all bodies.
+static void nsvcd__find_shapes(nsvcd__planner *p) {
+  for (size_t b = 0; p->problem->bodies && b < p->problem->body_count; b++) {
+    const nsvcd_body *body = p->problem->bodies[b];
+    nsvcd__shape shape = {{{0, 0, 0}, 0},
+                          {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
+    float place[3];
+    float r;
+    if (!body) continue;
+    const nsvcd_body_facts facts = nsvcd_body_describe(body);
+    shape.sphere.centre = nsvcd__f3_load(facts.centre);
+    shape.sphere.radius = facts.radius;
+    for (uint32_t i = 0; nsvcd_body_patch(body, i, place, &r); i++) {
       const nsvcd__f3 about = nsvcd__f3_of(r, r, r);
-      low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, about));
-      high = nsvcd__f3_max(high, nsvcd__f3_add(centre, about));
+      const nsvcd__f3 centre = nsvcd__f3_load(place);
+      shape.box.low = nsvcd__f3_min(shape.box.low, nsvcd__f3_sub(centre, about));
+      shape.box.high = nsvcd__f3_max(shape.box.high, nsvcd__f3_add(centre, about));
     }
-    p->boxes[b].low = low;
-    p->boxes[b].high = high;
+    p->shapes[b] = shape;
   }
 }
 
@@ -17139,10 +14908,7 @@ static void nsvcd__find_boxes(nsvcd__planner *p) {
 static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
   const size_t bodies = p->problem->body_count;
   for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
-    const nsvcd_body *body = p->problem->bodies[b];
-    if (!body)
-      continue;
-    const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
+    if (!p->problem->bodies[b]) continue;
     for (size_t s = 0; s < moments; s++) {
       const nsvcd_pose *pose = &p->poses[s * bodies + b];
       const nsvcd_pose *next = s + 1 < moments ? pose + bodies : pose;
@@ -17152,64 +14918,51 @@ static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
       nsvcd__stance *stance = &p->stances[s * bodies + b];
       stance->pose.rotation = nsvcd__mat3_of(q);
       stance->pose.position = nsvcd__f3_load(pose->position);
-      stance->centre = nsvcd__mat3_apply(&stance->pose.rotation, centre);
+      stance->centre = nsvcd__mat3_apply(&stance->pose.rotation, p->shapes[b].sphere.centre);
       stance->bend = sqrtf(square > 0 ? square : 0);
     }
   }
 }
 
-// The centre of one body's bounding sphere as another sees it, and how far it is from that one's
-// origin.
-typedef struct nsvcd__seen {
-  nsvcd__f3 centre;
-  float distance;
-} nsvcd__seen;
-
-static inline nsvcd__seen nsvcd__seen_from(const nsvcd__stance *other, const nsvcd__stance *body) {
-  const nsvcd__transform *from = &other->pose;
-  const nsvcd__f3 origin = nsvcd__f3_sub(body->pose.position, from->position);
-  const nsvcd__f3 centre = nsvcd__f3_add(origin, body->centre);
-  nsvcd__seen out;
-  out.centre = nsvcd__mat3_apply_transpose(&from->rotation, centre);
-  out.distance = nsvcd__f3_length(centre);
-  return out;
-}
-
 // Does the bounding sphere of `body` stay away from the box of `other`, by the clearance, from
 // moment s to s + stride? rests: `body` is the one that rests in the query, and `other` moves.
-static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other, int rests,
-                                   size_t s, size_t stride) {
-  const nsvcd_body *sphere = p->problem->bodies[body];
-  const nsvcd__box box = p->boxes[other];
+static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other,
+                                   int rests, size_t s, size_t stride) {
+  const nsvcd__sphere *sphere = &p->shapes[body].sphere;
+  const nsvcd__box *box = &p->shapes[other].box;
   const nsvcd__stance *now = p->stances + s * p->problem->body_count;
-  const nsvcd__stance *then = now + stride * p->problem->body_count;
-  const nsvcd__seen start = nsvcd__seen_from(&now[other], &now[body]);
-  const nsvcd__seen end = nsvcd__seen_from(&then[other], &then[body]);
-  const nsvcd__f3 way = nsvcd__f3_sub(end.centre, start.centre);
-  const float distance = start.distance + end.distance;
+  // its centre as `other` sees it at both ends, and how far it is from that one's origin, in sum
+  nsvcd__f3 seen[2];
+  float distance = 0;
+  for (size_t k = 0; k < 2; k++) {
+    const nsvcd__stance *at = now + k * stride * p->problem->body_count;
+    const nsvcd__transform *from = &at[other].pose;
+    const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
+    const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
+    seen[k] = nsvcd__mat3_apply_transpose(&from->rotation, centre);
+    distance += nsvcd__f3_length(centre);
+  }
 
   // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
   const float bend = now[body].bend + now[other].bend;
-  float strays = 0;
+  float strays = nsvcd__f3_length(sphere->centre) * bend * bend;
   if (rests) {
+    const nsvcd__f3 way = nsvcd__f3_sub(seen[1], seen[0]);
     const float length = fabsf(way.x) + fabsf(way.y) + fabsf(way.z);
     strays = (3.75f * bend * distance + 0.8f * length) * bend;
-  } else {
-    strays = nsvcd__f3_length(nsvcd__f3_load(sphere->centre)) * bend * bend;
   }
   const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
   const float grown = apart + (float)stride * strays + NSVCD__ROUNDING * distance;
   const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
-  const nsvcd__f3 low = nsvcd__f3_min(start.centre, end.centre);
-  const nsvcd__f3 high = nsvcd__f3_max(start.centre, end.centre);
-  const int above = nsvcd__f3_exceeds(low, nsvcd__f3_add(box.high, about));
-  const int below = nsvcd__f3_exceeds(nsvcd__f3_sub(box.low, about), high);
-  return above | below;
+  const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
+  const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
+  return nsvcd__f3_exceeds(low, nsvcd__f3_add(box->high, about)) |
+         nsvcd__f3_exceeds(nsvcd__f3_sub(box->low, about), high);
 }
 
 // Marks the segments (stride 1), or the moments (stride 0), in which a pair may meet: p->meets.
-static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair, size_t moments,
-                                 size_t stride) {
+static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                 size_t moments, size_t stride) {
   for (size_t s = 0; s + stride < moments; s++) {
     p->meets[s] = !nsvcd__passes_by(p, pair->a, pair->b, 0, s, stride) &&
                   !nsvcd__passes_by(p, pair->b, pair->a, 1, s, stride);
@@ -17240,34 +14993,24 @@ static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
   return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
 }
 
-// Adds to the wrenches (B, 6) a wrench on a, in b's axes, times `scale`, and what that does to b.
-// poses: (B).
-static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses, float scale,
-                              nsvcd__wrench seen, float *wrenches) {
-  const nsvcd_pose *a = &poses[pair->a];
-  const nsvcd_pose *b = &poses[pair->b];
-  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->rotation));
-  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, seen.force);
-  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, seen.torque);
-  const nsvcd__f3 from = nsvcd__f3_load(b->position);
-  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
+// Adds to the wrenches (B, 6) one on a that b sees, (6) in its axes, times `scale`, and what that
+// does to b. A wrench is the derivative by a pose: by the position, and by a small rotation about
+// it. poses: (B).
+static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
+                              float scale, const float *seen, float *wrenches) {
+  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(poses[pair->b].rotation));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen));
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen + 3));
+  const nsvcd__f3 from = nsvcd__f3_load(poses[pair->b].position);
+  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(poses[pair->a].position), from);
   const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
-  const nsvcd__wrench on_a = nsvcd__wrench_of(force, torque);
-  const nsvcd__wrench on_b = nsvcd__wrench_of(force, back);
-  nsvcd__wrench_add(nsvcd__wrench_scale(on_a, scale), wrenches + 6 * pair->a);
-  nsvcd__wrench_add(nsvcd__wrench_scale(on_b, -scale), wrenches + 6 * pair->b);
-}
-
-// The most suspicious moment of a trajectory.
-typedef struct nsvcd__worst {
-  float logit, time;
-  size_t pair;
-  int proven;  // a proof has found it, INSIDE too, or could not rule it out
-} nsvcd__worst;
-
-static nsvcd__worst nsvcd__worst_at_first(void) {
-  const nsvcd__worst none = {-NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
-  return none;
+  for (size_t k = 0; k < 4; k++) {
+    const float by = k < 2 ? scale : -scale;
+    float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
+    const nsvcd__f3 moment = k < 2 ? torque : back;
+    nsvcd__f3_store(nsvcd__f3_add_scaled(nsvcd__f3_load(row), by, k % 2 ? moment : force),
+                    row);
+  }
 }
 
 // The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
@@ -17298,154 +15041,116 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
 
   nsvcd_answer answer;
   nsvcd_result error;
-  nsvcd__answer_free(&answer);
+  memset(&answer, 0, sizeof answer);
+  // of an error
+  answer.logit = -NSVCD_LOGIT_CERTAIN;
   if (gradient)
     error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
   else
     error = nsvcd_sweep(&question, p->query, p->query_size, &answer);
-  if (error)
-    p->error = error;
+  if (error) p->error = error;
   p->sweeps++;
   return answer;
 }
 
-// The collision cost of a trajectory, as it is summed up.
-typedef struct nsvcd__collision {
+// How a trajectory, p->poses, is asked about.
+typedef struct nsvcd__asking {
   size_t moments;
-  size_t stride;        // 1: segments are asked about, 0: moments
-  float limit;          // a sum beyond it is not finished
-  float sum;            // the cost
-  int collides;         // in what was looked at
-  float *wrenches;      // (moments, B, 6), added to, or NULL
-  nsvcd__worst *worst;  // of the last check, which looks closer; NULL before
-} nsvcd__collision;
-
-// How many segments follow each other from s on in which the pair may meet: so many are asked about
-// at once.
-static size_t nsvcd__run_from(const nsvcd__planner *p, size_t s, size_t moments) {
-  size_t length = 1;
-  while (length < NSVCD__FIRST_LOOK_SEGMENTS && s + length + 1 < moments && p->meets[s + length])
-    length++;
-  return length;
-}
-
-// Remembers the answer about pair k at segment s, if it is the worst so far.
-static void nsvcd__note_worst(const nsvcd__collision *c, const nsvcd_answer *answer, uint32_t k,
-                              size_t s) {
-  nsvcd__worst *worst = c->worst;
-  if (!(answer->logit > worst->logit))
-    return;
-  worst->logit = answer->logit;
-  worst->pair = k;
-  worst->proven = answer->collides && answer->work > 0;  // only a proof takes work
-  worst->time = 0;
-  if (c->moments > 1) {
-    const float at = (float)s + (float)c->stride * answer->contact_time;
-    worst->time = at / (float)(c->moments - 1);
-  }
-}
+  // 1: segments are asked about, 0: moments
+  size_t stride;
+  // it is the last check
+  int at_end;
+  // a sum beyond it is not finished
+  float limit;
+  // (moments, B, 6), added to, or NULL
+  float *wrenches;
+} nsvcd__asking;
 
 // Adds what pair k costs from moment s to s + stride.
-static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s, nsvcd__collision *c) {
+static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
+                               const nsvcd__asking *how, nsvcd__cost *cost) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
-  const size_t bodies = p->problem->body_count;
   float gradient[2 * 6];
   float slope;
-  float *wanted = c->wrenches ? gradient : NULL;
-  const nsvcd_answer answer = nsvcd__ask(p, k, s, c->stride, c->worst != NULL, wanted);
-  if (c->worst)
-    nsvcd__note_worst(c, &answer, k, s);
-  c->collides |= answer.collides;
-  c->sum += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
-  if (!c->wrenches || !(slope > 0))
-    return;
-  for (size_t i = 0; i <= c->stride; i++) {
-    const size_t row = (s + i) * bodies;
-    const nsvcd__wrench seen = nsvcd__wrench_load(gradient + 6 * i);
-    nsvcd__add_wrench(pair, p->poses + row, slope, seen, c->wrenches + 6 * row);
+  float *wanted = how->wrenches ? gradient : NULL;
+  const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
+  if (answer.logit > cost->logit) {
+    const float at = (float)s + (float)how->stride * answer.contact_time;
+    cost->logit = answer.logit;
+    cost->pair = k;
+    // only a proof takes work
+    cost->proven = answer.collides && answer.work > 0;
+    cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
+  }
+  cost->collides |= answer.collides;
+  cost->collision += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+  for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
+    const size_t row = (s + i) * p->problem->body_count;
+    nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
   }
 }
 
 // Adds what pair k costs along the trajectory.
-static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, nsvcd__collision *c) {
-  const int looks_ahead = c->stride && !c->worst;
-  size_t seen = 0;  // up to here segments have had a first look
-  nsvcd__find_meetings(p, &p->problem->pairs[k], c->moments, c->stride);
-  for (size_t s = 0; s + c->stride < c->moments && c->sum <= c->limit && !p->error; s++) {
-    if (!p->meets[s])
-      continue;
+static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
+                            nsvcd__cost *cost) {
+  const int looks_ahead = how->stride && !how->at_end;
+  const size_t end = how->moments - how->stride;
+  // up to here segments have had a first look
+  size_t seen = 0;
+  nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
+  for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
+    if (!p->meets[s]) continue;
     if (looks_ahead && s >= seen) {
-      // Several segments at once: if they are far from a collision, that is all.
-      const size_t run = nsvcd__run_from(p, s, c->moments);
+      // The segments that follow in which the pair may meet, at once: if they are far from a
+      // collision, that is all.
+      size_t run = 1;
+      while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
       seen = s + run;
       if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
         s += run - 1;
         continue;
       }
     }
-    nsvcd__add_segment(p, k, s, c);
+    nsvcd__add_segment(p, k, s, how, cost);
   }
 }
 
-// Adds the network's cost of p->poses.
-static void nsvcd__add_pairs(nsvcd__planner *p, nsvcd__collision *c) {
-  nsvcd__find_stances(p, c->moments);
-  for (size_t n = 0; n < p->problem->pair_count && c->sum <= c->limit; n++) {
+// Adds the collision cost of p->poses, by the problem's own function or by the network, up to the
+// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: of the last check.
+static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
+                                 float *wrenches, int at_end, nsvcd__cost *cost) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t stride = !p->options.discrete && moments > 1;
+  const nsvcd__asking how = {moments, stride, at_end, limit, wrenches};
+  if (problem->collision) {
+    cost->collision =
+        problem->collision(problem->user, p->poses, moments, limit, &cost->collides, wrenches);
+    cost->logit = cost->collision;
+    return;
+  }
+  nsvcd__find_stances(p, moments);
+  for (size_t n = 0; n < problem->pair_count && cost->collision <= limit; n++) {
     const uint32_t k = p->queue[n];
-    const float before = c->sum;
-    nsvcd__add_pair(p, k, c);
+    const float before = cost->collision;
+    nsvcd__add_pair(p, k, &how, cost);
     // what costs comes earlier next time, so that bad trajectories end early
-    if (n > 0 && c->sum > before) {
+    if (n > 0 && cost->collision > before) {
       p->queue[n] = p->queue[n - 1];
       p->queue[n - 1] = k;
     }
   }
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// The collision cost of p->poses, by the problem's own function or by the network, up to the first
-// sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. worst: NULL but for the last
-// check, which wants to know it.
-static nsvcd__collision nsvcd__collision_of(nsvcd__planner *p, size_t moments, float limit,
-                                            float *wrenches, nsvcd__worst *worst) {
-  const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__collision c;
-  c.moments = moments;
-  c.stride = !p->options.discrete && moments > 1;
-  c.limit = limit;
-  c.sum = 0;
-  c.collides = 0;
-  c.wrenches = wrenches;
-  c.worst = worst;
-  if (!problem->collision) {
-    nsvcd__add_pairs(p, &c);
-    return c;
-  }
-  c.sum = problem->collision(problem->user, p->poses, moments, limit, &c.collides, wrenches);
-  if (worst)
-    worst->logit = c.sum;
-  return c;
-}
+// --------------------------------------------------------------------------------------- plan/cost
+// In: control points. Out: smoothness + limits + collision, and the derivative by the control
+// points.
 
-// ---- cost
-
-// The derivative by the joints of one moment, by_joints (F), from the wrenches (B, 6) there, by the
-// problem's Jacobian.
-static void nsvcd__by_jacobian(const nsvcd__planner *p, const float *joints, const float *wrenches,
-                               float *by_joints) {
-  const nsvcd_plan_problem *problem = p->problem;
-  const size_t f = problem->joints;
-  problem->jacobian(problem->user, joints, p->jacobian);
-  for (size_t j = 0; j < f; j++) {
-    by_joints[j] = 0;
-    for (size_t i = 0; i < 6 * problem->body_count; i++)
-      by_joints[j] += wrenches[i] * p->jacobian[i * f + j];
-  }
-}
-
-// The same by differences of `place`. poses: (B), at these joints.
-static void nsvcd__by_differences(const nsvcd__planner *p, const float *joints,
-                                  const nsvcd_pose *poses, const float *wrenches,
-                                  float *by_joints) {
+#ifndef NSVCD_NO_OPTIMIZER
+// The derivative by the joints of one moment, p->by_path (F), from the wrenches (B, 6) there, by
+// differences of `place`. poses: (B), at these joints.
+static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
+                                  const nsvcd_pose *poses, const float *wrenches) {
   const nsvcd_plan_problem *problem = p->problem;
   float moved[NSVCD_MAX_JOINTS];
   memcpy(moved, joints, problem->joints * sizeof *moved);
@@ -17454,17 +15159,16 @@ static void nsvcd__by_differences(const nsvcd__planner *p, const float *joints,
     const float step = moved[j] - joints[j];  // as rounded
     problem->place(problem->user, moved, p->moved);
     moved[j] = joints[j];
-    by_joints[j] = 0;
+    p->by_path[j] = 0;
     for (size_t b = 0; b < problem->body_count; b++) {
-      const nsvcd__wrench by = nsvcd__wrench_load(wrenches + 6 * b);
       const nsvcd__quat q = nsvcd__quat_load(poses[b].rotation);
       const nsvcd__quat r = nsvcd__quat_load(p->moved[b].rotation);
       const float twice = nsvcd__quat_dot(q, r) < 0 ? -2.0f : 2.0f;
       const nsvcd__f3 turn = nsvcd__f3_scale(nsvcd__quat_turn(q, r), twice / step);
       const nsvcd__f3 from = nsvcd__f3_load(poses[b].position);
       const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__f3_load(p->moved[b].position), from);
-      by_joints[j] += nsvcd__f3_dot(by.force, way) / step;
-      by_joints[j] += nsvcd__f3_dot(by.torque, turn);
+      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b), way) / step;
+      p->by_path[j] += nsvcd__f3_dot(nsvcd__f3_row(wrenches, 2 * b + 1), turn);
     }
   }
 }
@@ -17476,10 +15180,8 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
   const nsvcd_plan_problem *problem = p->problem;
   const size_t bodies = problem->body_count;
   const size_t count = moments * bodies;
-  for (size_t s = 0; s < moments; s++) {
-    const float *row = joints + s * problem->joints;
-    problem->place(problem->user, row, poses + s * bodies);
-  }
+  for (size_t s = 0; s < moments; s++)
+    problem->place(problem->user, joints + s * problem->joints, poses + s * bodies);
   if (count > 0 && !nsvcd__poses_are_valid(poses, count)) {
     p->error = NSVCD_ERROR_POSE;
     return;
@@ -17498,28 +15200,14 @@ static float nsvcd__smoothness(const nsvcd__planner *p, const nsvcd__stage *stag
   double smoothness = 0;
   for (size_t j = 0; j < f; j++) {
     for (size_t i = 0; i < all; i++) {
-      const double *row = stage->form + i * all;
       double sum = 0;
       for (size_t k = 0; k < all; k++)
-        sum += row[k] * (double)control[k * f + j];
+        sum += stage->form[i * all + k] * (double)control[k * f + j];
       smoothness += sum * (double)control[i * f + j];
-      if (gradient)
-        gradient[i * f + j] = (float)(2 * sum);
+      if (gradient) gradient[i * f + j] = (float)(2 * sum);
     }
   }
   return (float)smoothness;
-}
-
-// By how much a joint is out of its limits, or nearer to them than the margin; with its sign.
-static float nsvcd__beyond_limits(const nsvcd_plan_problem *problem, size_t joint, float value) {
-  const float low = problem->low[joint];
-  const float high = problem->high[joint];
-  const float inner = NSVCD__LIMIT_MARGIN * (high - low);
-  if (value < low + inner)
-    return value - low - inner;
-  if (value > high - inner)
-    return value - high + inner;
-  return 0;
 }
 
 static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint, float value) {
@@ -17527,125 +15215,116 @@ static int nsvcd__leaves_limits(const nsvcd_plan_problem *problem, size_t joint,
   return value < problem->low[joint] - rounding || value > problem->high[joint] + rounding;
 }
 
-// A joint that leaves its limits at a via point, or NSVCD_NONE: moments may be few, and miss it.
-static size_t nsvcd__joint_beyond(const nsvcd_plan_problem *problem, size_t via,
-                                  const float *control) {
+// Fills p->path with the joints at the moments of a trajectory, and adds what it costs that they
+// leave their limits, or come nearer to these than the margin. gradient: (M + 2, F), added to, or
+// NULL.
+static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
+                              const float *control, float *gradient, nsvcd__cost *cost) {
+  const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
-  for (size_t k = f; k < (via + 1) * f; k++) {
-    if (nsvcd__leaves_limits(problem, k % f, control[k]))
-      return k % f;
-  }
-  return NSVCD_NONE;
-}
-
-// Fills p->path with the joints at the moments of a trajectory, and adds what leaving the limits
-// costs. gradient: (M + 2, F), added to, or NULL.
-static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage, const float *control,
-                              float *gradient, nsvcd__cost *cost) {
-  const size_t f = p->problem->joints;
   const size_t all = stage->via + 2;
   const float share = NSVCD__LIMIT_COST / (float)stage->moments;
-  cost->joint = nsvcd__joint_beyond(p->problem, stage->via, control);
+  // via points too: moments may be few, and miss one
+  for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
+    if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
+  }
   for (size_t s = 0; s < stage->moments; s++) {
     const float *w = stage->weights + s * all;
     for (size_t j = 0; j < f; j++) {
       float value = 0;
-      for (size_t k = 0; k < all; k++)
-        value += w[k] * control[k * f + j];
+      for (size_t k = 0; k < all; k++) value += w[k] * control[k * f + j];
       p->path[s * f + j] = value;
 
-      const float out = nsvcd__beyond_limits(p->problem, j, value);
+      const float low = problem->low[j];
+      const float high = problem->high[j];
+      const float inner = NSVCD__LIMIT_MARGIN * (high - low);
+      float out = value > high - inner ? value - high + inner : 0;
+      if (value < low + inner) out = value - low - inner;
       cost->total += share * out * out;
-      if (nsvcd__leaves_limits(p->problem, j, value))
-        cost->joint = j;
+      if (nsvcd__leaves_limits(problem, j, value)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
         gradient[k * f + j] += 2 * share * out * w[k];
     }
   }
 }
 
-// Adds what collisions cost at p->poses, up to `limit` for the total. wrenches: (moments, B, 6),
-// written, or NULL.
-static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit, float *wrenches,
-                                 nsvcd__worst *worst, nsvcd__cost *cost) {
-  const float weight = p->options.collision;
-  const float left = weight > 0 ? (limit - cost->total) / weight : INFINITY;
-  if (wrenches)
-    memset(wrenches, 0, moments * p->problem->body_count * 6 * sizeof *wrenches);
-  NSVCD__TALLY(collision, 0);  // begins
-  const nsvcd__collision c = nsvcd__collision_of(p, moments, left, wrenches, worst);
-  NSVCD__TALLY(collision, 1);  // ends
-  cost->collides = c.collides;
-  cost->collision = c.sum;
-  cost->total += weight * c.sum;
-}
-
-// Is any of so many numbers other than 0?
-static int nsvcd__has_any(const float *numbers, size_t count) {
-  for (size_t k = 0; k < count; k++) {
-    if (numbers[k] < 0 || numbers[k] > 0)
-      return 1;
-  }
-  return 0;
-}
-
 // Adds to the gradient by the control points what p->wrenches say.
-static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage, float *gradient) {
-  const size_t f = p->problem->joints;
-  const size_t bodies = p->problem->body_count;
+static void nsvcd__add_wrenches(nsvcd__planner *p, const nsvcd__stage *stage,
+                                float *gradient) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t f = problem->joints;
+  const size_t numbers = 6 * problem->body_count;
   const size_t all = stage->via + 2;
   for (size_t s = 0; s < stage->moments; s++) {
     const float *joints = p->path + s * f;
-    const float *wrenches = p->wrenches + 6 * s * bodies;
-    if (!nsvcd__has_any(wrenches, 6 * bodies))
-      continue;
-    if (p->problem->jacobian)
-      nsvcd__by_jacobian(p, joints, wrenches, p->by_path);
-    else
-      nsvcd__by_differences(p, joints, p->poses + s * bodies, wrenches, p->by_path);
+    const float *wrenches = p->wrenches + s * numbers;
+    int has_any = 0;
+    for (size_t k = 0; k < numbers && !has_any; k++)
+      has_any = wrenches[k] < 0 || wrenches[k] > 0;
+    if (!has_any) continue;
+    if (problem->jacobian) {
+      problem->jacobian(problem->user, joints, p->jacobian);
+      for (size_t j = 0; j < f; j++) {
+        p->by_path[j] = 0;
+        for (size_t i = 0; i < numbers; i++)
+          p->by_path[j] += wrenches[i] * p->jacobian[i * f + j];
+      }
+    } else {
+      nsvcd__by_differences(p, joints, p->poses + s * problem->body_count, wrenches);
+    }
     for (size_t k = 0; k < all; k++) {
       const float weight = p->options.collision * stage->weights[s * all + k];
-      for (size_t j = 0; j < f; j++)
-        gradient[k * f + j] += weight * p->by_path[j];
+      for (size_t j = 0; j < f; j++) gradient[k * f + j] += weight * p->by_path[j];
     }
   }
 }
 
 // What the trajectory costs, up to `limit`: a sum beyond it is not finished. gradient: (M + 2, F),
-// written, or NULL. worst: NULL but for the last check.
+// written, or NULL. at_end: by the last check.
 static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
                                   const float *control, float limit, float *gradient,
-                                  nsvcd__worst *worst) {
-  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
+                                  int at_end) {
+  const size_t numbers = 6 * stage->moments * p->problem->body_count;
+  const float weight = p->options.collision;
+  float *wrenches = gradient ? p->wrenches : NULL;
+  nsvcd__cost cost = nsvcd__no_cost;
   p->trajectories++;
   cost.smoothness = nsvcd__smoothness(p, stage, control, gradient);
   cost.total = cost.smoothness;
   nsvcd__add_limits(p, stage, control, gradient, &cost);
-  if (cost.total > limit || p->error)
-    return cost;
+  if (cost.total > limit || p->error) return cost;
   nsvcd__place(p, p->path, stage->moments, p->poses);
-  if (p->error)
-    return cost;
-  float *wrenches = gradient ? p->wrenches : NULL;
-  nsvcd__add_collision(p, stage->moments, limit, wrenches, worst, &cost);
-  if (gradient)
-    nsvcd__add_wrenches(p, stage, gradient);
-  if (!nsvcd__is_finite(cost.total))
-    p->error = NSVCD_ERROR_NUMBER;
+  if (p->error) return cost;
+
+  const float left = weight > 0 ? (limit - cost.total) / weight : INFINITY;
+  if (wrenches) memset(wrenches, 0, numbers * sizeof *wrenches);
+  // begins
+  NSVCD__TALLY(collision, 0);
+  nsvcd__add_collision(p, stage->moments, left, wrenches, at_end, &cost);
+  // ends
+  NSVCD__TALLY(collision, 1);
+  cost.total += weight * cost.collision;
+  if (gradient) nsvcd__add_wrenches(p, stage, gradient);
+  if (!nsvcd__is_finite(cost.total)) p->error = NSVCD_ERROR_NUMBER;
   return cost;
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// ---- explore
+// ------------------------------------------------------------------------------------ plan/explore
+// In: a mean of control points. Out: a better one: smooth random changes, weighted by exp(-cost /
+// temperature).
 
-static double nsvcd__uniform(nsvcd__planner *p) {  // (0, 1]; splitmix64
-  uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
-}
-static double nsvcd__normal(nsvcd__planner *p) {  // Box and Muller
-  const double radius = sqrt(-2 * log(nsvcd__uniform(p)));
-  return radius * cos(6.283185307179586 * nsvcd__uniform(p));
+#ifndef NSVCD_NO_OPTIMIZER
+// A normal number: splitmix64, then Box and Muller.
+static double nsvcd__normal(nsvcd__planner *p) {
+  double uniform[2];  // (0, 1]
+  for (size_t k = 0; k < 2; k++) {
+    uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    uniform[k] = (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
+  }
+  return sqrt(-2 * log(uniform[0])) * cos(6.283185307179586 * uniform[1]);
 }
 
 // A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the
@@ -17655,21 +15334,19 @@ static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
   const size_t f = p->problem->joints;
   const size_t via = stage->via;
   for (size_t j = 0; j < f; j++) {
-    for (size_t k = 0; k < via; k++)
-      p->vector[k] = nsvcd__normal(p);
+    for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
     nsvcd__solve_upper(stage->factor, via, p->vector);
     const double scale = (double)deviations[j] / stage->deviation;
-    for (size_t k = 0; k < via; k++)
-      out[k * f + j] = (float)(scale * p->vector[k]);
+    for (size_t k = 0; k < via; k++) out[k * f + j] = (float)(scale * p->vector[k]);
   }
 }
 
 // control + scale * offset (M, F), with via points taken into the limits: out (M + 2, F).
-static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *control,
-                          const float *offset, float scale, float *out) {
+static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
+                          const float *control, const float *offset, float scale, float *out) {
   const size_t f = p->problem->joints;
-  memcpy(out, control, (via + 2) * f * sizeof *out);
-  for (size_t k = 0; k < via * f; k++) {
+  memcpy(out, control, stage->bytes);
+  for (size_t k = 0; k < stage->numbers; k++) {
     const float x = control[f + k] + scale * offset[k];
     const float low = p->problem->low[k % f];
     const float high = p->problem->high[k % f];
@@ -17678,35 +15355,15 @@ static void nsvcd__change(const nsvcd__planner *p, size_t via, const float *cont
   }
 }
 
-// Tells the caller how far an iteration has come. Returns what the callback returns: not 0 cancels.
-static int nsvcd__report(nsvcd__planner *p, size_t seed, size_t iteration,
-                         const nsvcd__stage *stage, const nsvcd__cost *best) {
-  nsvcd_plan_progress progress;
-  progress.seed = seed;
-  progress.iteration = iteration;
-  progress.iterations = stage->iterations;
-  progress.refining = stage == &p->refine;
-  progress.cost = best->total;
-  progress.collision = best->collision;
-  progress.control = p->best;
-  progress.via_points = stage->via;
-  return p->problem->progress && p->problem->progress(p->problem->user, &progress);
-}
-
-// The k-th smallest of costs (count).
-static float nsvcd__kth_cost(const float *costs, size_t count, size_t k) {
-  float kth = 0;
-  for (size_t i = 0; i < count; i++) {
-    size_t below = 0;
-    size_t not_above = 0;
-    for (size_t n = 0; n < count; n++) {
-      below += costs[n] < costs[i];
-      not_above += costs[n] <= costs[i];
-    }
-    if (below <= k && k < not_above)
-      kth = costs[i];
-  }
-  return kth;
+// Counts an iteration and tells the caller how far it has come, which may cancel the search.
+static void nsvcd__report(nsvcd__planner *p, size_t iteration, const nsvcd__stage *stage,
+                          const nsvcd__cost *best) {
+  const int refining = stage == &p->refine;
+  const nsvcd_plan_progress progress = {p->seed,  iteration,   stage->iterations,
+                                        refining, best->total, best->collision,
+                                        p->best,  stage->via};
+  p->iterations++;
+  if (p->problem->progress) p->cancelled = p->problem->progress(p->problem->user, &progress);
 }
 
 // The deviations (F) of the first rollouts: no more than a quarter of a joint's range.
@@ -17719,300 +15376,241 @@ static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) 
 
 // Where MPPI is.
 typedef struct nsvcd__exploring {
-  float deviations[NSVCD_MAX_JOINTS];  // of the rollouts, joint by joint
-  float first[NSVCD_MAX_JOINTS];       // what they were
-  float temperature;                   // 0 at first
-  float least;                         // cost, of the last rollouts
-  nsvcd__cost best;                    // of all
+  // of the rollouts, joint by joint
+  float deviations[NSVCD_MAX_JOINTS];
+  // what they were
+  float first[NSVCD_MAX_JOINTS];
+  float temperature;  // 0 at first
+  // cost, of the last rollouts
+  float least;
+  nsvcd__cost best;  // of all
 } nsvcd__exploring;
 
-// Draws the n-th rollout: p->trial, and its offset (M, F) from p->control. None, then the best so
-// far, then noise.
-static void nsvcd__draw(nsvcd__planner *p, const nsvcd__exploring *at, size_t n, float *offset) {
-  const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
-  const size_t numbers = stage->via * f;
-  if (n > 0)
-    nsvcd__smooth_noise(p, stage, at->deviations, offset);
-  if (n == 0)
-    memset(offset, 0, numbers * sizeof *offset);
-  if (n == 1) {  // the best so far competes
-    for (size_t k = 0; k < numbers; k++)
-      offset[k] = p->best[f + k] - p->control[f + k];
-  }
-  nsvcd__change(p, stage->via, p->control, offset, 1, p->trial);
-  for (size_t k = 0; k < numbers; k++)
-    offset[k] = p->trial[f + k] - p->control[f + k];
-}
-
-// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best.
+// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best. The
+// first has no offset (M, F), the second is the best so far, which competes, the others are noise.
 static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
   const size_t f = p->problem->joints;
-  const size_t bytes = (stage->via + 2) * f * sizeof *p->best;
   at->least = INFINITY;
   for (size_t n = 0; n < stage->draws; n++) {
-    nsvcd__draw(p, at, n, p->drawn + n * stage->via * f);
+    float *offset = p->drawn + n * stage->numbers;
+    if (n > 0) nsvcd__smooth_noise(p, stage, at->deviations, offset);
+    for (size_t k = 0; n < 2 && k < stage->numbers; k++)
+      offset[k] = n > 0 ? p->best[f + k] - p->control[f + k] : 0;
+    nsvcd__change(p, stage, p->control, offset, 1, p->trial);
+    for (size_t k = 0; k < stage->numbers; k++)
+      offset[k] = p->trial[f + k] - p->control[f + k];
+
     // The cost of one that weighs nothing need not be known exactly.
     float limit = INFINITY;
-    if (at->temperature > 0)
-      limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, NULL);
+    if (at->temperature > 0) limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, 0);
     p->costs[n] = cost.total;
-    if (cost.total < at->least)
-      at->least = cost.total;
-    if (cost.total >= at->best.total || cost.total > limit)
-      continue;
+    if (cost.total < at->least) at->least = cost.total;
+    if (cost.total >= at->best.total || cost.total > limit) continue;
     at->best = cost;
-    memcpy(p->best, p->trial, bytes);
+    memcpy(p->best, p->trial, stage->bytes);
   }
 }
 
-// Turns p->costs into weights, whose sum is 1, and p->sum into the mean of the offsets.
+// Turns p->costs into weights, whose sum is 1, p->sum into the mean of the offsets, and takes the
+// deviations towards those of the good rollouts about their mean, slowly.
 static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t numbers = stage->via * p->problem->joints;
-  const float elite = nsvcd__kth_cost(p->costs, stage->draws, stage->draws / NSVCD__ELITE);
+  const size_t f = p->problem->joints;
+  const size_t draws = stage->draws;
+  const size_t rank = draws / NSVCD__ELITE;
+  // the cost of that rank
+  float elite = 0;
   float total = 0;
+  for (size_t i = 0; i < draws; i++) {
+    size_t below = 0;
+    size_t not_above = 0;
+    for (size_t n = 0; n < draws; n++) {
+      below += p->costs[n] < p->costs[i];
+      not_above += p->costs[n] <= p->costs[i];
+    }
+    if (below <= rank && rank < not_above) elite = p->costs[i];
+  }
   at->temperature = 0.5f * (elite - at->least) + 1e-6f * (1 + at->least);
-  memset(p->sum, 0, numbers * sizeof *p->sum);
-  for (size_t n = 0; n < stage->draws; n++) {
+  for (size_t n = 0; n < draws; n++) {
     p->costs[n] = expf((at->least - p->costs[n]) / at->temperature);
     total += p->costs[n];
   }
-  for (size_t n = 0; n < stage->draws; n++) {
-    const float *offset = p->drawn + n * numbers;
+  memset(p->sum, 0, stage->numbers * sizeof *p->sum);
+  for (size_t n = 0; n < draws; n++) {
     const float weight = p->costs[n] / total;
-    p->costs[n] = weight;
-    if (!(weight > 1e-9f))
-      continue;
-    for (size_t k = 0; k < numbers; k++)
-      p->sum[k] += weight * offset[k];
+    p->costs[n] = weight > 1e-9f ? weight : 0;
+    for (size_t k = 0; weight > 1e-9f && k < stage->numbers; k++)
+      p->sum[k] += weight * p->drawn[n * stage->numbers + k];
   }
-}
 
-// Takes the deviation of a joint towards that of the good rollouts about their mean, slowly.
-static void nsvcd__adapt_deviation(const nsvcd__planner *p, size_t joint, nsvcd__exploring *at) {
-  const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
-  const size_t numbers = stage->via * f;
-  const float now = at->deviations[joint];
-  const float first = at->first[joint];
-  float square = 0;
-  for (size_t n = 0; n < stage->draws; n++) {
-    const float weight = p->costs[n];
-    if (!(weight > 1e-9f))
-      continue;
-    for (size_t k = joint; k < numbers; k += f) {
-      const float d = p->drawn[n * numbers + k] - p->sum[k];
-      square += weight * d * d / (float)stage->via;
+  for (size_t j = 0; j < f; j++) {
+    const float now = at->deviations[j];
+    const float least = 1e-3f * at->first[j] * at->first[j];
+    float square = 0;
+    for (size_t n = 0; n < draws; n++) {
+      for (size_t k = j; p->costs[n] > 0 && k < stage->numbers; k += f) {
+        const float d = p->drawn[n * stage->numbers + k] - p->sum[k];
+        square += p->costs[n] * d * d / (float)stage->via;
+      }
     }
+    const float variance = 0.9f * now * now + 0.1f * 2 * square;
+    at->deviations[j] = sqrtf(variance > least ? variance : least);
   }
-  const float variance = 0.9f * now * now + 0.1f * 2 * square;
-  const float least = 1e-3f * first * first;
-  at->deviations[joint] = sqrtf(variance > least ? variance : least);
 }
-
-// A search as it goes: of one seed.
-typedef struct nsvcd__searching {
-  size_t seed;
-  size_t iterations;  // of all seeds, both stages
-  int cancelled;      // by the progress callback
-} nsvcd__searching;
 
 // MPPI from p->control, the mean, on; leaves the best trajectory in p->best.
-static void nsvcd__explore(nsvcd__planner *p, nsvcd__searching *search) {
+static void nsvcd__explore(nsvcd__planner *p) {
   const nsvcd__stage *stage = &p->explore;
-  const size_t f = p->problem->joints;
-  const size_t bytes = (stage->via + 2) * f * sizeof(float);
   nsvcd__exploring at;
   memset(&at, 0, sizeof at);
-  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, NULL);
-  memcpy(p->best, p->control, bytes);
+  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, 0);
+  memcpy(p->best, p->control, stage->bytes);
   nsvcd__first_deviations(p, at.first);
-  nsvcd__first_deviations(p, at.deviations);
+  memcpy(at.deviations, at.first, sizeof at.deviations);
   float before = at.best.total;
   size_t waited = 0;
   for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
-    if (search->cancelled || p->error)
-      break;
+    if (p->cancelled || p->error) break;
     nsvcd__roll_out(p, &at);
-    if (p->error)
-      break;
+    if (p->error) break;
     nsvcd__weigh_rollouts(p, &at);
-    for (size_t j = 0; j < f; j++)
-      nsvcd__adapt_deviation(p, j, &at);
-    nsvcd__change(p, stage->via, p->control, p->sum, NSVCD__MEAN_STEP, p->trial);
-    memcpy(p->control, p->trial, bytes);
-    search->iterations++;
+    nsvcd__change(p, stage, p->control, p->sum, NSVCD__MEAN_STEP, p->trial);
+    memcpy(p->control, p->trial, stage->bytes);
 
     const int better = at.best.total < 0.99f * before;
     waited = !nsvcd__is_free(&at.best) || better ? 0 : waited + 1;
     before = better ? at.best.total : before;
-    search->cancelled = nsvcd__report(p, search->seed, i, stage, &at.best);
+    nsvcd__report(p, i, stage, &at.best);
   }
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// ---- refine
+// ------------------------------------------------------------------------------------- plan/refine
+// In: control points. Out: better ones: L-BFGS with bundled gradients, in the metric of the
+// smoothness.
 
+#ifndef NSVCD_NO_OPTIMIZER
 static double nsvcd__dot(const float *a, const float *b, size_t count) {
   double sum = 0;
-  for (size_t k = 0; k < count; k++)
-    sum += (double)a[k] * (double)b[k];
+  for (size_t k = 0; k < count; k++) sum += (double)a[k] * (double)b[k];
   return sum;
-}
-
-// x (M, F) times the inverse of the smoothness' form, in place.
-static void nsvcd__by_metric(nsvcd__planner *p, const nsvcd__stage *stage, float *x) {
-  const size_t f = p->problem->joints;
-  const size_t via = stage->via;
-  for (size_t j = 0; j < f; j++) {
-    for (size_t k = 0; k < via; k++)
-      p->vector[k] = (double)x[k * f + j];
-    nsvcd__solve_lower(stage->factor, via, p->vector);
-    nsvcd__solve_upper(stage->factor, via, p->vector);
-    for (size_t k = 0; k < via; k++)
-      x[k * f + j] = (float)p->vector[k];
-  }
 }
 
 // The mean of the gradients at control + each of the bundle's offsets, p->drawn: p->sum (M, F).
 static void nsvcd__bundled_gradient(nsvcd__planner *p, const nsvcd__stage *stage,
                                     const float *control) {
   const size_t f = p->problem->joints;
-  const size_t numbers = stage->via * f;
-  memset(p->sum, 0, numbers * sizeof *p->sum);
+  memset(p->sum, 0, stage->numbers * sizeof *p->sum);
   for (size_t n = 0; n < stage->draws && !p->error; n++) {
-    nsvcd__change(p, stage->via, control, p->drawn + n * numbers, 1, p->trial);
-    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, NULL);
-    for (size_t k = 0; k < numbers; k++)
+    nsvcd__change(p, stage, control, p->drawn + n * stage->numbers, 1, p->trial);
+    nsvcd__cost_of(p, stage, p->trial, INFINITY, p->gradient, 0);
+    for (size_t k = 0; k < stage->numbers; k++)
       p->sum[k] += p->gradient[f + k] / (float)stage->draws;
   }
 }
 
-// What L-BFGS remembers: the `kept` steps before step `next`, and what each changed in the
-// gradient.
-typedef struct nsvcd__history {
-  size_t kept, next;
-} nsvcd__history;
-
 // The n-th step, or change of the gradient along it, of which the last HISTORY are kept.
-static float *nsvcd__remembered(float *rows, size_t n, size_t numbers) {
-  return rows + n % NSVCD__HISTORY * numbers;
+static float *nsvcd__remembered(float *rows, size_t n, const nsvcd__stage *stage) {
+  return rows + n % NSVCD__HISTORY * stage->numbers;
 }
 
 // L-BFGS's direction for the gradient in p->sum: p->offset (M, F). It starts from half the inverse
-// of the smoothness' form, which is exact where nothing collides.
-static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage,
-                             const nsvcd__history *history) {
-  const size_t numbers = stage->via * p->problem->joints;
+// of the smoothness' form, which is exact where nothing collides, and knows of the `kept` steps
+// before step `next` what each changed in the gradient.
+static void nsvcd__direction(nsvcd__planner *p, const nsvcd__stage *stage, size_t kept,
+                             size_t next) {
+  const size_t numbers = stage->numbers;
+  const size_t f = p->problem->joints;
   double alpha[NSVCD__HISTORY];
   float *d = p->offset;
-  for (size_t k = 0; k < numbers; k++)
-    d[k] = -p->sum[k];
-  for (size_t n = 1; n <= history->kept; n++) {
-    const float *s = nsvcd__remembered(p->steps, history->next - n, numbers);
-    const float *y = nsvcd__remembered(p->changes, history->next - n, numbers);
+  for (size_t k = 0; k < numbers; k++) d[k] = -p->sum[k];
+  for (size_t n = 1; n <= kept; n++) {
+    const float *s = nsvcd__remembered(p->steps, next - n, stage);
+    const float *y = nsvcd__remembered(p->changes, next - n, stage);
     alpha[n - 1] = nsvcd__dot(s, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++)
-      d[k] -= (float)alpha[n - 1] * y[k];
+    for (size_t k = 0; k < numbers; k++) d[k] -= (float)alpha[n - 1] * y[k];
   }
-  nsvcd__by_metric(p, stage, d);
-  for (size_t k = 0; k < numbers; k++)
-    d[k] *= 0.5f;
-  for (size_t n = history->kept; n > 0; n--) {
-    const float *s = nsvcd__remembered(p->steps, history->next - n, numbers);
-    const float *y = nsvcd__remembered(p->changes, history->next - n, numbers);
+  for (size_t j = 0; j < f; j++) {
+    for (size_t k = 0; k < stage->via; k++) p->vector[k] = (double)d[k * f + j];
+    nsvcd__solve_lower(stage->factor, stage->via, p->vector);
+    nsvcd__solve_upper(stage->factor, stage->via, p->vector);
+    for (size_t k = 0; k < stage->via; k++) d[k * f + j] = 0.5f * (float)p->vector[k];
+  }
+  for (size_t n = kept; n > 0; n--) {
+    const float *s = nsvcd__remembered(p->steps, next - n, stage);
+    const float *y = nsvcd__remembered(p->changes, next - n, stage);
     const double beta = nsvcd__dot(y, d, numbers) / nsvcd__dot(s, y, numbers);
-    for (size_t k = 0; k < numbers; k++)
-      d[k] += (float)(alpha[n - 1] - beta) * s[k];
-  }
-}
-
-// Finishes the change along the last step, which is known as minus the gradient before it. Forgets
-// the step if the gradient does not grow along it.
-static void nsvcd__finish_change(nsvcd__planner *p, size_t numbers, nsvcd__history *history) {
-  if (history->kept == 0)
-    return;
-  const float *step = nsvcd__remembered(p->steps, history->next - 1, numbers);
-  float *change = nsvcd__remembered(p->changes, history->next - 1, numbers);
-  for (size_t k = 0; k < numbers; k++)
-    change[k] += p->sum[k];
-  if (nsvcd__dot(step, change, numbers) > 1e-12)
-    return;
-  history->next--;
-  history->kept--;
-}
-
-// Remembers the step from p->control to p->best.
-static void nsvcd__remember_step(nsvcd__planner *p, size_t numbers, nsvcd__history *history) {
-  const size_t f = p->problem->joints;
-  float *step = nsvcd__remembered(p->steps, history->next, numbers);
-  float *change = nsvcd__remembered(p->changes, history->next, numbers);
-  for (size_t k = 0; k < numbers; k++) {
-    step[k] = p->best[f + k] - p->control[f + k];
-    change[k] = -p->sum[k];
-  }
-  history->next++;
-  history->kept = history->kept < NSVCD__HISTORY ? history->kept + 1 : history->kept;
-}
-
-// Tries steps of several lengths along p->offset from p->control. Where one is better than *best,
-// it is that, and p->best.
-static void nsvcd__try_steps(nsvcd__planner *p, const nsvcd__stage *stage, nsvcd__cost *best) {
-  static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
-  const size_t point = (stage->via + 2) * p->problem->joints * sizeof(float);
-  for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
-    nsvcd__change(p, stage->via, p->control, p->offset, lengths[n], p->trial);
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best->total, NULL, NULL);
-    if (!(cost.total < best->total))
-      continue;
-    *best = cost;
-    memcpy(p->best, p->trial, point);
+    for (size_t k = 0; k < numbers; k++) d[k] += (float)(alpha[n - 1] - beta) * s[k];
   }
 }
 
 // L-BFGS from p->best on, which it improves. Ends early where not even the first direction leads
 // down.
-static void nsvcd__refine(nsvcd__planner *p, nsvcd__searching *search) {
+static void nsvcd__refine(nsvcd__planner *p) {
+  static const float lengths[NSVCD__STEPS] = {1, 0.5f, 0.2f, 0.05f, 0.01f};
   const nsvcd__stage *stage = &p->refine;
   const size_t f = p->problem->joints;
-  const size_t numbers = stage->via * f;
-  const size_t point = (stage->via + 2) * f * sizeof(float);
+  const size_t numbers = stage->numbers;
   float deviations[NSVCD_MAX_JOINTS];
-  nsvcd__history history = {0, 0};
+  // steps, before step `next`
+  size_t kept = 0;
+  size_t next = 0;
   int stuck = 0;
-  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, NULL);
+  nsvcd__cost best = nsvcd__cost_of(p, stage, p->best, INFINITY, NULL, 0);
 
   // The same offsets at each iteration: the mean is then a function, and its gradients differ by
   // where they are taken.
-  for (size_t j = 0; j < f; j++)
-    deviations[j] = stage->noise;
+  for (size_t j = 0; j < f; j++) deviations[j] = stage->noise;
   for (size_t n = 0; n < stage->draws; n++)
     nsvcd__smooth_noise(p, stage, deviations, p->drawn + n * numbers);
 
-  for (size_t i = 0; i < stage->iterations; i++) {
-    if (stuck || search->cancelled || p->error)
-      break;
+  for (size_t i = 0; i < stage->iterations && !stuck && !p->cancelled && !p->error; i++) {
     const float before = best.total;
-    memcpy(p->control, p->best, point);
+    memcpy(p->control, p->best, stage->bytes);
     nsvcd__bundled_gradient(p, stage, p->control);
-    nsvcd__finish_change(p, numbers, &history);
-    nsvcd__direction(p, stage, &history);
-    nsvcd__try_steps(p, stage, &best);
-    if (best.total < before) {
-      nsvcd__remember_step(p, numbers, &history);
-    } else {
-      stuck = history.kept == 0;
-      history.kept = 0;
+    if (kept > 0) {
+      // The change along the last step is known as minus the gradient before it. The step is
+      // forgotten if the gradient does not grow along it.
+      const float *step = nsvcd__remembered(p->steps, next - 1, stage);
+      float *change = nsvcd__remembered(p->changes, next - 1, stage);
+      for (size_t k = 0; k < numbers; k++) change[k] += p->sum[k];
+      const int grows = nsvcd__dot(step, change, numbers) > 1e-12;
+      next -= !grows;
+      kept -= !grows;
     }
-    search->iterations++;
-    search->cancelled = nsvcd__report(p, search->seed, i, stage, &best);
+    nsvcd__direction(p, stage, kept, next);
+    for (size_t n = 0; n < NSVCD__STEPS && !p->error; n++) {
+      nsvcd__change(p, stage, p->control, p->offset, lengths[n], p->trial);
+      const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, best.total, NULL, 0);
+      if (!(cost.total < best.total)) continue;
+      best = cost;
+      memcpy(p->best, p->trial, stage->bytes);
+    }
+    if (best.total < before) {
+      float *step = nsvcd__remembered(p->steps, next, stage);
+      float *change = nsvcd__remembered(p->changes, next, stage);
+      for (size_t k = 0; k < numbers; k++) {
+        step[k] = p->best[f + k] - p->control[f + k];
+        change[k] = -p->sum[k];
+      }
+      next++;
+      kept += kept < NSVCD__HISTORY;
+    } else {
+      stuck = kept == 0;
+      kept = 0;
+    }
+    nsvcd__report(p, i, stage, &best);
   }
 }
+#endif  // NSVCD_NO_OPTIMIZER
 
-// ---- plan
+// --------------------------------------------------------------------------------------- plan/plan
+// In: a planning problem. Out: control points of a motion that is checked to hit nothing, or the
+// best there is.
 
+#ifndef NSVCD_NO_OPTIMIZER
 // The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
 static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
   const size_t f = p->problem->joints;
@@ -18027,200 +15625,97 @@ static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float
     }
     nsvcd__solve_lower(stage->factor, via, p->vector);
     nsvcd__solve_upper(stage->factor, via, p->vector);
-    for (size_t k = 0; k < via; k++)
-      control[(k + 1) * f + j] = (float)p->vector[k];
+    for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
   }
   memcpy(control, p->problem->start, f * sizeof *control);
   memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
 }
 
-// Turns p->best into nearly the same curve through another number of via points. These are taken
-// into the limits, for a curve may leave them between two points.
-static void nsvcd__resample(nsvcd__planner *p, size_t from, size_t to) {
-  const size_t f = p->problem->joints;
-  if (from == to)
-    return;
-  for (size_t k = 0; k < to + 2; k++) {
-    const float t = (float)k / (float)(to + 1);
-    nsvcd_spline(p->best, from, f, t, 0, p->trial + k * f);
-  }
-  nsvcd__change(p, to, p->trial, p->trial, 0, p->best);
-}
-
 // Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
 static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
   const nsvcd_plan_problem *problem = p->problem;
-  nsvcd__worst worst = nsvcd__worst_at_first();
+  nsvcd__cost cost = nsvcd__no_cost;
   answer->logit = 0;
   answer->pair = NSVCD_NONE;
   for (size_t j = 0; j < problem->joints; j++) {
-    if (joints[j] < problem->low[j] || joints[j] > problem->high[j])
-      answer->joint = j;
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
   }
-  if (answer->joint != NSVCD_NONE)
-    return 0;
+  if (answer->joint != NSVCD_NONE) return 0;
   nsvcd__place(p, joints, 1, p->poses);
-  if (p->error)
-    return 0;
-  answer->collides = nsvcd__collision_of(p, 1, INFINITY, NULL, &worst).collides;
-  answer->logit = worst.logit;
-  answer->pair = worst.pair;
-  return !answer->collides;
+  if (p->error) return 0;
+  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, &cost);
+  answer->collides = cost.collides;
+  answer->logit = cost.logit;
+  answer->pair = cost.pair;
+  return !cost.collides;
 }
 
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options) {
   nsvcd__planner planner;
-  if (!nsvcd__planner_settings(problem, options, &planner))
-    return 0;
+  if (!nsvcd__planner_settings(problem, options, &planner)) return 0;
   return nsvcd__planner_memory(&planner, NULL);
 }
 
-// Are limits, start and goal finite and within bounds, and no lower limit above the upper one?
-static nsvcd_result nsvcd__limits_check(const nsvcd_plan_problem *problem) {
-  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
-  for (size_t j = 0; j < problem->joints; j++) {
-    const float low = problem->low[j];
-    const float high = problem->high[j];
-    const float ends[4] = {low, high, problem->start[j], problem->goal[j]};
-    for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(ends[k]) > most)
-        return NSVCD_ERROR_NUMBER;
-    }
-    if (low > high)
-      return NSVCD_ERROR_ARGUMENT;
-  }
-  return NSVCD_OK;
-}
-
-// Makes the planner ready in its memory, and looks at start and goal: found->status.
-static void nsvcd__planner_begin(nsvcd__planner *p, nsvcd_plan_answer *found) {
-  const nsvcd_plan_problem *problem = p->problem;
+// What the planner knows of a problem beforehand, in its memory.
+static void nsvcd__planner_begin(nsvcd__planner *p) {
   nsvcd__stage_init(&p->options, &p->explore);
   nsvcd__stage_init(&p->options, &p->refine);
   nsvcd__stage_init(&p->options, &p->check);
-  nsvcd__find_boxes(p);
-  for (size_t k = 0; k < problem->pair_count; k++)
-    p->queue[k] = (uint32_t)k;
+  nsvcd__find_shapes(p);
+  for (size_t k = 0; k < p->problem->pair_count; k++) p->queue[k] = (uint32_t)k;
   p->random = p->options.seed;
-  found->via_points = p->refine.via;
-  if (!nsvcd__is_good(p, problem->start, found)) {
-    found->status = NSVCD_PLAN_START;
-  } else if (!nsvcd__is_good(p, problem->goal, found)) {
-    found->status = NSVCD_PLAN_GOAL;
-    found->time = 1;
-  }
-  nsvcd__smoothest(p, &p->refine, p->best);
 }
 
-// Fills p->control with where a seed starts from: the smoothest way, or a random one.
-static void nsvcd__start_seed(nsvcd__planner *p, size_t seed) {
-  float deviations[NSVCD_MAX_JOINTS];
-  const size_t numbers = (p->explore.via + 2) * p->problem->joints;
-  nsvcd__smoothest(p, &p->explore, p->control);
-  if (seed == 0)
-    return;
-  nsvcd__first_deviations(p, deviations);
-  nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
-  nsvcd__change(p, p->explore.via, p->control, p->offset, 1, p->trial);
-  memcpy(p->control, p->trial, numbers * sizeof(float));
-}
-
-// Refines p->best until the last check finds it free, with a wider margin each time that the proof
-// finds a hit. Returns the cost of that check.
-static nsvcd__cost nsvcd__refine_and_check(nsvcd__planner *p, nsvcd__searching *search,
-                                           nsvcd__worst *worst) {
-  const float margin = p->options.margin;
-  nsvcd__cost cost = {0, 0, 0, 0, NSVCD_NONE};
-  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
-    *worst = nsvcd__worst_at_first();
-    nsvcd__refine(p, search);
-    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, worst);
-    if (nsvcd__is_free(&cost) || search->cancelled || p->error || !worst->proven)
-      break;
-    p->options.margin = 2 * p->options.margin + 0.5f;
-  }
-  p->options.margin = margin;
-  return cost;
-}
-
-// A look at where the spline is, some share of the way through a segment of the last check.
-typedef struct nsvcd__look {
-  double share;
-  const nsvcd_pose *from;  // (B): the segment's ends
-  const nsvcd_pose *to;
-  const nsvcd_pose *is;  // (B): on the spline
-} nsvcd__look;
-
-// Where a pose has a point.
-static nsvcd__f3 nsvcd__carry(const nsvcd__world_pose *pose, nsvcd__f3 point) {
-  nsvcd__transform at;
-  at.rotation = nsvcd__mat3_of(pose->rotation);
-  at.position = nsvcd__d3_narrow(pose->position);
-  return nsvcd__f3_transform(&at, point);
-}
-
-// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it.
-static float nsvcd__pair_strays(const nsvcd_body *body, size_t a, size_t b,
-                                const nsvcd__look *look) {
-  const nsvcd_pose *from = look->from;
-  const nsvcd_pose *to = look->to;
-  const nsvcd_pose start = nsvcd__relative_pose(&from[a], &from[b]);
-  const nsvcd_pose end = nsvcd__relative_pose(&to[a], &to[b]);
-  const nsvcd_pose there = nsvcd__relative_pose(&look->is[a], &look->is[b]);
-  const nsvcd__world_pose is = nsvcd__world_pose_of(&there);
-  const nsvcd__world_pose checked = nsvcd__world_pose_between(&start, &end, look->share);
-
-  const nsvcd__f3 centre = nsvcd__f3_load(body->centre);
-  const nsvcd__f3 x = nsvcd__carry(&is, centre);
-  const nsvcd__f3 y = nsvcd__carry(&checked, centre);
+// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
+// some share of the way from the poses `from` (B) to the next ones, where those on the spline are
+// p->moved.
+static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                const nsvcd_pose *from, double share) {
+  const nsvcd_pose *to = from + p->problem->body_count;
+  const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
+  const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
+  const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
+  const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
+  const nsvcd__d3 begin = nsvcd__d3_load(start.position);
+  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), share);
+  const nsvcd__quat q = nsvcd__quat_load(start.rotation);
+  const nsvcd__quat r = nsvcd__quat_load(end.rotation);
+  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)share);
+  const nsvcd__quat is = nsvcd__quat_load(there.rotation);
+  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
+  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
+  const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
+  const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
   const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
-  const nsvcd__f3 turn = nsvcd__quat_turn(checked.rotation, is.rotation);
-  return way + 2 * nsvcd__f3_length(turn) * body->radius;
+  return way + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
 }
 
-// The same of all pairs whose a is given.
-static float nsvcd__pairs_stray(const nsvcd_plan_problem *problem, const nsvcd__look *look) {
-  float most = 0;
-  for (size_t k = 0; k < problem->pair_count; k++) {
-    const size_t a = problem->pairs[k].a;
-    const size_t b = problem->pairs[k].b;
-    const nsvcd_body *body = problem->bodies[a];
-    const float strays = body ? nsvcd__pair_strays(body, a, b, look) : 0;
-    most = strays > most ? strays : most;
-  }
-  return most;
-}
-
-// How far the spline strays from the motion of the last check, whose poses p->poses are. A smooth
-// curve strays most half way between two of these: there it is looked at, beside every so many of
-// them. Where they are few, it is looked at in more places, for an S crosses its chord half way. It
-// is no bound: nothing is known of `place` but what it says.
+// How far the spline strays from the motion of the last check, whose poses p->poses are: of all
+// pairs whose a is given. A smooth curve strays most half way between two of these: there it is
+// looked at, beside every so many of them. Where they are few, it is looked at in more places, for
+// an S crosses its chord half way. It is no bound: nothing is known of `place` but what it says.
 static float nsvcd__stray(nsvcd__planner *p, const float *control) {
   const nsvcd_plan_problem *problem = p->problem;
-  const size_t via = p->check.via;
   const size_t segments = p->check.moments - 1;
-  const size_t wanted = NSVCD__STRAY_LOOKS * (via + 1);
+  const size_t wanted = NSVCD__STRAY_LOOKS * (p->check.via + 1);
   const size_t stride = wanted < segments ? segments / wanted : 1;
   const size_t looks = 2 * (wanted / segments) + 1;
   float joints[NSVCD_MAX_JOINTS];
   float most = 0;
-  if (!problem->bodies)
-    return 0;
-  for (size_t n = 0; n / looks * stride < segments; n++) {
+  for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
     const size_t s = n / looks * stride;
-    nsvcd__look look;
-    look.share = (double)(n % looks + 1) / (double)(looks + 1);
-    look.from = p->poses + s * problem->body_count;
-    look.to = look.from + problem->body_count;
-    look.is = p->moved;
-    const double t = ((double)s + look.share) / (double)segments;
-    nsvcd_spline(control, via, problem->joints, (float)t, 0, joints);
+    const double share = (double)(n % looks + 1) / (double)(looks + 1);
+    const double t = ((double)s + share) / (double)segments;
+    nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
     nsvcd__place(p, joints, 1, p->moved);
-    if (p->error)
-      break;
-    const float strays = nsvcd__pairs_stray(problem, &look);
-    most = strays > most ? strays : most;
+    if (p->error) break;
+    for (size_t k = 0; k < problem->pair_count; k++) {
+      const nsvcd_body_pair *pair = &problem->pairs[k];
+      const nsvcd_pose *from = p->poses + s * problem->body_count;
+      if (problem->bodies[pair->a])
+        most = fmaxf(nsvcd__pair_strays(p, pair, from, share), most);
+    }
   }
   return most;
 }
@@ -18228,77 +15723,107 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
 // Searches from one more start; keeps what it finds in p->result if that is the best so far.
 // Returns 1 if there is reason to go on.
 static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
-  const size_t bytes = (p->refine.via + 2) * p->problem->joints * sizeof(float);
-  nsvcd__searching search = {found->seeds, found->iterations, 0};
-  nsvcd__worst worst;
-  nsvcd__start_seed(p, search.seed);
-  nsvcd__explore(p, &search);
-  nsvcd__resample(p, p->explore.via, p->refine.via);
-  const nsvcd__cost cost = nsvcd__refine_and_check(p, &search, &worst);
+  const size_t f = p->problem->joints;
+  const float margin = p->options.margin;
+  float deviations[NSVCD_MAX_JOINTS];
+  nsvcd__cost cost = nsvcd__no_cost;
+  // from the smoothest way, then from random ones
+  p->seed = found->seeds;
+  nsvcd__smoothest(p, &p->explore, p->control);
+  if (p->seed > 0) {
+    nsvcd__first_deviations(p, deviations);
+    nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+    nsvcd__change(p, &p->explore, p->control, p->offset, 1, p->trial);
+    memcpy(p->control, p->trial, p->explore.bytes);
+  }
+  nsvcd__explore(p);
+
+  // Nearly the same curve through another number of via points. These are taken into the limits,
+  // for a curve may leave them between two points.
+  if (p->explore.via != p->refine.via) {
+    for (size_t k = 0; k < p->refine.via + 2; k++) {
+      const float t = (float)k / (float)(p->refine.via + 1);
+      nsvcd_spline(p->best, p->explore.via, f, t, 0, p->trial + k * f);
+    }
+    nsvcd__change(p, &p->refine, p->trial, p->trial, 0, p->best);
+  }
+
+  // until the last check finds it free, with a wider margin each time that the proof finds a hit
+  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
+    nsvcd__refine(p);
+    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, 1);
+    if (nsvcd__is_free(&cost) || p->cancelled || p->error || !cost.proven) break;
+    p->options.margin = 2 * p->options.margin + 0.5f;
+  }
+  p->options.margin = margin;
   const int good = nsvcd__is_free(&cost);
   if (found->seeds == 0 || good || cost.total < found->cost) {
-    memcpy(p->result, p->best, bytes);
+    memcpy(p->result, p->best, p->refine.bytes);
     found->cost = cost.total;
     found->smoothness = cost.smoothness;
     found->stray = nsvcd__stray(p, p->result);
     found->collides = cost.collides;
     found->joint = cost.joint;
-    found->logit = worst.logit;
-    found->time = worst.time;
-    found->pair = worst.pair;
+    found->logit = cost.logit;
+    found->time = cost.time;
+    found->pair = cost.pair;
   }
-  found->iterations = search.iterations;
   found->seeds++;
   found->status = NSVCD_PLAN_LIMIT;
-  if (good)
-    found->status = NSVCD_PLAN_CONVERGED;
-  if (search.cancelled)
-    found->status = NSVCD_PLAN_CANCELLED;
-  return !good && !search.cancelled && !p->error && found->seeds < p->options.seeds;
+  if (good) found->status = NSVCD_PLAN_CONVERGED;
+  if (p->cancelled) found->status = NSVCD_PLAN_CANCELLED;
+  return !good && !p->cancelled && !p->error && found->seeds < p->options.seeds;
 }
 
 NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
                                  const nsvcd_plan_options *options, void *workspace,
-                                 size_t workspace_size, float *control, nsvcd_plan_answer *answer) {
-  nsvcd__planner planner;
+                                 size_t workspace_size, float *control,
+                                 nsvcd_plan_answer *answer) {
+  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
+  nsvcd__planner p;
   nsvcd_plan_answer found;
-  if (!nsvcd__planner_settings(problem, options, &planner))
-    return NSVCD_ERROR_ARGUMENT;
-  if (!control || !answer)
-    return NSVCD_ERROR_ARGUMENT;
-  const size_t needed = nsvcd__planner_memory(&planner, NULL);
-  if (needed == 0)
-    return NSVCD_ERROR_TOO_LARGE;
-  if (!workspace || !nsvcd__is_aligned(workspace))
-    return NSVCD_ERROR_WORKSPACE;
-  if (workspace_size < needed)
-    return NSVCD_ERROR_WORKSPACE;
-  const nsvcd_result checked = nsvcd__limits_check(problem);
-  if (checked)
-    return checked;
+  if (!nsvcd__planner_settings(problem, options, &p)) return NSVCD_ERROR_ARGUMENT;
+  if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
+  const size_t needed = nsvcd__planner_memory(&p, NULL);
+  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  for (size_t j = 0; j < problem->joints; j++) {
+    const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
+                           problem->goal[j]};
+    for (size_t k = 0; k < 4; k++) {
+      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_NUMBER;
+    }
+    if (ends[0] > ends[1]) return NSVCD_ERROR_ARGUMENT;
+  }
 
-  (void)nsvcd__planner_memory(&planner, (char *)workspace);
+  (void)nsvcd__planner_memory(&p, (char *)workspace);
+  nsvcd__planner_begin(&p);
   memset(&found, 0, sizeof found);
   found.joint = NSVCD_NONE;
   found.pair = NSVCD_NONE;
-  nsvcd__planner_begin(&planner, &found);
-  int more = found.status == NSVCD_PLAN_CONVERGED && !planner.error;
-  while (more)
-    more = nsvcd__try_seed(&planner, &found);
-  if (planner.error)
-    return planner.error;
+  found.via_points = p.refine.via;
+  if (!nsvcd__is_good(&p, problem->start, &found)) {
+    found.status = NSVCD_PLAN_START;
+  } else if (!nsvcd__is_good(&p, problem->goal, &found)) {
+    found.status = NSVCD_PLAN_GOAL;
+    found.time = 1;
+  }
+  nsvcd__smoothest(&p, &p.refine, p.best);
+  int more = found.status == NSVCD_PLAN_CONVERGED && !p.error;
+  while (more) more = nsvcd__try_seed(&p, &found);
+  if (p.error) return p.error;
 
-  const size_t bytes = (planner.refine.via + 2) * problem->joints * sizeof(float);
-  memcpy(control, found.seeds ? planner.result : planner.best, bytes);
-  found.trajectories = planner.trajectories;
-  found.sweeps = planner.sweeps;
+  memcpy(control, found.seeds ? p.result : p.best, p.refine.bytes);
+  found.iterations = p.iterations;
+  found.trajectories = p.trajectories;
+  found.sweeps = p.sweeps;
   *answer = found;
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OPTIMIZER
 
 #endif  // NSVCD__ISA
-
 #endif  // NEURALSVCD_IMPLEMENTATION
 
 // MIT License

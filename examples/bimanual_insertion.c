@@ -29,8 +29,7 @@ static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion
   for (int i = 1; i < ghosts; i++) {
     const float *joints = planner_joints_at(scene, motion, (double)i / ghosts);
     planner_ghost(&list, scene, joints, peg, -1, &draw_orange, 0.35);
-    if (i % 2 == 0)
-      planner_ghost(&list, scene, joints, block, -1, &draw_wood, 0.3);
+    if (i % 2 == 0) planner_ghost(&list, scene, joints, block, -1, &draw_wood, 0.3);
   }
   draw_robot(&list, scene, goal, &planner_pale, &draw_orange, 1);
   draw_flush(svg, &list);
@@ -67,29 +66,24 @@ int main(int argc, char **argv) {
   planner_user user = {&scene, 0};
   uint64_t seed = 2;
   const char *picture = "build/bimanual_insertion.svg";
-  if (!planner_arguments(argc, argv, &seed, &picture, NULL))
-    return 2;
+  if (!planner_arguments(argc, argv, &seed, &picture, NULL)) return 2;
   if (!task_bimanual_episode(&scene, seed))
     return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
   FILE *svg = draw_open(picture, 24 + 2 * 670 + 4, 520 + 108, "Two arms put a peg into a hole",
                         PLANNER_LEGEND);
-  if (!svg)
-    return 1;
+  if (!svg) return 1;
   double begin = seconds();
-  if (!planner_encode(&scene, bodies))
-    return 1;
+  if (!planner_encode(&scene, bodies)) return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name,
          (unsigned long long)seed, scene.body_count, seconds() - begin, scene.pair_count);
 
-  if (!planner_plan(&user, bodies, NULL, NULL, &motion))
-    return 1;  // NULL: the defaults will do
+  if (!planner_plan(&user, bodies, NULL, NULL, &motion)) return 1;  // NULL: the defaults will do
   planner_judge(&scene, &motion);
   planner_report(&scene, &motion);
 
   draw_motion(svg, &scene, &motion);
-  if (!draw_close(svg))
-    return 1;
+  if (!draw_close(svg)) return 1;
   printf("see %s\n", picture);
   planner_free(&scene, bodies);
   task_free(&scene);

@@ -70,21 +70,18 @@ int main(int argc, char **argv) {
   planner_user user = {&scene, 0};
   uint64_t seed = 1;
   const char *picture = "build/dish_insertion.svg";
-  if (!planner_arguments(argc, argv, &seed, &picture, NULL))
-    return 2;
+  if (!planner_arguments(argc, argv, &seed, &picture, NULL)) return 2;
   if (!task_dish_episode(&scene, seed))
     return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
   FILE *svg = draw_open(picture, 3 * 516 + 32, 470 + 108, "A UR5 puts three dishes into a rack",
                         PLANNER_LEGEND " &#160;&#183;&#160; grey and white: not to be touched");
-  if (!svg)
-    return 1;
+  if (!svg) return 1;
   // Once: every body is encoded as it is, the dishes by themselves. A dish that is grasped, carried
   // and let go is the same body all along: planner_place moves it with the hand, or not, and
   // nothing is encoded again.
   double begin = seconds();
-  if (!planner_encode(&scene, bodies))
-    return 1;
+  if (!planner_encode(&scene, bodies)) return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s\n", scene.name, (unsigned long long)seed,
          scene.body_count, seconds() - begin);
 
@@ -96,8 +93,7 @@ int main(int argc, char **argv) {
   int good = 0;
   for (int i = 0; i < scene.problem_count; i++) {
     task_select(&scene, i);  // the dish of problem i is in the hand; those before stand in the rack
-    if (!planner_plan(&user, bodies, &options, NULL, &motion))
-      return 1;
+    if (!planner_plan(&user, bodies, &options, NULL, &motion)) return 1;
     planner_judge(&scene, &motion);
     planner_report(&scene, &motion);
     draw_motion(svg, 24 + 516 * i, &scene, &motion);

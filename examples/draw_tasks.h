@@ -27,12 +27,9 @@ DRAW_DEF void draw_still(draw_list *list, const task_scene *scene) {
     int rock = strstr(body->name, "rock") && !strstr(body->name, "heap");
     double center[3];
     oracle_transform(&body->offset, body->exact.center, center);
-    if (draw_is_fixed(scene, body))
-      draw_solid(list, &body->exact, &body->offset, &draw_steel, 1);
-    if (body->kind != TASK_SCENE)
-      continue;
-    if (rock && center[1] * sin(list->view->azimuth) > 0)
-      continue;
+    if (draw_is_fixed(scene, body)) draw_solid(list, &body->exact, &body->offset, &draw_steel, 1);
+    if (body->kind != TASK_SCENE) continue;
+    if (rock && center[1] * sin(list->view->azimuth) > 0) continue;
     int wood =
         strstr(body->name, "beam") || strstr(body->name, "frame") || strstr(body->name, "prop");
     int dark = rock || strstr(body->name, "coal") || strstr(body->name, "heap");
@@ -49,14 +46,12 @@ DRAW_DEF void draw_robot(draw_list *list, const task_scene *scene, const float *
                          const draw_colour *robot, const draw_colour *held, double opacity) {
   double q[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1];
-  for (int j = 0; j < scene->joint_count; j++)
-    q[j] = (double)joints[j];
+  for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[j];
   task_links(scene, q, links);
   for (int i = 0; i < scene->body_count; i++) {
     oracle_pose pose = task_body_pose(scene, i, links);
     const task_body *body = &scene->bodies[i];
-    if (!task_moves(body) || draw_is_fixed(scene, body))
-      continue;
+    if (!task_moves(body) || draw_is_fixed(scene, body)) continue;
     const draw_colour *colour = body->kind == TASK_ROBOT      ? robot
                                 : strcmp(body->name, "block") ? held
                                                               : &draw_wood;
@@ -72,8 +67,7 @@ DRAW_DEF void draw_trace(FILE *svg, const draw_view *view, const task_scene *sce
   for (int s = 0; s < samples; s++) {
     double q[TASK_MAX_JOINTS];
     oracle_pose links[TASK_MAX_JOINTS + 1];
-    for (int j = 0; j < scene->joint_count; j++)
-      q[j] = (double)joints[s * scene->joint_count + j];
+    for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[s * scene->joint_count + j];
     task_links(scene, q, links);
     const oracle_pose pose = task_body_pose(scene, body, links);
     draw_to(svg, view, s == 0, pose.position);

@@ -39,8 +39,7 @@ static void to_mesh(const shapes_mesh *shape, nsvcd_mesh *mesh) {
   mesh->triangle_count = shape->triangles;
   mesh->indices = shape->indices;
   mesh->positions = (float *)allocate(3 * shape->vertices * sizeof(float));
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    mesh->positions[i] = (float)shape->positions[i];
+  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh->positions[i] = (float)shape->positions[i];
 }
 
 // Four rings about a box.
@@ -62,8 +61,7 @@ static void make_drone(shapes_mesh *mesh) {
 // more than a little.
 static nsvcd_pose pose_after(const nsvcd_pose *from, const float *direction, float metres) {
   nsvcd_pose to = *from;
-  for (int k = 0; k < 3; k++)
-    to.position[k] += metres * direction[k];
+  for (int k = 0; k < 3; k++) to.position[k] += metres * direction[k];
   const float half = 0.05f * metres;
   const float z = from->rotation[2];
   const float w = from->rotation[3];
@@ -86,8 +84,7 @@ static void turned_way(const float *towards, int n, float *out) {
   out[1] = cosf(off) * towards[1] + sinf(side) * across[1];
   out[2] = cosf(off) * towards[2] + sinf(rise);
   const float length = sqrtf(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-  for (int k = 0; k < 3; k++)
-    out[k] /= length;
+  for (int k = 0; k < 3; k++) out[k] /= length;
 }
 
 // Flies one frame. 0 if a question was refused.
@@ -95,15 +92,11 @@ static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void
                size_t size) {
   float towards[3];
   float length = 0;
-  for (int k = 0; k < 3; k++)
-    towards[k] = corners[f->corner][k] - f->at.position[k];
-  for (int k = 0; k < 3; k++)
-    length += towards[k] * towards[k];
+  for (int k = 0; k < 3; k++) towards[k] = corners[f->corner][k] - f->at.position[k];
+  for (int k = 0; k < 3; k++) length += towards[k] * towards[k];
   length = sqrtf(length);
-  if (length < 1)
-    f->corner = (f->corner + 1) % 4;
-  for (int k = 0; k < 3; k++)
-    towards[k] /= length > 0 ? length : 1;
+  if (length < 1) f->corner = (f->corner + 1) % 4;
+  for (int k = 0; k < 3; k++) towards[k] /= length > 0 ? length : 1;
   for (int n = 0; n < WAYS; n++) {
     float way[3];
     turned_way(towards, n, way);
@@ -117,14 +110,12 @@ static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void
     question.b.body = level;
     question.options.clearance = ROOM;
     const double start = seconds();
-    if (nsvcd_sweep(&question, workspace, size, &answer))
-      return 0;
+    if (nsvcd_sweep(&question, workspace, size, &answer)) return 0;
     const double took = 1e6 * (seconds() - start);
     f->questions++;
     f->microseconds += took;
     f->worst = fmax(f->worst, took);
-    if (answer.status != NSVCD_STATUS_CERTIFIED_FREE)
-      continue;
+    if (answer.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
     f->turned += n > 0;
     f->at = pose_after(&f->at, way, SPEED * STEP);
     f->path[f->frames++] = f->at;
@@ -165,8 +156,7 @@ static int draw(const flight *f, const shapes_mesh *drone) {
   shapes_mesh ground, things;
   FILE *svg = draw_open("build/fly_through.svg", 900, 740, "A level as one body",
                         "200,000 triangles; what lies ahead is proven free, frame by frame");
-  if (!svg)
-    return 0;
+  if (!svg) return 0;
   memset(&ground, 0, sizeof ground);
   memset(&things, 0, sizeof things);
   level_ground(&ground, SIDE, 40);
@@ -208,8 +198,7 @@ int main(int argc, char **argv) {
   memset(&options, 0, sizeof options);
   level_make(&level_shape, SIDE, triangles, SEED);
   make_drone(&drone_shape);
-  if (level_shape.failed || drone_shape.failed)
-    return complain("no memory"), REFUSED;
+  if (level_shape.failed || drone_shape.failed) return complain("no memory"), REFUSED;
   to_mesh(&level_shape, &level_mesh);
   to_mesh(&drone_shape, &drone_mesh);
 
@@ -229,8 +218,7 @@ int main(int argc, char **argv) {
   const nsvcd_pose first = {{8, -8, 0.9f}, {0, 0, 0, 1}};
   f.at = first;
   while (f.frames < FRAMES) {
-    if (!fly(&f, drone, level, workspace, size))
-      return complain("a question was refused"), REFUSED;
+    if (!fly(&f, drone, level, workspace, size)) return complain("a question was refused"), REFUSED;
   }
   printf(
       "%zu frames, %zu questions: %.1f us each, at most %.0f us; in %zu frames it turned aside, in "
@@ -240,8 +228,7 @@ int main(int argc, char **argv) {
   const int kept = distance > (double)ROOM - 1e-4;
   printf("the oracle: never nearer than %.1f mm%s\n", 1e3 * distance,
          kept ? "" : ", which is too near");
-  if (!draw(&f, &drone_shape))
-    return complain("build/fly_through.svg cannot be written"), REFUSED;
+  if (!draw(&f, &drone_shape)) return complain("build/fly_through.svg cannot be written"), REFUSED;
   printf("see build/fly_through.svg\n");
   free(workspace);
   nsvcd_body_free(level, NULL);

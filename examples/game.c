@@ -94,10 +94,8 @@ typedef struct world {
 static int encode(shapes_mesh *shape, const nsvcd_body **body) {
   float *positions = (float *)malloc(3 * shape->vertices * sizeof(float));
   nsvcd_mesh mesh = {positions, shape->indices, shape->vertices, shape->triangles};
-  if (!positions || shape->failed)
-    return 0;
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    positions[i] = (float)shape->positions[i];
+  if (!positions || shape->failed) return 0;
+  for (size_t i = 0; i < 3 * shape->vertices; i++) positions[i] = (float)shape->positions[i];
   const nsvcd_result result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, body);
   free(positions);
   return result == NSVCD_OK;
@@ -114,8 +112,7 @@ static int make_meshes(world *w) {
   shapes_drawer(&w->shapes[7], 0.3, 0.2, 0.12, 0.01);
   shapes_box(&w->shapes[MESHES], 8, 8, 0.2, 8);
   for (size_t k = 0; k <= MESHES; k++) {
-    if (!encode(&w->shapes[k], &w->bodies[k]))
-      return 0;
+    if (!encode(&w->shapes[k], &w->bodies[k])) return 0;
   }
   return 1;
 }
@@ -132,8 +129,7 @@ static void place(world *w, size_t i, size_t mesh, float scale, float x, float y
   t->poses[0].position[0] = x;
   t->poses[0].position[1] = y;
   t->poses[0].position[2] = z;
-  for (size_t k = 0; k < 4; k++)
-    t->poses[0].rotation[k] = (float)q[k];
+  for (size_t k = 0; k < 4; k++) t->poses[0].rotation[k] = (float)q[k];
   t->poses[1] = t->poses[0];
 }
 
@@ -209,10 +205,8 @@ static void find_pairs(world *w) {
       const box *b = &boxes[j];
       const int apart = a->low[1] > b->high[1] || b->low[1] > a->high[1] ||
                         a->low[2] > b->high[2] || b->low[2] > a->high[2];
-      if (apart || (!moves(&w->things[a->thing]) && !moves(&w->things[b->thing])))
-        continue;
-      if (w->pair_count == MOST_PAIRS)
-        return;
+      if (apart || (!moves(&w->things[a->thing]) && !moves(&w->things[b->thing]))) continue;
+      if (w->pair_count == MOST_PAIRS) return;
       w->pairs[w->pair_count].a = a->thing;
       w->pairs[w->pair_count++].b = b->thing;
     }
@@ -278,8 +272,7 @@ static void begin_frame(world *w) {
     thing *t = &w->things[i];
     vec gravity = vec_of(0, 0, -9.81f);
     t->left = 1;
-    if (!moves(t))
-      continue;
+    if (!moves(t)) continue;
     if (t->supported > 0) {
       const float into = fminf(vec_dot(gravity, t->support), 0);
       const float speed = fminf(vec_dot(t->velocity, t->support), 0);
@@ -310,28 +303,23 @@ static nsvcd_pose pose_between(const nsvcd_pose *a, const nsvcd_pose *b, float u
   float square = 0;
   float wa = 1 - u;
   float wb = u;
-  for (int k = 0; k < 4; k++)
-    dot += a->rotation[k] * b->rotation[k];
+  for (int k = 0; k < 4; k++) dot += a->rotation[k] * b->rotation[k];
   const float sign = dot < 0 ? -1.0f : 1.0f;
   const float angle = acosf(fminf(fabsf(dot), 1));
   if (angle > 1e-3f) {
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
   }
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] = wa * a->rotation[k] + wb * sign * b->rotation[k];
-  for (int k = 0; k < 4; k++)
-    square += out.rotation[k] * out.rotation[k];
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] /= sqrtf(square);
+  for (int k = 0; k < 4; k++) out.rotation[k] = wa * a->rotation[k] + wb * sign * b->rotation[k];
+  for (int k = 0; k < 4; k++) square += out.rotation[k] * out.rotation[k];
+  for (int k = 0; k < 4; k++) out.rotation[k] /= sqrtf(square);
   for (int k = 0; k < 3; k++)
     out.position[k] = a->position[k] + u * (b->position[k] - a->position[k]);
   return out;
 }
 
 static size_t root_of(size_t *parents, size_t i) {
-  while (parents[i] != i)
-    i = parents[i];
+  while (parents[i] != i) i = parents[i];
   return i;
 }
 
@@ -355,14 +343,12 @@ static void advance(world *w) {
     const size_t root = root_of(parents, mover);
     // then it stays, and only its speed changes
     const int was_touching = vec_length(vec_from(answer->lift)) > 0;
-    if (answer->collides)
-      shares[root] = fminf(shares[root], was_touching ? 0 : answer->free_until);
+    if (answer->collides) shares[root] = fminf(shares[root], was_touching ? 0 : answer->free_until);
   }
   for (size_t i = 0; i < MOVERS; i++) {
     thing *t = &w->things[i];
     const float share = shares[root_of(parents, i)];
-    if (!moves(t))
-      continue;
+    if (!moves(t)) continue;
     if (share > 0)
       t->poses[0] = share < 1 ? pose_between(&t->poses[0], &t->poses[1], share) : t->poses[1];
     t->left = share < 1 ? t->left * (1 - share) : 0;
@@ -385,8 +371,7 @@ static void recover(world *w) {
     const float most = 0.2f * GAP;
     const vec step = vec_scale(t->recovery, length > most ? most / length : 1);
     t->recovery = vec_of(0, 0, 0);
-    if (t->asleep)
-      continue;
+    if (t->asleep) continue;
     t->poses[0].position[0] += step.x;
     t->poses[0].position[1] += step.y;
     t->poses[0].position[2] += step.z;
@@ -404,8 +389,7 @@ static void push(thing *t, vec arm, vec impulse) {
 }
 
 static void rest_on(thing *t, vec normal) {
-  if (normal.z < 0.5f)
-    return;
+  if (normal.z < 0.5f) return;
   t->supported = 4;
   t->support = normal;
 }
@@ -417,8 +401,7 @@ static void respond(world *w, size_t k) {
   thing *b = &w->things[w->pairs[k].b];
   const vec normal = vec_from(answer->normal);
   const vec point = vec_from(answer->point);
-  if (!answer->collides || !(vec_length(normal) > 0.5f))
-    return;
+  if (!answer->collides || !(vec_length(normal) > 0.5f)) return;
   const vec arm_a = vec_sub(point, vec_from(a->poses[0].position));
   const vec arm_b = vec_sub(point, vec_from(b->poses[0].position));
   const vec relative = vec_sub(velocity_at(a, arm_a), velocity_at(b, arm_b));
@@ -436,10 +419,8 @@ static void respond(world *w, size_t k) {
     const float slip = vec_length(slide);
     const float drag = slip > 0 ? fminf(FRICTION * impulse, slip / (give_a + give_b)) / slip : 0;
     const vec total = vec_sub(vec_scale(normal, impulse), vec_scale(slide, drag));
-    if (a->asleep && -speed > 0.3f)
-      a->asleep = 0;
-    if (b->asleep && -speed > 0.3f)
-      b->asleep = 0;
+    if (a->asleep && -speed > 0.3f) a->asleep = 0;
+    if (b->asleep && -speed > 0.3f) b->asleep = 0;
     push(a, arm_a, total);
     push(b, arm_b, vec_scale(total, -1));
   }
@@ -451,10 +432,8 @@ static void fall_asleep(world *w) {
   for (size_t i = 0; i < MOVERS; i++) {
     thing *t = &w->things[i];
     const int slow = vec_length(t->velocity) < 0.08f && vec_length(t->spin) < 0.3f;
-    if (t->supported > 0 && slow)
-      t->asleep = 1;
-    if (t->asleep)
-      t->velocity = t->spin = vec_of(0, 0, 0);
+    if (t->supported > 0 && slow) t->asleep = 1;
+    if (t->asleep) t->velocity = t->spin = vec_of(0, 0, 0);
   }
 }
 
@@ -476,8 +455,7 @@ static void print_report(const world *w, report *r) {
   size_t asleep = 0;
   double sum = 0;
   double find = 0;
-  for (size_t i = 0; i < MOVERS; i++)
-    asleep += w->things[i].asleep != 0;
+  for (size_t i = 0; i < MOVERS; i++) asleep += w->things[i].asleep != 0;
   for (size_t k = 0; k < r->frames; k++) {
     sum += r->frame_ms[k];
     find += r->find_ms[k];
@@ -499,8 +477,7 @@ static int draw(const world *w) {
   const draw_view view = {-1.0, 0.55, {0, 0, 0.3}, 150, 860, 560, 0.3};
   FILE *svg = draw_open("build/game.svg", 900, 680, "A room at 60 Hz",
                         "50 movers of 8 meshes at 4 sizes; every near pair, every frame, proven");
-  if (!svg)
-    return 0;
+  if (!svg) return 0;
   draw_panel(svg, 20, 84, &view);
   draw_list list = {&view, NULL, 0, 0, 0};
   for (size_t n = 0; n < THINGS; n++) {
@@ -511,8 +488,7 @@ static int draw(const world *w) {
                i == FLOOR   ? &draw_cream
                : i < MOVERS ? colours[i % 3]
                             : &draw_steel);
-    if (i == FLOOR)
-      draw_flush(svg, &list);
+    if (i == FLOOR) draw_flush(svg, &list);
   }
   draw_flush(svg, &list);
   draw_panel_end(svg, &view, "where they came to rest");
@@ -522,8 +498,7 @@ static int draw(const world *w) {
 // ---------------------------------------------------------------------------------------- problems
 
 static void write_pose(FILE *file, const nsvcd_pose *pose, const float *offset) {
-  for (int k = 0; k < 3; k++)
-    fprintf(file, "%.9g ", (double)(pose->position[k] + offset[k]));
+  for (int k = 0; k < 3; k++) fprintf(file, "%.9g ", (double)(pose->position[k] + offset[k]));
   for (int k = 0; k < 4; k++)
     fprintf(file, "%.9g%c", (double)pose->rotation[k], k < 3 ? ' ' : '\n');
 }
@@ -532,16 +507,13 @@ static FILE *open_problems(const world *w, const char *folder) {
   char path[4096];
   for (size_t k = 0; k <= MESHES; k++) {
     snprintf(path, sizeof path, "%s/mesh%zu.obj", folder, k);
-    if (!shapes_write_obj(&w->shapes[k], path))
-      return NULL;
+    if (!shapes_write_obj(&w->shapes[k], path)) return NULL;
   }
   snprintf(path, sizeof path, "%s/game.txt", folder);
   FILE *file = fopen(path, "w");
-  if (!file)
-    return NULL;
+  if (!file) return NULL;
   fprintf(file, "nsvcd-problems 1\n");
-  for (size_t k = 0; k <= MESHES; k++)
-    fprintf(file, "mesh %zu mesh%zu.obj\n", k, k);
+  for (size_t k = 0; k <= MESHES; k++) fprintf(file, "mesh %zu mesh%zu.obj\n", k, k);
   return file;
 }
 
@@ -555,10 +527,8 @@ static void write_problems(FILE *file, const world *w, size_t frame) {
     const nsvcd_answer *answer = &w->answers[k];
     const int lifted = vec_length(vec_from(answer->lift)) > 0;
     float back[3];
-    for (int i = 0; i < 3; i++)
-      back[i] = -answer->lift[i];
-    if (lifted && moves(a) && moves(b))
-      continue;
+    for (int i = 0; i < 3; i++) back[i] = -answer->lift[i];
+    if (lifted && moves(a) && moves(b)) continue;
     const nsvcd_mover of_a = mover_of(w, a);
     const nsvcd_mover of_b = mover_of(w, b);
     fprintf(file, "problem f%zu.%zu.%d %zu %.9g %zu %.9g 0 0 0 0 0 0 1 -1 nan %zu %zu\n", frame, k,
@@ -566,8 +536,7 @@ static void write_problems(FILE *file, const world *w, size_t frame) {
             of_b.count);
     for (size_t i = 0; i < of_a.count; i++)
       write_pose(file, &a->poses[i], moves(a) ? answer->lift : none);
-    for (size_t i = 0; i < of_b.count; i++)
-      write_pose(file, &b->poses[i], moves(a) ? none : back);
+    for (size_t i = 0; i < of_b.count; i++) write_pose(file, &b->poses[i], moves(a) ? none : back);
   }
 }
 
@@ -581,15 +550,12 @@ static nsvcd_result play_round(world *w, report *r, size_t frame) {
   const nsvcd_result result = ask(w);
   r->frame_ms[frame] += 1e3 * (seconds() - found);
   r->find_ms[frame] += 1e3 * (found - start);
-  if (result)
-    return result;
-  if (r->problems)
-    write_problems(r->problems, w, frame);
+  if (result) return result;
+  if (r->problems) write_problems(r->problems, w, frame);
   r->pairs += w->pair_count;
   advance(w);
   recover(w);
-  for (size_t i = 0; i < MOVERS; i++)
-    w->things[i].pressed = 0;
+  for (size_t i = 0; i < MOVERS; i++) w->things[i].pressed = 0;
   for (size_t k = 0; k < w->pair_count; k++) {
     const nsvcd_answer *answer = &w->answers[k];
     const int was_lifted = vec_length(vec_from(answer->lift)) > 0;
@@ -609,8 +575,7 @@ static int play(world *w, report *r) {
     begin_frame(w);
     for (size_t round = 0; round < ROUNDS && aim(w) > 0; round++) {
       const nsvcd_result result = play_round(w, r, frame);
-      if (result)
-        return complain("frame %zu: %s", frame, nsvcd_result_string(result));
+      if (result) return complain("frame %zu: %s", frame, nsvcd_result_string(result));
       r->rounds++;
     }
     fall_asleep(w);
@@ -624,8 +589,7 @@ int main(int argc, char **argv) {
   memset(&r, 0, sizeof r);
   r.frames = 300;
   w.workspace = allocate(nsvcd_sweep_workspace_size(NULL));
-  if (!make_meshes(&w))
-    return complain("out of memory"), REFUSED;
+  if (!make_meshes(&w)) return complain("out of memory"), REFUSED;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (strcmp(argv[i], "--frames") == 0 && parse_count(argv[i + 1], 1, 100000, &r.frames))
       continue;
@@ -635,19 +599,15 @@ int main(int argc, char **argv) {
   }
   r.frame_ms = (double *)allocate(r.frames * sizeof(double));
   r.find_ms = (double *)allocate(r.frames * sizeof(double));
-  for (size_t k = 0; k < r.frames; k++)
-    r.frame_ms[k] = r.find_ms[k] = 0;
+  for (size_t k = 0; k < r.frames; k++) r.frame_ms[k] = r.find_ms[k] = 0;
   fill_room(&w);
   const int good = play(&w, &r);
-  if (good)
-    print_report(&w, &r);
+  if (good) print_report(&w, &r);
   const int is_lost = r.problems && ferror(r.problems);
   if (r.problems && (fclose(r.problems) != 0 || is_lost))
     return complain("the problems cannot be written"), REFUSED;
-  if (good && !draw(&w))
-    return complain("build/game.svg cannot be written"), REFUSED;
-  if (good)
-    printf("see build/game.svg\n");
+  if (good && !draw(&w)) return complain("build/game.svg cannot be written"), REFUSED;
+  if (good) printf("see build/game.svg\n");
   for (size_t k = 0; k <= MESHES; k++) {
     nsvcd_body_free(w.bodies[k], NULL);
     shapes_free(&w.shapes[k]);

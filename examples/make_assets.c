@@ -6,10 +6,8 @@ static int write_asset(shapes_mesh *mesh, const char *folder, const char *name) 
   char path[1024];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   int good = !mesh->failed && shapes_write_obj(mesh, path);
-  if (good)
-    printf("%s: %zu vertices, %zu triangles\n", path, mesh->vertices, mesh->triangles);
-  if (!good)
-    fprintf(stderr, "make_assets: %s cannot be written\n", path);
+  if (good) printf("%s: %zu vertices, %zu triangles\n", path, mesh->vertices, mesh->triangles);
+  if (!good) fprintf(stderr, "make_assets: %s cannot be written\n", path);
   shapes_free(mesh);
   return good;
 }

@@ -54,18 +54,15 @@ int main(int argc, char **argv) {
   double patience = 60;
   uint64_t seed = 1;
   const char *picture = "build/mining_site.svg";
-  if (!planner_arguments(argc, argv, &seed, &picture, &patience))
-    return 2;
+  if (!planner_arguments(argc, argv, &seed, &picture, &patience)) return 2;
   if (!task_mining_episode(&scene, seed))
     return fprintf(stderr, "no scene comes of this seed: try another\n"), 1;
 
   FILE *svg = draw_open(picture, 1548, 540 + 108, "A mobile arm carries a pickaxe through a mine",
                         PLANNER_LEGEND ". Strong: the base; pale: the pickaxe");
-  if (!svg)
-    return 1;
+  if (!svg) return 1;
   double begin = seconds();
-  if (!planner_encode(&scene, bodies))
-    return 1;
+  if (!planner_encode(&scene, bodies)) return 1;
   printf("%s, seed %llu: %d bodies encoded in %.2f s, %d pairs that can meet\n", scene.name,
          (unsigned long long)seed, scene.body_count, seconds() - begin, scene.pair_count);
 
@@ -77,14 +74,12 @@ int main(int argc, char **argv) {
   // rather a wider way than a beam touched
   options.sweep.recall = 0.999f;
   planner_user user = {&scene, seconds() + patience};
-  if (!planner_plan(&user, bodies, &options, watch, &motion))
-    return 1;
+  if (!planner_plan(&user, bodies, &options, watch, &motion)) return 1;
   planner_judge(&scene, &motion);
   planner_report(&scene, &motion);
 
   draw_motion(svg, &scene, &motion);
-  if (!draw_close(svg))
-    return 1;
+  if (!draw_close(svg)) return 1;
   printf("see %s\n", picture);
   planner_free(&scene, bodies);
   task_free(&scene);

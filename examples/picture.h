@@ -65,8 +65,7 @@ static void picture_ghost(FILE *svg, const oracle_mesh *mesh, const nsvcd_pose *
   draw_list list = {&picture_view, NULL, 0, 0, 0};
   const oracle_pose at = pose_widened(pose);
   draw_solid(&list, mesh, &at, colour, 0.16 + 0.30 * (1 - light));
-  for (size_t i = 0; i < list.count; i++)
-    list.triangles[i].light = 0.25 + 0.75 * light;
+  for (size_t i = 0; i < list.count; i++) list.triangles[i].light = 0.25 + 0.75 * light;
   draw_flush(svg, &list);
 }
 // The shadow on the table: light from straight above.
@@ -78,8 +77,7 @@ static void picture_shadow(FILE *svg, const oracle_mesh *mesh, const oracle_pose
     const oracle_triangle *t = &mesh->triangles[i];
     double normal[3], world[3];
     oracle_rotate(m, t->normal, normal);
-    if (normal[2] < 1e-3)
-      continue;
+    if (normal[2] < 1e-3) continue;
     for (int k = 0; k < 3; k++) {
       oracle_transform(pose, t->v[k], world);
       world[2] = 0;
@@ -93,8 +91,7 @@ static void picture_table(FILE *svg) {
   const double corners[4][3] = {
       {0.25, -0.60, 0}, {0.25, 0.26, 0}, {-0.27, 0.26, 0}, {-0.27, -0.60, 0}};
   fprintf(svg, "<path fill=\"#efe7da\" stroke=\"#ddd0bb\" d=\"");
-  for (int i = 0; i < 4; i++)
-    draw_to(svg, &picture_view, i == 0, corners[i]);
+  for (int i = 0; i < 4; i++) draw_to(svg, &picture_view, i == 0, corners[i]);
   fprintf(svg, "Z\"/>\n");
 }
 // The path of the moving body's origin.
@@ -148,8 +145,7 @@ static void picture_fixed(FILE *svg, const oracle_mesh *mesh, double depth, doub
   for (size_t i = 0; i < mesh->triangle_count; i++) {
     const oracle_triangle *t = &mesh->triangles[i];
     double middle[3], p[3];
-    for (int k = 0; k < 3; k++)
-      middle[k] = (t->v[0][k] + t->v[1][k] + t->v[2][k]) / 3;
+    for (int k = 0; k < 3; k++) middle[k] = (t->v[0][k] + t->v[1][k] + t->v[2][k]) / 3;
     draw_project(&picture_view, middle, p);
     const double top = fmax(t->v[0][2], fmax(t->v[1][2], t->v[2][2]));
     if ((p[2] > depth && top > lowest) == covering)
@@ -199,8 +195,7 @@ static void picture_scene(FILE *svg, const oracle_mesh *moving, const oracle_mes
   draw_solid(&list, moving, &pose, colour, 1);
   draw_flush(svg, &list);
   picture_fixed(svg, fixed, depth, lowest, 1);
-  if (a->status == NSVCD_STATUS_WITNESS)
-    picture_contact(svg, panel);
+  if (a->status == NSVCD_STATUS_WITNESS) picture_contact(svg, panel);
 }
 
 // Name and verdict above, facts below.
@@ -220,8 +215,7 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n",
           PICTURE_HEIGHT - 44, PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
-  if (a->collides)
-    fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
+  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
   if (a->status == NSVCD_STATUS_CERTIFIED_FREE) {
     fprintf(svg, "certified free");
   } else if (a->status == NSVCD_STATUS_WITNESS) {
@@ -255,8 +249,7 @@ static int picture_write(const char *path, const nsvcd_mesh *moving, const nsvcd
   FILE *svg = draw_open(path, 24 + (PICTURE_WIDTH + 24) * count, height,
                         "Does the mug, carried along this path, hit the dish rack?",
                         "neuralsvcd.h: each mesh encoded once, each motion answered by one query");
-  if (!svg)
-    return 0;
+  if (!svg) return 0;
   oracle_mesh a = picture_mesh(moving);
   oracle_mesh b = picture_mesh(fixed);
   for (int i = 0; i < count; i++) {

@@ -28,8 +28,7 @@ static const nsvcd_body *load(const char *path) {
     result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
     nsvcd_mesh_free(&mesh, NULL);
   }
-  if (result)
-    fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result));
+  if (result) fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result));
   return body;
 }
 
@@ -38,15 +37,13 @@ static void place(void *user, const float *joints, nsvcd_pose *poses) {
   const nsvcd_pose at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
   (void)user;
   poses[RACK] = poses[MUG] = at_origin;
-  for (int k = 0; k < JOINTS; k++)
-    poses[MUG].position[k] = joints[k];
+  for (int k = 0; k < JOINTS; k++) poses[MUG].position[k] = joints[k];
 }
 
 int main(void) {
   const nsvcd_body *const bodies[BODIES] = {load("examples/assets/mug.obj"),
                                             load("examples/assets/dish_rack.obj")};
-  if (!bodies[MUG] || !bodies[RACK])
-    return 1;
+  if (!bodies[MUG] || !bodies[RACK]) return 1;
 
   const float low[JOINTS] = {-1, -1, 0}, high[JOINTS] = {1, 1, 1};
   const float start[JOINTS] = {0, -0.5f, 0}, goal[JOINTS] = {0, 0.5f, 0};

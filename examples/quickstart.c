@@ -22,10 +22,8 @@ static const nsvcd_body *load(const char *path, nsvcd_mesh *mesh) {
   const nsvcd_body *body = NULL;
   nsvcd_result result = nsvcd_obj_load(path, NULL, mesh, &line);
   double start = seconds();
-  if (!result)
-    result = nsvcd_encode(mesh, NULL, NULL, NULL, 0, &body);
-  if (result)
-    return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
+  if (!result) result = nsvcd_encode(mesh, NULL, NULL, NULL, 0, &body);
+  if (result) return fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result)), NULL;
   nsvcd_body_facts facts = nsvcd_body_describe(body);
   printf("%-29s %zu triangles -> %zu patches, %zu bytes, in %.1f ms\n", path, mesh->triangle_count,
          facts.patches, facts.size, 1e3 * (seconds() - start));
@@ -45,8 +43,7 @@ static void carry(float height, nsvcd_pose *poses) {
     float weights[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
     for (size_t k = 0; k < 3; k++) {
       poses[i].position[k] = 0;
-      for (size_t c = 0; c < 4; c++)
-        poses[i].position[k] += weights[c] * control[c][k];
+      for (size_t c = 0; c < 4; c++) poses[i].position[k] += weights[c] * control[c][k];
     }
     float cy = cosf(yaw / 2);
     float sy = sinf(yaw / 2);
@@ -64,8 +61,7 @@ int main(void) {
   nsvcd_mesh mug_mesh, rack_mesh;
   const nsvcd_body *mug = load("examples/assets/mug.obj", &mug_mesh);
   const nsvcd_body *rack = load("examples/assets/dish_rack.obj", &rack_mesh);
-  if (!mug || !rack)
-    return 1;
+  if (!mug || !rack) return 1;
 
   // Once per thread: memory to work in. Queries allocate nothing.
   size_t workspace_size = nsvcd_sweep_workspace_size(NULL);
@@ -93,8 +89,7 @@ int main(void) {
       result = nsvcd_sweep(&question, workspace, workspace_size, &answer);
       least = fmin(least, 1e6 * (seconds() - start));
     }
-    if (result)
-      return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
+    if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
 
     printf("%-12s -> %s (%s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
            nsvcd_status_string(answer.status), least);
@@ -108,8 +103,7 @@ int main(void) {
     printf("\n");
     picture_take(&panels[i], names[i], motion, POSES, &answer, least);
   }
-  if (!picture_write("build/demo.svg", &mug_mesh, &rack_mesh, panels, 2))
-    return 1;
+  if (!picture_write("build/demo.svg", &mug_mesh, &rack_mesh, panels, 2)) return 1;
   printf("see build/demo.svg\n");
 
   free(workspace);

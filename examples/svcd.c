@@ -84,12 +84,10 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
     snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
              mesh->path);
     nsvcd_mesh loaded;
-    if (!load_mesh(from, path, &loaded))
-      return 0;
+    if (!load_mesh(from, path, &loaded)) return 0;
     bodies[i].body = encode_mesh(from, path, &loaded, options, &bodies[i].seconds);
     nsvcd_mesh_free(&loaded, NULL);
-    if (!bodies[i].body)
-      return 0;
+    if (!bodies[i].body) return 0;
   }
   return 1;
 }
@@ -118,11 +116,9 @@ static int answer(const session *s, const settings *options, void *workspace, co
     const double taken = 1e6 * (seconds() - start);
     if (result)
       return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id, reason_of(result));
-    if (i > 0)
-      out->microseconds = fmin(out->microseconds, taken);
+    if (i > 0) out->microseconds = fmin(out->microseconds, taken);
   }
-  if (hides_first(&out->answer, options->sweep.first))
-    out->answer.status = NSVCD_STATUS_UNDECIDED;
+  if (hides_first(&out->answer, options->sweep.first)) out->answer.status = NSVCD_STATUS_UNDECIDED;
   return 1;
 }
 
@@ -143,8 +139,7 @@ static int print_answers(const session *s) {
            a->collides, (double)a->contact_time, (unsigned long)a->patch_a,
            (unsigned long)a->patch_b, nsvcd_status_string(a->status), s->outcomes[i].microseconds);
   }
-  if (fflush(stdout) == 0 && !ferror(stdout))
-    return 1;
+  if (fflush(stdout) == 0 && !ferror(stdout)) return 1;
   return complain("standard output: %s", strerror(errno));
 }
 
@@ -177,20 +172,17 @@ static int check_options(settings *options) {
   nsvcd_sweep_options *sweep = &options->sweep;
   if (options->path_count != 1)
     return usage_error("check", "a problem file is wanted ('svcd check --help')");
-  if (options->int8)
-    sweep->precision = NSVCD_PRECISION_INT8;
+  if (options->int8) sweep->precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
   if (options->encode.no_triangles && (sweep->clearance > 0 || sweep->first > 0 || sweep->skin > 0))
     return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
-  if (!recall_is_known(sweep))
-    return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
+  if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }
 
 static int check(settings *options) {
   const int status = check_options(options);
-  if (status != DONE)
-    return status;
+  if (status != DONE) return status;
   session s;
   memset(&s, 0, sizeof s);
   int good = read_problems(options->paths[0], &s.file);
@@ -201,8 +193,7 @@ static int check(settings *options) {
   }
   good = good && encode_meshes(&s.file, &options->encode, s.bodies) && answer_all(&s, options) &&
          print_answers(&s);
-  if (good)
-    print_summary(&s);
+  if (good) print_summary(&s);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);
   free(s.bodies);
@@ -220,8 +211,7 @@ static void array_name(const char *path, char *name, size_t size) {
   snprintf(name, size, "%s%.*s_body", digit ? "_" : "",
            (int)(strlen(base) < 40 ? strlen(base) - 2 : 40), base);
   for (char *c = name; *c; c++)
-    if (!isalnum((unsigned char)*c))
-      *c = '_';
+    if (!isalnum((unsigned char)*c)) *c = '_';
 }
 
 static void write_header(FILE *file, const char *in, const char *name, const nsvcd_body *body) {
@@ -243,8 +233,7 @@ static void write_header(FILE *file, const char *in, const char *name, const nsv
           "static const unsigned char %s[%zu] = {",
           in, facts.patches, bytes[0] == 'N' ? "little" : "big", name, name, NSVCD_ALIGNMENT,
           NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, NSVCD_ALIGNMENT, name, facts.size);
-  for (size_t i = 0; i < facts.size; i++)
-    fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
+  for (size_t i = 0; i < facts.size; i++) fprintf(file, "%s%d,", i % 24 ? "" : "\n    ", bytes[i]);
   fprintf(file, "\n};\n");
 }
 
@@ -254,13 +243,11 @@ static int may_write_body(const char *path) {
   char begin[5000] = "";
   FILE *file = fopen(path, "rb");
   const size_t size = file ? fread(begin, 1, sizeof begin - 1, file) : 0;
-  if (file)
-    fclose(file);
+  if (file) fclose(file);
   const int is_blob = memcmp(begin, "NSVB", 4) == 0 || memcmp(begin, "BVSN", 4) == 0;
   const int is_array =
       memcmp(begin, "// ", 3) == 0 && strstr(begin, "encoded for neuralsvcd.h by") != NULL;
-  if (size == 0 || (ends_with(path, ".h") ? is_array : is_blob))
-    return 1;
+  if (size == 0 || (ends_with(path, ".h") ? is_array : is_blob)) return 1;
   return complain("%s: is there already, and is no body", path);
 }
 
@@ -268,8 +255,7 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   int header = ends_with(out, ".h");
   int good;
   FILE *file = fopen(out, header ? "w" : "wb");
-  if (!file)
-    return complain("%s: %s", out, strerror(errno));
+  if (!file) return complain("%s: %s", out, strerror(errno));
   if (header) {
     char name[64];
     array_name(out, name, sizeof name);
@@ -278,8 +264,7 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
     fwrite(body, 1, nsvcd_body_describe(body).size, file);
   }
   good = !ferror(file);
-  if (fclose(file) != 0 || !good)
-    return complain("%s: cannot be written", out);
+  if (fclose(file) != 0 || !good) return complain("%s: cannot be written", out);
   return 1;
 }
 
@@ -323,10 +308,8 @@ static int encode(settings *options) {
   const int status = encode_options(options);
   float scales[2];
   thing t;
-  if (status != DONE || !take_scales(options->scale, 1, scales))
-    return USAGE;
-  if (!may_write_body(out))
-    return REFUSED;
+  if (status != DONE || !take_scales(options->scale, 1, scales)) return USAGE;
+  if (!may_write_body(out)) return REFUSED;
   const int good = load_obj(options->paths[0], scales[0], &t) &&
                    encode_thing(&t, &options->encode) && write_body(t.path, out, t.body);
   if (good) {
@@ -346,11 +329,9 @@ static void print_mesh(const thing *t) {
          r->high[0] - r->low[0], r->high[1] - r->low[1], r->high[2] - r->low[2], r->low[0],
          r->low[1], r->low[2], r->high[0], r->high[1], r->high[2]);
   printf("components: %zu, %zu of them closed", r->components, r->closed);
-  if (r->inwards)
-    printf(", %zu of these turned inwards: cavities, or inside out", r->inwards);
+  if (r->inwards) printf(", %zu of these turned inwards: cavities, or inside out", r->inwards);
   printf("\narea: %.4g m2", r->area);
-  if (r->closed)
-    printf(", volume of what is closed: %.4g m3", r->volume);
+  if (r->closed) printf(", volume of what is closed: %.4g m3", r->volume);
   printf("\n");
 }
 
@@ -358,20 +339,16 @@ static int info_of_mesh(const settings *options) {
   const nsvcd_encode_options defaults = {.patches = 0};
   float scales[2];
   thing t;
-  if (!take_scales(options->scale, 1, scales))
-    return USAGE;
+  if (!take_scales(options->scale, 1, scales)) return USAGE;
   int good = load_obj(options->paths[0], scales[0], &t);
   if (good) {
     print_mesh(&t);
     fflush(stdout);
     good = encode_thing(&t, &defaults);
-    for (int i = 0; i < t.fault_count; i++)
-      printf("wrong: %s\n", t.faults[i]);
-    if (good && !t.fault_count)
-      printf("nothing is wrong with it\n");
+    for (int i = 0; i < t.fault_count; i++) printf("wrong: %s\n", t.faults[i]);
+    if (good && !t.fault_count) printf("nothing is wrong with it\n");
   }
-  if (good)
-    print_facts("as a body", t.body);
+  if (good) print_facts("as a body", t.body);
   free_thing(&t);
   return good ? DONE : REFUSED;
 }
@@ -380,13 +357,10 @@ static int info(settings *options) {
   thing t;
   if (options->path_count != 1)
     return usage_error("info", "an OBJ or a .body file is wanted ('svcd info --help')");
-  if (!is_body_file(options->paths[0]))
-    return info_of_mesh(options);
-  if (options->scale)
-    return usage_error("--scale", "of an OBJ; a .body file is in metres");
+  if (!is_body_file(options->paths[0])) return info_of_mesh(options);
+  if (options->scale) return usage_error("--scale", "of an OBJ; a .body file is in metres");
   const int good = load_body(options->paths[0], 1, &t);
-  if (good)
-    print_facts(t.path, t.body);
+  if (good) print_facts(t.path, t.body);
   free_thing(&t);
   return good ? DONE : REFUSED;
 }
@@ -412,8 +386,7 @@ static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
   const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
   const int proof = sweep->method != NSVCD_METHOD_NETWORK;
   job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
-  if (job->by_proof)
-    return DONE;
+  if (job->by_proof) return DONE;
   if (sweep->method == NSVCD_METHOD_PROOF) {
     complain("%s: it holds no triangles, and so there is no proof", bare->path);
     return REFUSED;
@@ -450,8 +423,7 @@ static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
     good = sweep_once(job, answer);
     times[i] = 1e6 * (seconds() - start);
   }
-  if (good)
-    qsort(times, repeat, sizeof *times, compare_doubles);
+  if (good) qsort(times, repeat, sizeof *times, compare_doubles);
   const double median = good ? (times[(repeat - 1) / 2] + times[repeat / 2]) / 2 : -1;
   free(times);
   return median;
@@ -472,14 +444,12 @@ static int sweep_ask(sweep_job *job, const settings *options) {
     job->poses[i] = pose_rounded(&job->motion.poses[i]);
   question->options.first = 0;
   job->microseconds = sweep_timed(job, options->repeat, &job->answer);
-  if (job->microseconds < 0)
-    return 0;
+  if (job->microseconds < 0) return 0;
   if (job->answer.status != NSVCD_STATUS_CERTIFIED_FREE && options->sweep.first > 0) {
     question->options.first = options->sweep.first;
     job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
   }
-  if (!(options->sweep.measure > 0) || job->answer.collides)
-    return job->microseconds_first >= 0;
+  if (!(options->sweep.measure > 0) || job->answer.collides) return job->microseconds_first >= 0;
   question->options.first = 0;
   question->options.clearance = 0;
   question->options.measure = options->sweep.measure;
@@ -542,8 +512,7 @@ static void print_answer(const sweep_job *job, const settings *options) {
   const nsvcd_answer *a = &job->answer;
   char verdict[320];
   double size = 0;
-  for (int k = 0; k < 3; k++)
-    size = fmax(size, job->b.high[k] - job->b.low[k]);
+  for (int k = 0; k < 3; k++) size = fmax(size, job->b.high[k] - job->b.low[k]);
   sweep_verdict(job, options, verdict, sizeof verdict);
   printf("%s\n", verdict);
   if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
@@ -604,8 +573,7 @@ static int draw_job(const sweep_job *job, const settings *options) {
   memset(&p, 0, sizeof p);
   sweep_verdict(job, options, verdict, sizeof verdict);
   p.title = a->collides ? "A hits B" : "A is free of B";
-  if (a->status == NSVCD_STATUS_UNDECIDED)
-    p.title = "Undecided";
+  if (a->status == NSVCD_STATUS_UNDECIDED) p.title = "Undecided";
   p.verdict = verdict;
   p.poses = job->motion.poses;
   p.count = job->motion.count;
@@ -624,26 +592,21 @@ static int draw_job(const sweep_job *job, const settings *options) {
                    sweep_draw(options->picture, &p);
   oracle_mesh_free(&p.a.mesh);
   oracle_mesh_free(&p.b.mesh);
-  if (good)
-    printf("picture    %s\n", options->picture);
+  if (good) printf("picture    %s\n", options->picture);
   return good;
 }
 
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   nsvcd_sweep_options *ask = &options->sweep;
   const motion_told told = {options->from, options->to, options->rotate};
-  if (ask->method == NSVCD_METHOD_NETWORK)
-    options->encode.no_triangles = 1;
+  if (ask->method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
   if (!load_thing(options->paths[0], scales[0], &options->encode, &job->a) ||
       !load_thing(options->paths[1], scales[1], &options->encode, &job->b))
     return REFUSED;
-  if (!take_motion(&told, &job->a, &job->b, &job->motion))
-    return USAGE;
+  if (!take_motion(&told, &job->a, &job->b, &job->motion)) return USAGE;
   const int status = sweep_method(job, ask);
-  if (status != DONE)
-    return status;
-  if (!sweep_ask(job, options))
-    return REFUSED;
+  if (status != DONE) return status;
+  if (!sweep_ask(job, options)) return REFUSED;
   print_answer(job, options);
   return !options->picture || draw_job(job, options) ? DONE : REFUSED;
 }
@@ -654,10 +617,8 @@ static int sweep(settings *options) {
     return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
-  if (!take_scales(options->scale, 2, scales))
-    return USAGE;
-  if (options->picture && !draw_may_write(options->picture))
-    return REFUSED;
+  if (!take_scales(options->scale, 2, scales)) return USAGE;
+  if (options->picture && !draw_may_write(options->picture)) return REFUSED;
   sweep_job *job = (sweep_job *)allocate(sizeof *job);
   memset(job, 0, sizeof *job);
   job->workspace = allocate(nsvcd_sweep_workspace_size(NULL));
@@ -781,18 +742,15 @@ static void usage(FILE *out) {
 
 static const command *find_command(const char *name) {
   for (size_t i = 0; i < COMMANDS; i++)
-    if (strcmp(name, commands[i].name) == 0)
-      return &commands[i];
+    if (strcmp(name, commands[i].name) == 0) return &commands[i];
   return NULL;
 }
 
 static int no_command(const char *name) {
   const char *meant = NULL;
   size_t distance = 3;
-  for (size_t i = 0; i < COMMANDS; i++)
-    consider(name, commands[i].name, &meant, &distance);
-  if (ends_with(name, ".obj") || ends_with(name, ".body"))
-    meant = "sweep A.obj B.obj";
+  for (size_t i = 0; i < COMMANDS; i++) consider(name, commands[i].name, &meant, &distance);
+  if (ends_with(name, ".obj") || ends_with(name, ".body")) meant = "sweep A.obj B.obj";
   if (meant)
     complain("no command '%s'; did you mean 'svcd %s'?", name, meant);
   else
@@ -807,10 +765,8 @@ static int run(const command *c, int argc, char **argv) {
   given.repeat = c->repeat;
   given.sweep.first = c->first;
   const int status = take_options(&line, &given, given.paths, c->paths, &given.path_count);
-  if (status != DONE)
-    return status;
-  if (!given.help)
-    return c->run(&given);
+  if (status != DONE) return status;
+  if (!given.help) return c->run(&given);
   c->help(stdout);
   return DONE;
 }
@@ -823,12 +779,10 @@ static int serve(int argc, char **argv) {
     usage(stderr);
     return USAGE;
   }
-  if (help && argc > 2)
-    name = argv[2];
+  if (help && argc > 2) name = argv[2];
   const command *c = find_command(name);
   if (help) {
-    if (argc > 2 && !c)
-      return no_command(name);
+    if (argc > 2 && !c) return no_command(name);
     (c ? c->help : usage)(stdout);
     return DONE;
   }
@@ -837,8 +791,7 @@ static int serve(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   const int status = serve(argc, argv);
-  if (fflush(stdout) == 0 && !ferror(stdout))
-    return status;
+  if (fflush(stdout) == 0 && !ferror(stdout)) return status;
   complain("standard output cannot be written");
   return status == DONE ? REFUSED : status;
 }

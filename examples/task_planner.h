@@ -40,20 +40,17 @@ typedef struct planner_motion {
 
 // Encodes all bodies; planner_free gives them back. 0, with a message, if that fails.
 PLANNER_DEF void planner_free(const task_scene *scene, const nsvcd_body **bodies) {
-  for (int i = 0; i < scene->body_count; i++)
-    nsvcd_body_free(bodies[i], NULL);
+  for (int i = 0; i < scene->body_count; i++) nsvcd_body_free(bodies[i], NULL);
 }
 PLANNER_DEF int planner_encode(const task_scene *scene, const nsvcd_body **bodies) {
   nsvcd_encode_options options;
   nsvcd_result result = NSVCD_OK;
   memset(&options, 0, sizeof options);
   options.patches = PLANNER_POINTS;
-  for (int i = 0; i < scene->body_count; i++)
-    bodies[i] = NULL;
+  for (int i = 0; i < scene->body_count; i++) bodies[i] = NULL;
   for (int i = 0; i < scene->body_count && !result; i++)
     result = nsvcd_encode(&scene->bodies[i].mesh, &options, NULL, NULL, 0, &bodies[i]);
-  if (!result)
-    return 1;
+  if (!result) return 1;
   fprintf(stderr, "encode: %s\n", nsvcd_result_string(result));
   planner_free(scene, bodies);
   return 0;
@@ -91,8 +88,7 @@ PLANNER_DEF int planner_plan(planner_user *user, const nsvcd_body *const *bodies
   nsvcd_result result = nsvcd_plan(&problem, options, workspace, size, control, &motion->answer);
   motion->seconds = seconds() - begin;
   free(workspace);
-  if (result)
-    return fprintf(stderr, "plan: %s\n", nsvcd_result_string(result)), 0;
+  if (result) return fprintf(stderr, "plan: %s\n", nsvcd_result_string(result)), 0;
 
   // a controller would ask for as many as it needs, and for derivatives
   for (int s = 0; s < PLANNER_SAMPLES; s++)
@@ -116,8 +112,7 @@ PLANNER_DEF void planner_judge(const task_scene *scene, planner_motion *motion) 
     float before[3];
     memcpy(before, poses[held].position, sizeof before);
     task_place((void *)scene, motion->joints + s * n, poses);
-    for (int k = 0; k < 3 && s; k++)
-      d[k] = (double)(poses[held].position[k] - before[k]);
+    for (int k = 0; k < 3 && s; k++) d[k] = (double)(poses[held].position[k] - before[k]);
     motion->metres[s] = s ? motion->metres[s - 1] + oracle_length(d) : 0;
   }
   for (int j = 0; j < n; j++) {
@@ -164,8 +159,7 @@ PLANNER_DEF int planner_arguments(int argc, char **argv, uint64_t *seed, const c
   char *end = NULL;
   char *rest = NULL;
   errno = 0;
-  if (argc > 1)
-    *seed = strtoull(argv[1], &end, 10);
+  if (argc > 1) *seed = strtoull(argv[1], &end, 10);
   int good = argc <= (patience ? 4 : 3) &&
              (argc < 2 || (argv[1][0] >= '0' && argv[1][0] <= '9' && !*end && !errno));
   if (argc > 2) {
@@ -208,12 +202,10 @@ PLANNER_DEF oracle_pose planner_pose(const task_scene *scene, const float *joint
                                      int frame) {
   double q[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1];
-  for (int j = 0; j < scene->joint_count; j++)
-    q[j] = (double)joints[j];
+  for (int j = 0; j < scene->joint_count; j++) q[j] = (double)joints[j];
   task_links(scene, q, links);
   oracle_pose pose = task_body_pose(scene, body, links);
-  if (frame < 0)
-    return pose;
+  if (frame < 0) return pose;
   oracle_pose base = task_body_pose(scene, frame, links);
   return task_relative(&base, &pose);
 }
@@ -275,8 +267,7 @@ PLANNER_DEF void planner_ways(FILE *svg, const draw_view *view, const task_scene
           motion->joints[j] + (float)s / 49 * (motion->naive_hit[j] - motion->joints[j]);
   planner_line(svg, view, scene, motion->joints, PLANNER_SAMPLES, body, frame,
                "stroke=\"" PLANNER_WAY "\"");
-  if (!motion->naive_hits)
-    return;
+  if (!motion->naive_hits) return;
   planner_line(svg, view, scene, line, 50, body, frame,
                "stroke=\"" PLANNER_HIT "\" stroke-dasharray=\"7 5\"");
   draw_project(view, planner_pose(scene, motion->naive_hit, body, frame).position, p);

@@ -41,17 +41,14 @@ static int preview_points(task_scene *scene, int vias, int task, double spread,
         // In the mine the base goes where it likes across the tunnel, and the arm keeps still.
         double wide = task < 2 ? spread : j == 0 ? 1 : j == 1 ? 1.2 : 0.2;
         points[v][j] = (double)p->start[j] + u * ((double)end[j] - (double)p->start[j]);
-        if (random)
-          points[v][j] += shapes_uniform(&scene->rng, -wide, wide);
+        if (random) points[v][j] += shapes_uniform(&scene->rng, -wide, wide);
         points[v][j] = fmax(scene->joints[j].low, fmin(scene->joints[j].high, points[v][j]));
         line[j] = points[v ? v - 1 : 0][j];
         line[n + j] = points[v][j];
       }
-      if (v)
-        free_line = task_keeps(scene, line, 2, 0, NULL);
+      if (v) free_line = task_keeps(scene, line, 2, 0, NULL);
     }
-    if (!free_line)
-      return 0;
+    if (!free_line) return 0;
   }
   return vias + 3;
 }
@@ -90,8 +87,7 @@ static void preview_resample(const double (*points)[TASK_MAX_JOINTS], int count,
   double length[16] = {0};
   for (int i = 1; i + 1 < count; i++) {
     double sum = 0;
-    for (int j = 0; j < joints; j++)
-      sum += pow(points[i][j] - points[i - 1][j], 2);
+    for (int j = 0; j < joints; j++) sum += pow(points[i][j] - points[i - 1][j], 2);
     length[i] = length[i - 1] + sqrt(sum);
   }
   for (int k = 0; k < 10; k++)
@@ -99,8 +95,7 @@ static void preview_resample(const double (*points)[TASK_MAX_JOINTS], int count,
       double at = fmin(k / 7.0, 1) * length[count - 2];
       double f = fmax(0, (k - 7) / 2.0);
       int i = 0;
-      while (i + 3 < count && length[i + 1] < at)
-        i++;
+      while (i + 3 < count && length[i + 1] < at) i++;
       double u = (at - length[i]) / (length[i + 1] - length[i]);
       control[k][j] = points[i][j] + u * (points[i + 1][j] - points[i][j]);
       if (k > 7)
@@ -118,16 +113,12 @@ static int preview_solve(task_scene *scene, int task, int tries, double *out, in
     int vias = task == 2 ? 3 : t % 3;
     int good = 1;
     int count = preview_points(scene, vias, task, 0.2 + 0.8 * t / tries, points);
-    if (!count)
-      continue;
-    if (found[0] < 0)
-      found[0] = vias;
+    if (!count) continue;
+    if (found[0] < 0) found[0] = vias;
     preview_resample((const double(*)[TASK_MAX_JOINTS])points, count, n, control);
     int samples = preview_spline((const double(*)[TASK_MAX_JOINTS])control, 10, n, 12, out);
-    for (int s = 0; s < samples && good; s++)
-      good = task_in_limits(scene, out + s * n);
-    if (!good || !task_keeps(scene, out, samples, 0, NULL))
-      continue;
+    for (int s = 0; s < samples && good; s++) good = task_in_limits(scene, out + s * n);
+    if (!good || !task_keeps(scene, out, samples, 0, NULL)) continue;
     found[1] = vias;
     return samples;
   }
@@ -182,8 +173,7 @@ static int preview_measure(int episodes, int first_seed) {
         splines += found[1] >= 0;
         if (!samples)
           printf("%s seed %d problem %d: no spline found, lines %d\n", names[task], e, i, found[0]);
-        if (!samples)
-          continue;
+        if (!samples) continue;
         for (int s = 0; s < 200; s++)  // the same path at 200 samples
           for (int j = 0; j < n; j++) {
             double at = s / 199.0 * (samples - 1);
@@ -233,10 +223,8 @@ static void preview_panel(FILE *svg, int x, task_scene *scene, const draw_view *
   for (int i = 1; i <= ghosts; i++)
     draw_robot(&list, scene, path + i * (samples - 1) / (ghosts + 1) * scene->joint_count,
                &draw_steel, &draw_orange, 0.3);
-  if (start)
-    draw_robot(&list, scene, problem->start, &draw_blue, &draw_orange, 1);
-  if (goal)
-    draw_robot(&list, scene, problem->goal, &draw_green, &draw_orange, 1);
+  if (start) draw_robot(&list, scene, problem->start, &draw_blue, &draw_orange, 1);
+  if (goal) draw_robot(&list, scene, problem->goal, &draw_green, &draw_orange, 1);
   draw_flush(svg, &list);
   draw_trace(svg, view, scene, scene->held[scene->selected], straight, 20, "#c22f3a");
   draw_trace(svg, view, scene, scene->held[scene->selected], path, samples, "#12824c");
@@ -246,16 +234,14 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
   static task_scene scene;
   static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
   static float way[PREVIEW_MAX * TASK_MAX_JOINTS];
-  if (!preview_episode(&scene, task, seed))
-    return fprintf(stderr, "no episode\n"), 0;
+  if (!preview_episode(&scene, task, seed)) return fprintf(stderr, "no episode\n"), 0;
   int panels = task == 2 ? 1 : 3;
   int ok = 1;
   FILE *svg = draw_open(path, 24 + panels * (view->width + 24), view->height + 108, scene.name,
                         "blue: the start; green: the goal; red: the straight line in joint space, "
                         "which collides; green "
                         "line: a free way, found by random via points");
-  if (!svg)
-    return task_free(&scene), 0;
+  if (!svg) return task_free(&scene), 0;
   for (int i = 0; i < panels; i++) {
     int found[2];
     int x = 24 + i * (view->width + 24);
@@ -265,14 +251,12 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
       ok = fprintf(stderr, "problem %d: no way found\n", i) < 0;
       samples = 1;
     }
-    for (int k = 0; k < samples * scene.joint_count; k++)
-      way[k] = (float)found_path[k];
+    for (int k = 0; k < samples * scene.joint_count; k++) way[k] = (float)found_path[k];
     draw_view near = *view;
     if (task == 1 && i == 2) {  // close to the hole
       nsvcd_pose poses[TASK_MAX_BODIES];
       task_place(&scene, scene.problems[0].goal, poses);
-      for (int k = 0; k < 3; k++)
-        near.look_at[k] = (double)poses[scene.held[1]].position[k];
+      for (int k = 0; k < 3; k++) near.look_at[k] = (double)poses[scene.held[1]].position[k];
       near.scale *= 3.5;
       near.cut /= 3;
     }
@@ -291,13 +275,11 @@ static int preview_film(uint64_t seed, const char *path, const draw_view *view) 
   static task_scene scene;
   static double found_path[PREVIEW_MAX * TASK_MAX_JOINTS];
   int found[2];
-  if (!task_bimanual_episode(&scene, seed))
-    return fprintf(stderr, "no episode\n"), 0;
+  if (!task_bimanual_episode(&scene, seed)) return fprintf(stderr, "no episode\n"), 0;
   int samples = preview_solve(&scene, 1, 1000, found_path, found);
   FILE *svg = draw_open(path, view->width + 48, view->height + 108, scene.name,
                         "a free way, found by random via points");
-  if (!svg || !samples)
-    return task_free(&scene), 0;
+  if (!svg || !samples) return task_free(&scene), 0;
   draw_panel(svg, 24, 84, view);
   for (int i = 0; i < frames; i++) {
     draw_list list = {view, NULL, 0, 0, 0};
@@ -320,8 +302,7 @@ int main(int argc, char **argv) {
   const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640, 0.03};
   const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520, 0.2};
   uint64_t seed = argc > 1 ? (uint64_t)atoi(argv[1]) : 1;
-  if (argc > 2)
-    return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
+  if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
   const draw_view film = {0.5, 0.45, {0.22, 0.03, 0.72}, 560, 560, 520, 0.08};
   return !(preview_film(seed, "build/task_film.svg", &film) &&
            preview_draw(0, seed, "build/task_dish.svg", &dish) &&

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 static nsvcd__query *any_query(void) {
-  const nsvcd__needs needs = nsvcd__needs_most();
+  const nsvcd__needs needs = nsvcd__needs_of(NULL);
   char *memory = (char *)malloc(nsvcd__query_layout(&needs, NULL));
   nsvcd__query *query = (nsvcd__query *)(void *)memory;
   (void)nsvcd__query_layout(&needs, memory);

@@ -9,8 +9,7 @@ static inline float length3(const float *a) {
   return sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 static inline void sub3(const float *a, const float *b, float *out) {
-  for (size_t k = 0; k < 3; k++)
-    out[k] = a[k] - b[k];
+  for (size_t k = 0; k < 3; k++) out[k] = a[k] - b[k];
 }
 static inline void mul33_vec(const float *m, const float *a, float *out) {
   for (size_t k = 0; k < 3; k++)
@@ -24,8 +23,7 @@ static inline void mul33(const float *a, const float *b, float *out) {
   }
 }
 static inline void transpose33(const float *m, float *out) {
-  for (size_t i = 0; i < 9; i++)
-    out[i] = m[i % 3 * 3 + i / 3];
+  for (size_t i = 0; i < 9; i++) out[i] = m[i % 3 * 3 + i / 3];
 }
 static inline void matrix_of_quat(const float *q, float *m) {
   const float x = q[0];
@@ -44,8 +42,7 @@ static inline void matrix_of_quat(const float *q, float *m) {
 }
 static inline void normalize_quat(const float *q, float *out) {
   const float scale = 1 / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (size_t k = 0; k < 4; k++)
-    out[k] = q[k] * scale;
+  for (size_t k = 0; k < 4; k++) out[k] = q[k] * scale;
 }
 
 #endif

@@ -24,15 +24,13 @@ extern check_state check;
 
 #define RUN(test)                                                          \
   do {                                                                     \
-    if (check.filter && !strstr(#test, check.filter))                      \
-      break;                                                               \
+    if (check.filter && !strstr(#test, check.filter)) break;               \
     check.failures_in_test = 0;                                            \
     test();                                                                \
     check.failures_in_test ? (void)check.failed++ : (void)check.passed++;  \
     printf("%-60s %s\n", #test, check.failures_in_test ? "FAILED" : "ok"); \
     fflush(stdout);                                                        \
-    if (CHECK_ENDS && check.failures_in_test)                              \
-      exit(1);                                                             \
+    if (CHECK_ENDS && check.failures_in_test) exit(1);                     \
   } while (0)
 
 #define CHECK(condition)                                                   \

@@ -10,8 +10,7 @@ typedef struct failing_heap {
 } failing_heap;
 static void *failing_heap_alloc(size_t size, void *user) {
   failing_heap *heap = (failing_heap *)user;
-  if (heap->calls++ == heap->fail_at)
-    return NULL;
+  if (heap->calls++ == heap->fail_at) return NULL;
   heap->live++;
   return malloc(size);
 }

@@ -38,8 +38,7 @@ static void reference_cross(const double *a, const double *b, double *out) {
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 static void reference_mul(const double *m, const double *x, double *out) {  // (3, 3) (3)
-  for (int i = 0; i < 3; i++)
-    out[i] = reference_dot(m + 3 * i, x);
+  for (int i = 0; i < 3; i++) out[i] = reference_dot(m + 3 * i, x);
 }
 static void reference_mul33(const double *a, const double *b, double *out) {
   for (int i = 0; i < 3; i++) {
@@ -51,8 +50,7 @@ static void reference_quat_mul(const double *a, const double *b, double *out) {
   double v[3];
   reference_cross(a, b, v);
   const double real = a[3] * b[3] - reference_dot(a, b);
-  for (int k = 0; k < 3; k++)
-    out[k] = v[k] + a[3] * b[k] + b[3] * a[k];
+  for (int k = 0; k < 3; k++) out[k] = v[k] + a[3] * b[k] + b[3] * a[k];
   out[3] = real;
 }
 static void reference_matrix(const double *q, double *m) {  // q: of any length
@@ -97,8 +95,7 @@ static void reference_at(const reference_pair *pair, const reference_pose *poses
   const double sine = reference_length(step);
   const double sign = step[3] < 0 ? -1 : 1;
   const double angle = 2 * atan2(sine, sign * step[3]);
-  for (int i = 0; i < 3; i++)
-    along[i] = sine > 0 ? u * angle * sign * step[i] / sine : 0;
+  for (int i = 0; i < 3; i++) along[i] = sine > 0 ? u * angle * sign * step[i] / sine : 0;
   reference_turn(along, a->rotation, q);
   reference_matrix(q, world);
   reference_mul33(pair->to_fixed, world, m);
@@ -114,8 +111,7 @@ static void reference_place(const reference_pair *pair, const reference_pose *po
   double q[4], m[9], p[3];
   reference_at(pair, poses, t, q, m, p);
   reference_mul(m, pair->c1, place);
-  for (int k = 0; k < 3; k++)
-    place[k] += p[k];
+  for (int k = 0; k < 3; k++) place[k] += p[k];
 }
 
 // When the spheres meet (end 0) or part (end 1): centres on a chord over a segment, within it.
@@ -140,8 +136,7 @@ static double reference_contact(const reference_pair *pair, const reference_pose
   double tau = vv > 0 ? (end ? -av + root : -av - root) / vv : end;
   *graze = 1;
   if (tau > 0 && tau < 1) {
-    for (int k = 0; k < 3; k++)
-      y[k] = a[k] + tau * v[k];
+    for (int k = 0; k < 3; k++) y[k] = a[k] + tau * v[k];
     *graze = fabs(reference_dot(y, v)) / (reference_length(y) * sqrt(vv));
   }
   tau = fmin(fmax(tau, 0), 1);
@@ -154,8 +149,7 @@ static void reference_latent(const double *z, const double *frame, double k, dou
   const double third = sqrt(3);
   for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
     double a[8], x[3], m[9], left[9], turned[9], transposed[9];
-    for (size_t i = 0; i < 8; i++)
-      a[i] = z[NSVCD_W_CHANNELS * i + c];
+    for (size_t i = 0; i < 8; i++) a[i] = z[NSVCD_W_CHANNELS * i + c];
     reference_mul(frame, a, x);
     const double *q = a + 3;
     m[1] = m[3] = q[0] / third;
@@ -164,8 +158,7 @@ static void reference_latent(const double *z, const double *frame, double k, dou
     m[8] = 2 * q[2] / 3;
     m[0] = q[4] / third - m[8] / 2;
     m[4] = -q[4] / third - m[8] / 2;
-    for (int i = 0; i < 9; i++)
-      transposed[i] = frame[i % 3 * 3 + i / 3];
+    for (int i = 0; i < 9; i++) transposed[i] = frame[i % 3 * 3 + i / 3];
     reference_mul33(frame, m, left);
     reference_mul33(left, transposed, turned);
     const double b[8] = {x[0],
@@ -176,8 +169,7 @@ static void reference_latent(const double *z, const double *frame, double k, dou
                          1.5 * turned[8],
                          third * turned[2],
                          third / 2 * (turned[0] - turned[4])};
-    for (size_t i = 0; i < 8; i++)
-      out[NSVCD_W_CHANNELS * i + c] = k * b[i];
+    for (size_t i = 0; i < 8; i++) out[NSVCD_W_CHANNELS * i + c] = k * b[i];
   }
 }
 
@@ -199,16 +191,13 @@ static double reference_head(const nsvcd__decoder *head, const double *x) {
   for (size_t l = 0; l < head->layers; l++) {
     const size_t inputs = head->sizes[l];
     const size_t outputs = head->sizes[l + 1];
-    for (size_t o = 0; o < outputs; o++)
-      out[o] = (double)nsvcd_w_decoder_bias[output + o];
+    for (size_t o = 0; o < outputs; o++) out[o] = (double)nsvcd_w_decoder_bias[output + o];
     for (size_t i = 0; i < inputs; i++) {
-      if (!(in[i] < 0 || in[i] > 0))
-        continue;
+      if (!(in[i] < 0 || in[i] > 0)) continue;
       for (size_t o = 0; o < outputs; o++)
         out[o] += in[i] * reference_weight(weights, output, outputs, i, o);
     }
-    for (size_t o = 0; o < outputs; o++)
-      in[o] = l + 1 < head->layers ? fmax(out[o], 0) : out[o];
+    for (size_t o = 0; o < outputs; o++) in[o] = l + 1 < head->layers ? fmax(out[o], 0) : out[o];
     weights += inputs * outputs;
     output += outputs;
   }
@@ -233,8 +222,7 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   double *e2 = frame + 3;
   double *e3 = frame + 6;
   double mean[3], lean_across[3], v_across[3], ref[3], closest[3];
-  for (int k = 0; k < 3; k++)
-    mean[k] = pair->z1[NSVCD_W_CHANNELS * k];
+  for (int k = 0; k < 3; k++) mean[k] = pair->z1[NSVCD_W_CHANNELS * k];
   reference_mul(m, mean, lean);
   for (int k = 0; k < 3; k++) {
     lean[k] = order * (k1 * lean[k] - k2 * pair->z2[NSVCD_W_CHANNELS * k]);
@@ -261,17 +249,13 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   }
   if (reference_length(ref) <= 1e-7) {
     int axis = 0;
-    for (int k = 1; k < 3; k++)
-      axis = fabs(e1[k]) < fabs(e1[axis]) ? k : axis;
-    for (int k = 0; k < 3; k++)
-      ref[k] = (k == axis) - e1[axis] * e1[k];
+    for (int k = 1; k < 3; k++) axis = fabs(e1[k]) < fabs(e1[axis]) ? k : axis;
+    for (int k = 0; k < 3; k++) ref[k] = (k == axis) - e1[axis] * e1[k];
   }
-  for (int k = 0; k < 3; k++)
-    e2[k] = ref[k] / reference_length(ref);
+  for (int k = 0; k < 3; k++) e2[k] = ref[k] / reference_length(ref);
   reference_cross(e1, e2, e3);
   const double side = reference_dot(lean, e3) < -(double)NSVCD__SIDE ? -1 : 1;
-  for (int k = 0; k < 3; k++)
-    e3[k] *= side;
+  for (int k = 0; k < 3; k++) e3[k] *= side;
   reference_mul33(frame, m, frame1);
   const size_t first = order > 0 ? 0 : 1;
   const size_t second = 1 - first;
@@ -283,8 +267,7 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   memcpy(scalars + NSVCD_W_SCALARS * second, pair->z2 + NSVCD__VECTORS,
          NSVCD_W_SCALARS * sizeof *x);
   const double tau = fmin(fmax(reference_dot(d, v) / (reference_dot(v, v) + 1e-6), -1), 1);
-  for (int k = 0; k < 3; k++)
-    closest[k] = d[k] - tau * v[k];
+  for (int k = 0; k < 3; k++) closest[k] = d[k] - tau * v[k];
   facts[0] = length;
   facts[1] = fmax(k1, k2);
   facts[2] = reference_length(closest);
@@ -310,13 +293,11 @@ static double reference_logit(const reference_pair *pair, const reference_pose *
     times[0] = t[0];
     times[1] = t[1];
   }
-  if (graze)
-    *graze = fmin(cosine[0], cosine[1]);
+  if (graze) *graze = fmin(cosine[0], cosine[1]);
   for (int i = 0; i < 3; i++) {
     reference_at(pair, poses, t[i], q[i], m[i], p[i]);
     reference_mul(m[i], pair->c1, place[i]);
-    for (int k = 0; k < 3; k++)
-      place[i][k] += p[i][k];
+    for (int k = 0; k < 3; k++) place[i][k] += p[i][k];
   }
   const double back[4] = {-q[0][0], -q[0][1], -q[0][2], q[0][3]};
   reference_quat_mul(q[1], back, turn);
@@ -324,14 +305,11 @@ static double reference_logit(const reference_pair *pair, const reference_pose *
   const double sign = turn[3] < 0 ? -1 : 1;
   const double angle = atan2(sine, sign * turn[3]);
   double fixed_turn[3];
-  for (int k = 0; k < 3; k++)
-    fixed_turn[k] = sine > 0 ? sign * angle * turn[k] / sine : 0;
+  for (int k = 0; k < 3; k++) fixed_turn[k] = sine > 0 ? sign * angle * turn[k] / sine : 0;
   reference_mul(pair->to_fixed, fixed_turn, w);  // reference_at's quaternions are in world axes
-  for (int k = 0; k < 3; k++)
-    arm[k] = 0.5 * (pair->c2[k] - place[2][k]);
+  for (int k = 0; k < 3; k++) arm[k] = 0.5 * (pair->c2[k] - place[2][k]);
   reference_cross(w, arm, v);
-  for (int k = 0; k < 3; k++)
-    v[k] += 0.5 * (place[1][k] - place[0][k]);
+  for (int k = 0; k < 3; k++) v[k] += 0.5 * (place[1][k] - place[0][k]);
   reference_inputs(pair, place[2], v, w, m[2], x);
   return reference_head(pair->head, x);
 }
@@ -379,8 +357,7 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
     for (int k = 0; k < 3; k++) {
       exact[n].position[k] = (double)poses[n].position[k] - (double)fixed_pose->position[k];
     }
-    for (int k = 0; k < 4; k++)
-      exact[n].rotation[k] = (double)poses[n].rotation[k];
+    for (int k = 0; k < 4; k++) exact[n].rotation[k] = (double)poses[n].rotation[k];
   }
   for (size_t k = 0; k < 3; k++) {
     pair->c1[k] = (double)nsvcd__body_floats(moving, k * moving->padded)[i];
@@ -393,11 +370,9 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
     pair->z1[k] = nsvcd__body_latents(moving)[NSVCD__LATENT * i + k] / 127.0;
     pair->z2[k] = nsvcd__body_latents(fixed)[NSVCD__LATENT * j + k] / 127.0;
   }
-  for (size_t k = 0; k < 4; k++)
-    q[k] = (double)fixed_pose->rotation[k];
+  for (size_t k = 0; k < 4; k++) q[k] = (double)fixed_pose->rotation[k];
   reference_matrix(q, m);
-  for (size_t k = 0; k < 9; k++)
-    pair->to_fixed[k] = m[k % 3 * 3 + k / 3];
+  for (size_t k = 0; k < 9; k++) pair->to_fixed[k] = m[k % 3 * 3 + k / 3];
   // The allowance for the motion within a segment is that of the farthest point of the patch's
   // group.
   const size_t g = i / NSVCD__GROUP;
@@ -408,10 +383,8 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   group[2] = (double)sphere.centre.z;
   const double far = reference_length(group) + (double)sphere.radius;
   size_t s[2] = {0, 0};
-  while (s[0] + 1 < work->segments && candidate->t_enter >= work->time[s[0] + 1])
-    s[0]++;
-  while (s[1] + 1 < work->segments && candidate->t_exit > work->time[s[1] + 1])
-    s[1]++;
+  while (s[0] + 1 < work->segments && candidate->t_enter >= work->time[s[0] + 1]) s[0]++;
+  while (s[1] + 1 < work->segments && candidate->t_exit > work->time[s[1] + 1]) s[1]++;
   for (int end = 0; end < 2; end++) {
     const nsvcd__segments *block = &work->blocks[s[end] / NSVCD__LANES];
     const size_t l = s[end] % NSVCD__LANES;

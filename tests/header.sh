@@ -57,7 +57,7 @@ test "$objects" -gt 0 || fail "no compiler"
 
 # All that clang can say, but for what is meant so: declarations where a value is known (C99), padding, numbers compared
 # for being the same, (size_t)ceilf(x); in C++ also what makes it C: casts, NULL, and names with two underscores, which
-# tell what is private and no other library has. A name of section *processor* becomes itself, with an ending or without.
+# tell what is private and no other library has. A name of entry/processor becomes itself, with an ending or without.
 meant="-Wno-declaration-after-statement -Wno-padded -Wno-float-equal -Wno-bad-function-cast -Wno-disabled-macro-expansion"
 meant_in_cxx="-Wno-old-style-cast -Wno-zero-as-null-pointer-constant -Wno-reserved-identifier -Wno-reserved-macro-identifier"
 if clang --version 2>/dev/null | grep -q 'version 14'; then  # others know other warnings

@@ -33,15 +33,13 @@ typedef struct level_solid {
 // Takes the shape. Positions are rounded to float first, so that library and oracle see the same
 // mesh.
 static void level_solid_init(level_solid *s, shapes_mesh *shape, double extent) {
-  if (extent > 0)
-    shapes_fit(shape, extent);
+  if (extent > 0) shapes_fit(shape, extent);
   memset(s, 0, sizeof *s);
   s->mesh.vertex_count = shape->vertices;
   s->mesh.triangle_count = shape->triangles;
   s->mesh.indices = shape->indices;
   s->mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  if (shape->failed || !s->mesh.positions)
-    level_fail("no memory");
+  if (shape->failed || !s->mesh.positions) level_fail("no memory");
   for (size_t i = 0; i < 3 * shape->vertices; i++) {
     s->mesh.positions[i] = (float)shape->positions[i];
     shape->positions[i] = (double)s->mesh.positions[i];
@@ -59,18 +57,12 @@ static void level_make_bodies(level_solid *bodies) {
   for (int k = 0; k < LEVEL_BODIES; k++) {
     shapes_mesh shape;
     memset(&shape, 0, sizeof shape);
-    if (k == 0)
-      shapes_mug(&shape, 0.1, 0.2, 0.01, 48);
-    if (k == 1)
-      shapes_box(&shape, 0.3, 0.2, 0.1, 6);
-    if (k == 2)
-      level_boulder(&shape, 0.15, 16, 1);
-    if (k == 3)
-      shapes_drawer(&shape, 0.3, 0.2, 0.1, 0.01);
-    if (k == 4)
-      level_arch(&shape, 0.12, 0.03, 24);
-    if (k == 5)
-      shapes_plate(&shape, 0.15, 0.03, 0.01, 48);
+    if (k == 0) shapes_mug(&shape, 0.1, 0.2, 0.01, 48);
+    if (k == 1) shapes_box(&shape, 0.3, 0.2, 0.1, 6);
+    if (k == 2) level_boulder(&shape, 0.15, 16, 1);
+    if (k == 3) shapes_drawer(&shape, 0.3, 0.2, 0.1, 0.01);
+    if (k == 4) level_arch(&shape, 0.12, 0.03, 24);
+    if (k == 5) shapes_plate(&shape, 0.15, 0.03, 0.01, 48);
     level_solid_init(&bodies[k], &shape, 0.3);
     if (nsvcd_encode(&bodies[k].mesh, NULL, NULL, NULL, 0, &bodies[k].body))
       level_fail("a body was refused");
@@ -110,8 +102,7 @@ static int level_motion(shapes_rng *rng, int set, const level_solid *body, const
   oracle_quat_mul(spin, poses[0].rotation, poses[1].rotation);
   const double length = shapes_uniform(rng, 0, way);
   double up[3] = {0, 0, 1};
-  if (set == LEVEL_SLIDE)
-    direction[2] = 0;
+  if (set == LEVEL_SLIDE) direction[2] = 0;
   const double out = body->radius + shapes_uniform(rng, -0.1, 0.1);
   for (int k = 0; k < 3; k++) {
     const double place = t->v[0][k] + u * (t->v[1][k] - t->v[0][k]) + v * (t->v[2][k] - t->v[0][k]);
@@ -119,21 +110,16 @@ static int level_motion(shapes_rng *rng, int set, const level_solid *body, const
     poses[1].position[k] = poses[0].position[k] + length * direction[k];
   }
   // below the ground, or by a triangle without a normal
-  if (!(poses[0].position[2] > -0.5))
-    return 0;
-  if (set != LEVEL_SLIDE)
-    return 1;
+  if (!(poses[0].position[2] > -0.5)) return 0;
+  if (set != LEVEL_SLIDE) return 1;
   // Let down until it slides at the gap that is wanted, by the oracle.
   const double wanted = 1e-4 * pow(10, shapes_uniform(rng, 0.3, 2));
   for (int step = 0; step < 60; step++) {
     const double gap = level_gap(body, level, poses);
-    if (gap <= 0)
-      return 0;
-    if (fabs(gap - wanted) < 0.1 * wanted)
-      return 1;
+    if (gap <= 0) return 0;
+    if (fabs(gap - wanted) < 0.1 * wanted) return 1;
     for (int n = 0; n < 2; n++) {
-      for (int k = 0; k < 3; k++)
-        poses[n].position[k] += (wanted - gap) * up[k];
+      for (int k = 0; k < 3; k++) poses[n].position[k] += (wanted - gap) * up[k];
     }
   }
   return 0;
@@ -154,10 +140,8 @@ static const nsvcd_body *level_piece(const level_solid *level, const level_solid
     high[k] = fmaxf(poses[0].position[k], poses[1].position[k]) + reach;
   }
   const nsvcd_result cut = nsvcd_mesh_cut(&level->mesh, low, high, NULL, &part);
-  if (cut == NSVCD_ERROR_EMPTY)
-    return NULL;
-  if (cut || nsvcd_encode(&part, &open, NULL, NULL, 0, &piece))
-    level_fail("a piece was refused");
+  if (cut == NSVCD_ERROR_EMPTY) return NULL;
+  if (cut || nsvcd_encode(&part, &open, NULL, NULL, 0, &piece)) level_fail("a piece was refused");
   nsvcd_mesh_free(&part, NULL);
   return piece;
 }

@@ -83,19 +83,16 @@ int main(int argc, char **argv) {
   const char *filter = argc > 1 ? argv[1] : NULL;
   const test_file *only = NULL;
   for (int f = 0; f < FILES && filter; f++) {
-    if (!strcmp(filter, files[f].name))
-      only = &files[f];
+    if (!strcmp(filter, files[f].name)) only = &files[f];
   }
   for (int f = 0; f < FILES; f++) {
-    if (only && only != &files[f])
-      continue;
+    if (only && only != &files[f]) continue;
     check.filter = filter && !strstr(files[f].name, filter) ? filter : NULL;
     files[f].run();
   }
   if (check.passed + check.failed == 0) {
     fprintf(stderr, "'%s' is in no test's name, nor in that of a file:", filter);
-    for (int f = 0; f < FILES; f++)
-      fprintf(stderr, " %s", files[f].name);
+    for (int f = 0; f < FILES; f++) fprintf(stderr, " %s", files[f].name);
     fprintf(stderr, "\n");
   }
   return check_end();

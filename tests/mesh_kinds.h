@@ -49,8 +49,7 @@ static void mesh_area_vector(const nsvcd_mesh *mesh, double *sum) {
   for (size_t t = 0; t < mesh->triangle_count; ++t) {
     double corners[3][3], v[3];
     mesh_triangle(mesh, t, corners, v);
-    for (int k = 0; k < 3; ++k)
-      sum[k] += v[k];
+    for (int k = 0; k < 3; ++k) sum[k] += v[k];
   }
 }
 
@@ -76,15 +75,13 @@ static nsvcd_mesh mesh_round(size_t rings, size_t segments, double radius, doubl
       double b = 2 * pi * (double)j / (double)segments;
       double r =
           tube > 0 ? radius + tube * cos(a) : radius * sin(a) * (1 + 0.3 * cos(3 * b) * sin(a));
-      if (tube <= 0 && (i == 0 || i == rings - 1))
-        r = 0;  // exact poles close the surface
+      if (tube <= 0 && (i == 0 || i == rings - 1)) r = 0;  // exact poles close the surface
       float *p = mesh.positions + 3 * (i * segments + j);
       p[0] = (float)(r * cos(b));
       p[1] = (float)(r * sin(b));
       p[2] = (float)(tube > 0 ? tube * sin(a) : -radius * cos(a));
       if (tube <= 0 && i == rings - 1) {  // no quads beyond the last ring: points
-        for (int k = 0; k < 6; ++k)
-          *index++ = (uint32_t)(i * segments + j);
+        for (int k = 0; k < 6; ++k) *index++ = (uint32_t)(i * segments + j);
         continue;
       }
       uint32_t i1 = (uint32_t)((i + 1) % rings);
@@ -127,8 +124,7 @@ static nsvcd_mesh mesh_soup(size_t triangles, double size) {
     mesh.indices[i] = (uint32_t)i;
   }
   // no area
-  for (size_t t = 0; t + 1 < triangles; t += 11)
-    mesh.indices[3 * t + 1] = mesh.indices[3 * t];
+  for (size_t t = 0; t + 1 < triangles; t += 11) mesh.indices[3 * t + 1] = mesh.indices[3 * t];
   return mesh;
 }
 
@@ -148,13 +144,11 @@ static nsvcd_mesh mesh_fan(size_t triangles, double length, double width) {
 }
 
 static void mesh_scale(nsvcd_mesh *mesh, float s) {
-  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
-    mesh->positions[i] *= s;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) mesh->positions[i] *= s;
 }
 
 static void mesh_move(nsvcd_mesh *mesh, float d) {
-  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
-    mesh->positions[i] += d;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) mesh->positions[i] += d;
 }
 
 enum { MESH_KINDS = 9 };

@@ -1,5 +1,5 @@
 """Are the tests worth anything? Makes mistakes in neuralsvcd.h at random, one at a time, and counts how many the tests
-notice. From the repository's root:
+notice; for each room of src/ that they include they get that header. From the repository's root:
 
   python3 tests/mutate.py --count 100 --seed 1 --jobs 16             all of them
   python3 tests/mutate.py --count 100 --seed 1 --part 0 --of 4       every fourth: mutant n is the same whatever the parts
@@ -31,20 +31,27 @@ ROOT = Path(__file__).parent.parent
 HEADER = "neuralsvcd.h"
 LIMIT = 4
 LEAST = 20  # seconds
-# Files of tests to begin with, for sections of another name.
+# Files of tests to begin with, for rooms and floors; else that of the room's name.
 FIRST = {
-    "strings": ["results"],
-    "math": ["math", "surface", "motion"],
-    "vectors": ["vectors", "broad_phase", "decoder"],
-    "memory": ["query", "encoding"],
+    "ground/strings": ["results"],
+    "ground": ["math", "surface", "motion"],
+    "ground/memory": ["query", "encoding"],
+    "mesh": ["mesh"],
+    "lanes": ["vectors", "broad_phase", "decoder"],
     "patches": ["patches", "encoding"],
-    "regions": ["level", "encoding"],
+    "patches/topology": ["regions", "facets"],
+    "patches/regions": ["regions", "level", "encoding"],
     "surface": ["surface", "facets", "proof"],
-    "weights": ["decoder"],
-    "facets": ["facets", "proof"],
-    "broad phase": ["broad_phase", "proof"],
+    "encoder": ["encoder", "decoder"],
+    "body": ["body", "facets", "encoding"],
+    "body/facets": ["facets", "proof"],
+    "motion": ["motion", "broad_phase", "proof"],
+    "search": ["broad_phase", "proof"],
+    "proof": ["proof", "asks"],
+    "network/pairs": ["decoder"],
     "query": ["query", "cost", "proof"],
-    "optimizer": ["optimizer", "plan_spheres", "tasks"],
+    "gradient": ["gradient"],
+    "plan": ["optimizer", "spline", "plan_spheres", "tasks"],
 }
 # It asks three builds of the same: minutes to compile.
 LEFT_OUT = {"processor"}
@@ -207,9 +214,9 @@ class Bench:
         self.code = ""
 
     def needs_header(self, test: str) -> bool:
-        made = subprocess.run([self.options.cc, "-MM", "-DTEST_ALONE", f"tests/test_{test}.c"], cwd=ROOT, capture_output=True,
+        made = subprocess.run([self.options.cc, "-MM", "-I.", "-DTEST_ALONE", f"tests/test_{test}.c"], cwd=ROOT, capture_output=True,
                               text=True, check=True)
-        return HEADER in made.stdout
+        return HEADER in made.stdout or "src/" in made.stdout
 
     def weights_of_kinds(self) -> list[float]:
         """Every kind of mistake is as likely as another, whatever the number of its sites."""
@@ -232,6 +239,11 @@ class Bench:
         (folder / "build").mkdir()
         (folder / "weights.h").symlink_to(ROOT / "weights.h")
         (folder / HEADER).write_text(text)
+        for path in [ROOT / "src/header.h", *(ROOT / "src").glob("*/*.h")]:
+            room = folder / path.relative_to(ROOT)
+            room.parent.mkdir(parents=True, exist_ok=True)
+            up = "../" * (len(room.relative_to(folder).parts) - 1)
+            room.write_text(f'#include "{up}{HEADER}"\n')
         return folder
 
     def assembly(self, folder: Path) -> str:
@@ -283,7 +295,9 @@ class Bench:
         return bool(self.code) and len(self.usual) == len(self.tests)
 
     def order(self, section: str) -> list[str]:
-        first = [test for test in FIRST.get(section, [section.replace(" ", "_")]) if test in self.tests]
+        floor, _, room = section.partition("/")
+        first = FIRST.get(section, FIRST.get(floor, [room]))
+        first = [test for test in first if test in self.tests]
         return first + sorted((test for test in self.tests if test not in first), key=lambda test: self.usual.get(test, 0))
 
     def draw(self, number: int) -> Mutant:

@@ -17,19 +17,16 @@ static void random_rotation(float *m) {
   float q[4];
   float length = 0;
   do {
-    for (size_t k = 0; k < 4; k++)
-      q[k] = network_uniform();
+    for (size_t k = 0; k < 4; k++) q[k] = network_uniform();
     length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   } while (length > 1 || length < 0.1f);
-  for (size_t k = 0; k < 4; k++)
-    q[k] /= length;
+  for (size_t k = 0; k < 4; k++) q[k] /= length;
   matrix_of_quat(q, m);
 }
 
 static float largest_difference(const float *a, const float *b, size_t count) {
   float most = 0;
-  for (size_t k = 0; k < count; k++)
-    most = fmaxf(most, fabsf(a[k] - b[k]));
+  for (size_t k = 0; k < count; k++) most = fmaxf(most, fabsf(a[k] - b[k]));
   return most;
 }
 
@@ -39,8 +36,7 @@ static void wigner(const float *r, float *d) {
   const nsvcd__mat3 rotation = {nsvcd__f3_load(r), nsvcd__f3_load(r + 3), nsvcd__f3_load(r + 6)};
   const nsvcd__vmat3 m = nsvcd__vmat3_set(&rotation);
   nsvcd__wigner(&m, nsvcd__v_set(1), lanes);
-  for (size_t k = 0; k < NSVCD__WIGNER; k++)
-    d[k] = lanes[k][3 % NSVCD__SLICE];
+  for (size_t k = 0; k < NSVCD__WIGNER; k++) d[k] = lanes[k][3 % NSVCD__SLICE];
 }
 
 // D(R) z of a latent's vectors: (3, CHANNELS), then (5, CHANNELS).

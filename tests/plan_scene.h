@@ -11,8 +11,7 @@
 #define PLAN_VIA (NSVCD_MAX_VIA_POINTS + 2)
 
 static void plan_random_numbers(shapes_rng *rng, size_t count, double reach, float *out) {
-  for (size_t k = 0; k < count; k++)
-    out[k] = (float)shapes_uniform(rng, -reach, reach);
+  for (size_t k = 0; k < count; k++) out[k] = (float)shapes_uniform(rng, -reach, reach);
 }
 
 typedef enum plan_kind { PLAN_XYZ, PLAN_ARMS } plan_kind;
@@ -64,22 +63,17 @@ static const double plan_base[3] = {0.55, 0, 0};  // of the second arm
 
 static void plan_place_exactly(const plan_scene *s, const double *joints, oracle_pose *poses) {
   for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++)
-      poses[b].position[k] = (double)s->rest[b].position[k];
-    for (int k = 0; k < 4; k++)
-      poses[b].rotation[k] = (double)s->rest[b].rotation[k];
+    for (int k = 0; k < 3; k++) poses[b].position[k] = (double)s->rest[b].position[k];
+    for (int k = 0; k < 4; k++) poses[b].rotation[k] = (double)s->rest[b].rotation[k];
   }
   if (s->kind == PLAN_XYZ && s->problem.body_count) {
-    for (int k = 0; k < 3; k++)
-      poses[0].position[k] = joints[k];
+    for (int k = 0; k < 3; k++) poses[0].position[k] = joints[k];
     for (size_t b = 1; b <= s->attached; b++) {  // grasped: above the first
-      for (int k = 0; k < 3; k++)
-        poses[b].position[k] = joints[k] + (k == 2 ? 0.12 : 0);
+      for (int k = 0; k < 3; k++) poses[b].position[k] = joints[k] + (k == 2 ? 0.12 : 0);
     }
     return;
   }
-  if (s->kind != PLAN_ARMS)
-    return;
+  if (s->kind != PLAN_ARMS) return;
   const double origin[3] = {0, 0, 0};
   const double lifted[3] = {plan_base[0], plan_base[1], plan_base[2] + joints[4]};
   double first[4], by[4], second[4], other[4];
@@ -100,20 +94,17 @@ static void plan_place(void *user, const float *joints, nsvcd_pose *poses) {
   plan_scene *s = (plan_scene *)user;
   oracle_pose exact[PLAN_BODIES];
   double q[PLAN_JOINTS];
-  for (size_t j = 0; j < s->problem.joints; j++)
-    q[j] = (double)joints[j];
+  for (size_t j = 0; j < s->problem.joints; j++) q[j] = (double)joints[j];
   plan_place_exactly(s, q, exact);
   for (size_t b = 0; b < s->problem.body_count; b++) {
-    for (int k = 0; k < 3; k++)
-      poses[b].position[k] = (float)exact[b].position[k];
+    for (int k = 0; k < 3; k++) poses[b].position[k] = (float)exact[b].position[k];
     for (int k = 0; k < 4; k++)
       poses[b].rotation[k] = (float)(exact[b].rotation[k] * (s->length > 0 ? s->length : 1));
   }
   s->placed++;
   if (s->fault == PLAN_NAN || (s->fault == PLAN_NAN_LATER && s->placed > 50))
     poses[0].position[1] = NAN;
-  if (s->fault == PLAN_LONG_QUATERNION)
-    poses[0].rotation[3] = 1.1f;
+  if (s->fault == PLAN_LONG_QUATERNION) poses[0].rotation[3] = 1.1f;
 }
 
 static void plan_jacobian(void *user, const float *joints, float *jacobian) {
@@ -122,15 +113,13 @@ static void plan_jacobian(void *user, const float *joints, float *jacobian) {
   memset(jacobian, 0, s->problem.body_count * 6 * f * sizeof *jacobian);
   if (s->kind == PLAN_XYZ) {
     for (size_t b = 0; b <= s->attached; b++) {
-      for (size_t k = 0; k < 3; k++)
-        jacobian[(6 * b + k) * f + k] = 1;
+      for (size_t k = 0; k < 3; k++) jacobian[(6 * b + k) * f + k] = 1;
     }
     return;
   }
   oracle_pose poses[PLAN_BODIES];
   double q[PLAN_JOINTS];
-  for (size_t j = 0; j < f; j++)
-    q[j] = (double)joints[j];
+  for (size_t j = 0; j < f; j++) q[j] = (double)joints[j];
   plan_place_exactly(s, q, poses);
   // Axes: joint, a point on it, its direction; and the body that it turns.
   const double c0 = cos(q[0]);
@@ -164,8 +153,7 @@ static void plan_bump_point(const oracle_pose *pose, size_t body, double *arm, d
   double m[9];
   oracle_matrix(pose->rotation, m);
   oracle_rotate(m, offset, arm);
-  for (int k = 0; k < 3; k++)
-    point[k] = pose->position[k] + arm[k];
+  for (int k = 0; k < 3; k++) point[k] = pose->position[k] + arm[k];
 }
 
 // of one sample
@@ -182,13 +170,10 @@ static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *
     sum += bump;
     for (int side = 0; gradient && side < 2; side++) {
       double force[3], torque[3];
-      for (int k = 0; k < 3; k++)
-        force[k] = (side ? 1 : -1) * bump * 2 / 0.04 * d[k];
+      for (int k = 0; k < 3; k++) force[k] = (side ? 1 : -1) * bump * 2 / 0.04 * d[k];
       oracle_cross(arm[side], force, torque);
-      for (int k = 0; k < 3; k++)
-        gradient[6 * body[side] + (size_t)k] += force[k];
-      for (int k = 0; k < 3; k++)
-        gradient[6 * body[side] + 3 + (size_t)k] += torque[k];
+      for (int k = 0; k < 3; k++) gradient[6 * body[side] + (size_t)k] += force[k];
+      for (int k = 0; k < 3; k++) gradient[6 * body[side] + 3 + (size_t)k] += torque[k];
     }
   }
   return sum;
@@ -196,10 +181,8 @@ static double plan_bumps(const plan_scene *s, const oracle_pose *poses, double *
 
 static oracle_pose plan_exact_pose(const nsvcd_pose *pose) {
   oracle_pose out;
-  for (int k = 0; k < 3; k++)
-    out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] = (double)pose->rotation[k];
+  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
   return out;
 }
 
@@ -213,8 +196,7 @@ static float plan_bump_collision(void *user, const nsvcd_pose *poses, size_t sam
   for (size_t i = 0; i < samples; i++) {
     oracle_pose exact[PLAN_BODIES];
     double by_poses[6 * PLAN_BODIES] = {0};
-    for (size_t b = 0; b < bodies; b++)
-      exact[b] = plan_exact_pose(&poses[i * bodies + b]);
+    for (size_t b = 0; b < bodies; b++) exact[b] = plan_exact_pose(&poses[i * bodies + b]);
     const double bump = plan_bumps(s, exact, by_poses);
     for (size_t k = 0; gradient && k < 6 * bodies; k++)
       gradient[i * bodies * 6 + k] += (float)by_poses[k];
@@ -261,8 +243,7 @@ static int plan_progress(void *user, const nsvcd_plan_progress *progress) {
 static void plan_begin(plan_scene *s, plan_kind kind, size_t bodies) {
   memset(s, 0, sizeof *s);
   s->kind = kind;
-  for (size_t b = 0; b < PLAN_BODIES; b++)
-    s->rest[b] = query_pose(0, 0, 0);
+  for (size_t b = 0; b < PLAN_BODIES; b++) s->rest[b] = query_pose(0, 0, 0);
   for (size_t j = 0; j < PLAN_JOINTS; j++) {
     s->low[j] = -2;
     s->high[j] = 2;
@@ -293,19 +274,13 @@ static shapes_mesh plan_shapes[PLAN_SHAPES];
 static const nsvcd_body *plan_body(int shape) {
   static const nsvcd_body *bodies[PLAN_SHAPES];
   static query_memory memory[PLAN_SHAPES];
-  if (bodies[shape])
-    return bodies[shape];
+  if (bodies[shape]) return bodies[shape];
   shapes_mesh *mesh = &plan_shapes[shape];
-  if (shape == PLAN_BALL)
-    shapes_capsule(mesh, 0.05, 0, 16);
-  if (shape == PLAN_BOX)
-    shapes_box(mesh, 0.2, 0.16, 0.12, 4);
-  if (shape == PLAN_WALL)
-    shapes_box(mesh, 0.05, 0.4, 0.4, 6);
-  if (shape == PLAN_LINK)
-    shapes_box(mesh, 0.2, 0.06, 0.05, 4);
-  if (shape == PLAN_SHELL)
-    shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
+  if (shape == PLAN_BALL) shapes_capsule(mesh, 0.05, 0, 16);
+  if (shape == PLAN_BOX) shapes_box(mesh, 0.2, 0.16, 0.12, 4);
+  if (shape == PLAN_WALL) shapes_box(mesh, 0.05, 0.4, 0.4, 6);
+  if (shape == PLAN_LINK) shapes_box(mesh, 0.2, 0.06, 0.05, 4);
+  if (shape == PLAN_SHELL) shapes_shell(mesh, 0.4, 0.4, 0.4, 0.03, 0, 16);
   if (shape == PLAN_OFF_CENTRE) {
     shapes_box(mesh, 0.2, 0.06, 0.05, 4);
     shapes_place(mesh, 0, NULL, 0.5, 0.1, 0);
@@ -327,15 +302,9 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   const size_t size = nsvcd_plan_workspace_size(&s->problem, &s->options);
   CHECK(size > 0);
   in->memory = query_reserve(size);
-  if (!nsvcd__planner_settings(&s->problem, &s->options, p))
-    return 0;
+  if (!nsvcd__planner_settings(&s->problem, &s->options, p)) return 0;
   CHECK_EQ(nsvcd__planner_memory(p, (char *)in->memory.at), size);
-  nsvcd__stage_init(&p->options, &p->explore);
-  nsvcd__stage_init(&p->options, &p->refine);
-  nsvcd__stage_init(&p->options, &p->check);
-  nsvcd__find_boxes(p);
-  for (size_t k = 0; k < s->problem.pair_count; k++)
-    p->queue[k] = (uint32_t)k;
+  nsvcd__planner_begin(p);
   return 1;
 }
 

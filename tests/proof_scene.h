@@ -19,18 +19,15 @@
 // Solves the symmetric system of n <= 3 rows; the answer replaces b. Returns 0 if it is singular.
 static int proof_solve(double a[3][3], double *b, int n) {
   for (int i = 0; i < n; i++) {
-    if (!(fabs(a[i][i]) > 1e-300))
-      return 0;
+    if (!(fabs(a[i][i]) > 1e-300)) return 0;
     for (int j = i + 1; j < n; j++) {
       const double factor = a[j][i] / a[i][i];
-      for (int k = i; k < n; k++)
-        a[j][k] -= factor * a[i][k];
+      for (int k = i; k < n; k++) a[j][k] -= factor * a[i][k];
       b[j] -= factor * b[i];
     }
   }
   for (int i = n - 1; i >= 0; i--) {
-    for (int j = i + 1; j < n; j++)
-      b[i] -= a[i][j] * b[j];
+    for (int j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
     b[i] /= a[i][i];
   }
   return 1;
@@ -42,22 +39,17 @@ static int proof_foot(const double (*p)[3], const int *chosen, int count, double
   double gram[3][3];
   double weights[3];
   double first = 1;
-  for (int i = 0; i + 1 < count; i++)
-    oracle_sub(p[chosen[i + 1]], p[chosen[0]], edges[i]);
+  for (int i = 0; i + 1 < count; i++) oracle_sub(p[chosen[i + 1]], p[chosen[0]], edges[i]);
   for (int i = 0; i + 1 < count; i++) {
-    for (int j = 0; j + 1 < count; j++)
-      gram[i][j] = oracle_dot(edges[i], edges[j]);
+    for (int j = 0; j + 1 < count; j++) gram[i][j] = oracle_dot(edges[i], edges[j]);
     weights[i] = -oracle_dot(edges[i], p[chosen[0]]);
   }
-  if (!proof_solve(gram, weights, count - 1))
-    return 0;
+  if (!proof_solve(gram, weights, count - 1)) return 0;
   memcpy(foot, p[chosen[0]], 3 * sizeof *foot);
   for (int i = 0; i + 1 < count; i++) {
-    if (!(weights[i] >= 0))
-      return 0;
+    if (!(weights[i] >= 0)) return 0;
     first -= weights[i];
-    for (int k = 0; k < 3; k++)
-      foot[k] += weights[i] * edges[i][k];
+    for (int k = 0; k < 3; k++) foot[k] += weights[i] * edges[i][k];
   }
   return first >= 0;
 }
@@ -73,21 +65,17 @@ static void proof_reduce(double (*p)[3], int *count, double *nearest) {
     int n = 0;
     double foot[3];
     for (int i = 0; i < *count; i++) {
-      if (set >> i & 1)
-        chosen[n++] = i;
+      if (set >> i & 1) chosen[n++] = i;
     }
-    if (!proof_foot((const double(*)[3])p, chosen, n, foot))
-      continue;
-    if (oracle_dot(foot, foot) >= best)
-      continue;
+    if (!proof_foot((const double(*)[3])p, chosen, n, foot)) continue;
+    if (oracle_dot(foot, foot) >= best) continue;
     best = oracle_dot(foot, foot);
     memcpy(nearest, foot, sizeof foot);
     kept = set;
   }
   int n = 0;
   for (int i = 0; i < *count; i++) {
-    if (kept >> i & 1)
-      memcpy(out[n++], p[i], sizeof out[0]);
+    if (kept >> i & 1) memcpy(out[n++], p[i], sizeof out[0]);
   }
   memcpy(p, out, (size_t)n * sizeof out[0]);
   *count = n;
@@ -110,18 +98,15 @@ static void proof_hull_distance(const double (*hull)[3], size_t count, const dou
       double d[3];
       oracle_sub(hull[i], x, d);
       const double at = oracle_dot(d, nearest);
-      if (at >= least)
-        continue;
+      if (at >= least) continue;
       least = at;
       memcpy(support, d, sizeof d);
     }
     *low = fmax(*low, least / oracle_length(nearest));
-    if (size == 4)
-      return;
+    if (size == 4) return;
     memcpy(simplex[size++], support, sizeof support);
     proof_reduce(simplex, &size, nearest);
-    if (oracle_length(nearest) >= *high)
-      return;
+    if (oracle_length(nearest) >= *high) return;
     *high = oracle_length(nearest);
   }
 }
@@ -171,10 +156,8 @@ static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out)
   const float *spheres = (const float *)(const void *)(f->body + 1);
   const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
   const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
-  for (size_t k = 0; k < 3; k++)
-    out->centre[k] = (double)spheres[k * padded + i];
-  for (size_t k = 0; k < 3; k++)
-    out->normal[k] = (double)f->discs[k * padded + i];
+  for (size_t k = 0; k < 3; k++) out->centre[k] = (double)spheres[k * padded + i];
+  for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->discs[k * padded + i];
   out->radius = (double)spheres[3 * padded + i];
   out->low = (double)f->discs[3 * padded + i];
   out->high = (double)f->discs[4 * padded + i];
@@ -194,8 +177,7 @@ static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out)
 
 static size_t proof_stored_number(const unsigned char *at, size_t bytes) {
   size_t number = 0;
-  for (size_t k = 0; k < bytes; k++)
-    number |= (size_t)at[k] << 8 * k;
+  for (size_t k = 0; k < bytes; k++) number |= (size_t)at[k] << 8 * k;
   return number;
 }
 
@@ -241,11 +223,9 @@ static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size
       out->stored[c][k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * all + vertex];
     }
     oracle_sub(out->stored[c], out->corners[c], off);
-    if (oracle_length(off) > b->patches[i].quantum * (1 + 1e-9))
-      out->whole = 0;
+    if (oracle_length(off) > b->patches[i].quantum * (1 + 1e-9)) out->whole = 0;
   }
-  if (!out->whole)
-    memcpy(out->corners, out->stored, sizeof out->corners);
+  if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
 }
 
 // Does the patch hold a point of one of its triangles: 1 for certain, 0 for certain not, -1 unknown
@@ -256,29 +236,24 @@ static int proof_holds(const proof_patch *p, const double *x) {
   const double square = oracle_dot(p->normal, p->normal);
   const double height = oracle_dot(p->normal, d);
   const double rounding = 1e-12 * (oracle_length(p->centre) + p->radius);
-  for (int k = 0; k < 3; k++)
-    along[k] = d[k] - p->normal[k] * height / square;
+  for (int k = 0; k < 3; k++) along[k] = d[k] - p->normal[k] * height / square;
   const double outside = fmax(fmax(oracle_length(d) - p->radius, oracle_length(along) - p->across),
                               fmax(height - p->high, p->low - height));
-  if (outside > rounding)
-    return 0;
+  if (outside > rounding) return 0;
   proof_hull_distance((const double(*)[3])p->hull, p->hull_count, x, &low, &high);
-  if (low > p->slack + rounding)
-    return 0;
+  if (low > p->slack + rounding) return 0;
   return outside <= 0 && high <= p->slack ? 1 : -1;
 }
 
 static int proof_lists(const proof_body *b, size_t i, size_t triangle) {
   for (size_t n = b->first_of[triangle]; n < b->first_of[triangle + 1]; n++) {
-    if (b->listings[b->of_triangle[n]].patch == i)
-      return 1;
+    if (b->listings[b->of_triangle[n]].patch == i) return 1;
   }
   return 0;
 }
 
 static void proof_pool_add(proof_patch *p, const double *x) {
-  if (p->pool_count == PROOF_POOL || proof_holds(p, x) != 1)
-    return;
+  if (p->pool_count == PROOF_POOL || proof_holds(p, x) != 1) return;
   memcpy(p->pool[p->pool_count++], x, 3 * sizeof *x);
 }
 
@@ -301,15 +276,11 @@ static void proof_pool_border(proof_patch *p, const double *inside, const double
   double x[3];
   for (int step = 0; step < 24; step++) {
     const double middle = 0.5 * (in + out);
-    for (int k = 0; k < 3; k++)
-      x[k] = inside[k] + middle * (outside[k] - inside[k]);
-    if (proof_holds(p, x) == 1)
-      in = middle;
-    if (proof_holds(p, x) != 1)
-      out = middle;
+    for (int k = 0; k < 3; k++) x[k] = inside[k] + middle * (outside[k] - inside[k]);
+    if (proof_holds(p, x) == 1) in = middle;
+    if (proof_holds(p, x) != 1) out = middle;
   }
-  for (int k = 0; k < 3; k++)
-    x[k] = inside[k] + in * (outside[k] - inside[k]);
+  for (int k = 0; k < 3; k++) x[k] = inside[k] + in * (outside[k] - inside[k]);
   proof_pool_add(p, x);
 }
 
@@ -320,8 +291,7 @@ static void proof_fill_pool(proof_body *b, size_t i, shapes_rng *rng) {
   for (size_t n = p->first; n < p->end && p->pool_count < PROOF_POOL / 2; n++) {
     double corners[3][3];
     proof_corners(b, b->listings[n].triangle, corners);
-    for (int k = 0; k < 3; k++)
-      proof_pool_add(p, corners[k]);
+    for (int k = 0; k < 3; k++) proof_pool_add(p, corners[k]);
   }
   for (int trial = 0; trial < 2 * PROOF_POOL && p->end > p->first; trial++) {
     const size_t n = p->first + (size_t)(shapes_next(rng) % (p->end - p->first));
@@ -331,8 +301,7 @@ static void proof_fill_pool(proof_body *b, size_t i, shapes_rng *rng) {
     if (proof_holds(p, x) == 1) {
       proof_pool_add(p, x);
       const double *corner = corners[trial % 3];
-      if (proof_holds(p, corner) == 0)
-        proof_pool_border(p, x, corner);
+      if (proof_holds(p, corner) == 0) proof_pool_border(p, x, corner);
     }
   }
 }
@@ -340,14 +309,10 @@ static void proof_fill_pool(proof_body *b, size_t i, shapes_rng *rng) {
 static void proof_sort_listings(proof_body *b) {
   size_t *first = (size_t *)calloc(b->triangles + 2, sizeof *first);
   b->of_triangle = (size_t *)malloc((b->listed + 1) * sizeof *b->of_triangle);
-  if (!first || !b->of_triangle)
-    exit(1);
-  for (size_t n = 0; n < b->listed; n++)
-    first[b->listings[n].triangle + 2]++;
-  for (size_t t = 0; t < b->triangles; t++)
-    first[t + 2] += first[t + 1];
-  for (size_t n = 0; n < b->listed; n++)
-    b->of_triangle[first[b->listings[n].triangle + 1]++] = n;
+  if (!first || !b->of_triangle) exit(1);
+  for (size_t n = 0; n < b->listed; n++) first[b->listings[n].triangle + 2]++;
+  for (size_t t = 0; t < b->triangles; t++) first[t + 2] += first[t + 1];
+  for (size_t n = 0; n < b->listed; n++) b->of_triangle[first[b->listings[n].triangle + 1]++] = n;
   b->first_of = first;
 }
 
@@ -358,8 +323,7 @@ static void proof_read_body(proof_body *b) {
   b->listed = f.listed;
   b->patches = (proof_patch *)calloc(b->count, sizeof *b->patches);
   b->listings = (proof_listing *)calloc(b->listed + 1, sizeof *b->listings);
-  if (!b->patches || !b->listings)
-    exit(1);
+  if (!b->patches || !b->listings) exit(1);
   for (size_t i = 0; i < b->count; i++) {
     proof_read_patch(&f, i, &b->patches[i]);
     for (size_t n = b->patches[i].first; n < b->patches[i].end; n++) {
@@ -367,8 +331,7 @@ static void proof_read_body(proof_body *b) {
     }
   }
   proof_sort_listings(b);
-  for (size_t i = 0; i < b->count; i++)
-    proof_fill_pool(b, i, &rng);
+  for (size_t i = 0; i < b->count; i++) proof_fill_pool(b, i, &rng);
 }
 
 // Encodes a shape, multiplied by scale; what the encoder says goes to *result.
@@ -382,8 +345,7 @@ static proof_body proof_encode(const shapes_mesh *shape, double scale,
   mesh.positions = (float *)malloc(3 * b.vertices * sizeof(float));
   b.positions = (double *)malloc(3 * b.vertices * sizeof(double));
   b.indices = mesh.indices = (uint32_t *)malloc(3 * b.triangles * sizeof(uint32_t));
-  if (!mesh.positions || !b.positions || !b.indices)
-    exit(1);
+  if (!mesh.positions || !b.positions || !b.indices) exit(1);
   memcpy(b.indices, shape->indices, 3 * b.triangles * sizeof(uint32_t));
   for (size_t i = 0; i < 3 * b.vertices; i++) {
     mesh.positions[i] = (float)(shape->positions[i] * scale);
@@ -391,12 +353,9 @@ static proof_body proof_encode(const shapes_mesh *shape, double scale,
   }
   *result = nsvcd_encode(&mesh, options, NULL, NULL, 0, &b.body);
   free(mesh.positions);
-  if (*result)
-    return b;
-  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1))
-    exit(1);
-  for (size_t i = 0; i < b.vertices; i++)
-    b.size = fmax(b.size, oracle_length(b.positions + 3 * i));
+  if (*result) return b;
+  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1)) exit(1);
+  for (size_t i = 0; i < b.vertices; i++) b.size = fmax(b.size, oracle_length(b.positions + 3 * i));
   proof_read_body(&b);
   return b;
 }
@@ -467,8 +426,7 @@ static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fi
 // The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs
 // are as short: there the sign is that of the floats' own product, and 0 leaves them as they are.
 static oracle_pose proof_pose_at(const proof_track *m, double t) {
-  if (m->count == 1)
-    return m->poses[0];
+  if (m->count == 1) return m->poses[0];
   const double at = t * (double)(m->count - 1);
   const size_t last = m->count - 2;
   const size_t k = at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
@@ -490,8 +448,7 @@ static oracle_pose proof_pose_at(const proof_track *m, double t) {
   const double before = half > 1e-9 ? sin((1 - f) * half) / sin(half) : 1 - f;
   const double after = half > 1e-9 ? sin(f * half) / sin(half) : f;
   oracle_pose out;
-  for (int i = 0; i < 4; i++)
-    out.rotation[i] = before * a->rotation[i] + after * q[i];
+  for (int i = 0; i < 4; i++) out.rotation[i] = before * a->rotation[i] + after * q[i];
   for (int i = 0; i < 3; i++)
     out.position[i] = a->position[i] + f * (b->position[i] - a->position[i]);
   oracle_quat_normalize(out.rotation);
@@ -502,17 +459,14 @@ static proof_place proof_place_at(const proof_motion *m, double t) {
   const oracle_pose fixed = proof_pose_at(&m->fixed, t);
   const double scale = (double)m->moving.scale / (double)m->fixed.scale;
   proof_place at = proof_relative(&pose, &fixed);
-  for (int k = 0; k < 9; k++)
-    at.matrix[k] *= scale;
-  for (int k = 0; k < 3; k++)
-    at.position[k] /= (double)m->fixed.scale;
+  for (int k = 0; k < 9; k++) at.matrix[k] *= scale;
+  for (int k = 0; k < 3; k++) at.position[k] /= (double)m->fixed.scale;
   return at;
 }
 static void proof_apply(const proof_place *at, const double *x, double *out) {
   double turned[3];
   oracle_rotate(at->matrix, x, turned);
-  for (int k = 0; k < 3; k++)
-    out[k] = turned[k] + at->position[k];
+  for (int k = 0; k < 3; k++) out[k] = turned[k] + at->position[k];
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -530,10 +484,8 @@ static proof_record *proof_sorted(proof_record *items, size_t count);
 static int proof_compare(const void *pa, const void *pb) {
   const proof_record *a = (const proof_record *)pa;
   const proof_record *b = (const proof_record *)pb;
-  if (a->i != b->i)
-    return a->i < b->i ? -1 : 1;
-  if (a->j != b->j)
-    return a->j < b->j ? -1 : 1;
+  if (a->i != b->i) return a->i < b->i ? -1 : 1;
+  if (a->j != b->j) return a->j < b->j ? -1 : 1;
   return (a->kind > b->kind) - (a->kind < b->kind);
 }
 static proof_record *proof_sorted(proof_record *items, size_t count) {
@@ -566,26 +518,16 @@ static void proof_sheet(shapes_mesh *mesh, double size, int cuts) {
 static void proof_shape(int kind, uint64_t seed, shapes_mesh *mesh) {
   shapes_rng rng = {seed};
   memset(mesh, 0, sizeof *mesh);
-  if (kind == SOLID)
-    shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
-  if (kind == HOLLOW)
-    shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
-  if (kind == BOX)
-    shapes_box(mesh, 0.2, 0.15, 0.1, 4);
-  if (kind == BLOCK)
-    shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
-  if (kind == PLATE)
-    shapes_box(mesh, 0.3, 0.2, 0.001, 3);
-  if (kind == SHEET)
-    proof_sheet(mesh, 0.3, 8);
-  if (kind == SHELL)
-    shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
-  if (kind == NEEDLE)
-    shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
-  if (kind == BALL)
-    shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
-  if (kind != TRIANGLE)
-    return;
+  if (kind == SOLID) shapes_random_solid(mesh, &rng, shapes_uniform(&rng, 0.1, 0.4));
+  if (kind == HOLLOW) shapes_random_hollow(mesh, &rng, (int)(seed % SHAPES_HOLLOWS), 0.4);
+  if (kind == BOX) shapes_box(mesh, 0.2, 0.15, 0.1, 4);
+  if (kind == BLOCK) shapes_box(mesh, 0.3, 0.3, 0.1, 1);  // two triangles a side: listed in parts
+  if (kind == PLATE) shapes_box(mesh, 0.3, 0.2, 0.001, 3);
+  if (kind == SHEET) proof_sheet(mesh, 0.3, 8);
+  if (kind == SHELL) shapes_shell(mesh, 0.4, 0.35, 0.3, 0.02, (int)(seed % 2), 20);
+  if (kind == NEEDLE) shapes_box(mesh, 0.5, 5e-5, 5e-5, 2);
+  if (kind == BALL) shapes_ellipsoid(mesh, 0.11, 0.09, 0.07, 24);
+  if (kind != TRIANGLE) return;
   const uint32_t a = shapes_vertex(mesh, 0.1, 0, 0);
   const uint32_t b = shapes_vertex(mesh, -0.05, 0.1, 0.01);
   shapes_triangle(mesh, a, b, shapes_vertex(mesh, -0.04, -0.1, -0.02));
@@ -600,8 +542,7 @@ static proof_body proof_make(int kind, uint64_t seed, size_t points, double scal
   const proof_body out = proof_encode(&shape, scale, &options, &result);
   shapes_free(&shape);
   CHECK_EQ(result, NSVCD_OK);
-  if (result)
-    exit(1);
+  if (result) exit(1);
   return out;
 }
 
@@ -622,17 +563,14 @@ static const proof_body *proof_shared(size_t scale, size_t n) {
                     {SOLID, 17, 1},    {BALL, 18, 4}};
   static proof_body bodies[SCALES][MAKES];
   proof_body *b = &bodies[scale][n];
-  if (!b->body)
-    *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
+  if (!b->body) *b = proof_make(makes[n].kind, makes[n].seed, makes[n].points, proof_scales[scale]);
   return b;
 }
 
 static void *proof_workspace(void) {
   static void *memory;
-  if (!memory)
-    memory = malloc(nsvcd_sweep_workspace_size(NULL));
-  if (!memory)
-    exit(1);
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size(NULL));
+  if (!memory) exit(1);
   return memory;
 }
 

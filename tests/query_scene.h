@@ -26,8 +26,7 @@ typedef struct query_memory {
 static query_memory query_reserve(size_t size) {
   query_memory m;
   m.block = malloc(size + QUERY_ALIGN);
-  if (!m.block)
-    exit(1);
+  if (!m.block) exit(1);
   m.at = (void *)(((uintptr_t)m.block + QUERY_ALIGN - 1) & ~(uintptr_t)(QUERY_ALIGN - 1));
   memset(m.at, 0x5a, size);  // so that whatever the library leaves unwritten differs from zero
   return m;
@@ -39,8 +38,7 @@ static void query_release(query_memory *m) {
 
 static void *query_workspace(void) {  // one for all tests: they run one after the other
   static query_memory memory;
-  if (!memory.block)
-    memory = query_reserve(nsvcd_sweep_workspace_size(NULL));
+  if (!memory.block) memory = query_reserve(nsvcd_sweep_workspace_size(NULL));
   return memory.at;
 }
 
@@ -49,8 +47,7 @@ static nsvcd_mesh query_mesh(const shapes_mesh *shape, double scale) {
   nsvcd_mesh mesh;
   mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
   mesh.indices = (uint32_t *)malloc(3 * shape->triangles * sizeof(uint32_t));
-  if (!mesh.positions || !mesh.indices)
-    exit(1);
+  if (!mesh.positions || !mesh.indices) exit(1);
   for (size_t i = 0; i < 3 * shape->vertices; i++)
     mesh.positions[i] = (float)(shape->positions[i] * scale);
   memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
@@ -106,10 +103,8 @@ static nsvcd_pose query_pose(double x, double y, double z) {
 static void query_random_pose(shapes_rng *rng, double reach, nsvcd_pose *pose) {
   double q[4];
   shapes_quaternion(rng, q);
-  for (int k = 0; k < 3; k++)
-    pose->position[k] = (float)shapes_uniform(rng, -reach, reach);
-  for (int k = 0; k < 4; k++)
-    pose->rotation[k] = (float)q[k];
+  for (int k = 0; k < 3; k++) pose->position[k] = (float)shapes_uniform(rng, -reach, reach);
+  for (int k = 0; k < 4; k++) pose->rotation[k] = (float)q[k];
 }
 // out = r a for quaternions x y z w.
 static void query_multiply(const float *r, const float *a, float *out) {
@@ -127,8 +122,7 @@ static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) 
   float m[9];
   matrix_of_quat(common->rotation, m);
   mul33_vec(m, pose->position, out.position);
-  for (int k = 0; k < 3; k++)
-    out.position[k] += common->position[k];
+  for (int k = 0; k < 3; k++) out.position[k] += common->position[k];
   query_multiply(common->rotation, pose->rotation, out.rotation);
   return out;
 }

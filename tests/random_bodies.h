@@ -29,13 +29,11 @@ static void put_in_order(size_t points, uint16_t *order) {
   uint16_t spare[NSVCD_SMALL_PATCHES];
   const nsvcd__f3 *at = (const nsvcd__f3 *)(const void *)centres;
   const nsvcd__ordering all = {at, order, spare, points};
-  for (size_t i = 0; i < points; i++)
-    order[i] = (uint16_t)i;
+  for (size_t i = 0; i < points; i++) order[i] = (uint16_t)i;
   nsvcd__body_order(all);
 }
 
 static const nsvcd_body *build(size_t points, blob *memory) {
-  const nsvcd_body *body = NULL;
   uint16_t order[NSVCD_SMALL_PATCHES];
   nsvcd__latents_source source;
   put_in_order(points, order);
@@ -45,10 +43,10 @@ static const nsvcd_body *build(size_t points, blob *memory) {
   source.areas = (const nsvcd__f3 *)(const void *)areas;
   source.latents = latents;
   source.order = order;
-  source.weights_id = NSVCD_WEIGHTS_ID;
   source.open = 0;
-  CHECK_EQ(nsvcd__body_build(&source, aligned(memory), blob_capacity, &body), NSVCD_OK);
-  return body;
+  CHECK_LE(nsvcd_body_size(points), blob_capacity);
+  CHECK_EQ(nsvcd__body_build(&source, aligned(memory)), NSVCD_OK);
+  return (const nsvcd_body *)(const void *)aligned(memory);
 }
 
 // Spheres strewn in a box of the given size whose middle is `offset` away from the body's origin.

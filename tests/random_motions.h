@@ -3,7 +3,7 @@
 #ifndef NSVCD_TESTS_RANDOM_MOTIONS_H
 #define NSVCD_TESTS_RANDOM_MOTIONS_H
 
-#include "ask.h"
+#include "question_of.h"
 #include "random_numbers.h"
 
 // As nsvcd_sweep does; bodies do not matter to it.
@@ -12,10 +12,8 @@ static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
   static const struct nsvcd_body any = {0};
   const nsvcd_question question = question_of(&any, samples, count, &any, fixed_pose, NULL);
   nsvcd_result result = nsvcd__mover_check(&question.a);
-  if (!result)
-    result = nsvcd__mover_check(&question.b);
-  if (!result)
-    nsvcd__motion_init(&question.a, &question.b, motion);
+  if (!result) result = nsvcd__mover_check(&question.b);
+  if (!result) nsvcd__motion_init(&question.a, &question.b, motion);
   return result;
 }
 
@@ -32,10 +30,8 @@ static pose64 to_double(const nsvcd_pose *pose) {
     out.q[k] = (double)pose->rotation[k];
     square += out.q[k] * out.q[k];
   }
-  for (int k = 0; k < 4; k++)
-    out.q[k] /= sqrt(square);
-  for (int k = 0; k < 3; k++)
-    out.p[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++) out.q[k] /= sqrt(square);
+  for (int k = 0; k < 3; k++) out.p[k] = (double)pose->position[k];
   return out;
 }
 
@@ -43,27 +39,22 @@ static pose64 to_double(const nsvcd_pose *pose) {
 static void rotate64(const double *q, const double *v, double *out) {
   double c[3] = {q[1] * v[2] - q[2] * v[1], q[2] * v[0] - q[0] * v[2], q[0] * v[1] - q[1] * v[0]};
   double d[3] = {q[1] * c[2] - q[2] * c[1], q[2] * c[0] - q[0] * c[2], q[0] * c[1] - q[1] * c[0]};
-  for (int k = 0; k < 3; k++)
-    out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
+  for (int k = 0; k < 3; k++) out[k] = v[k] + 2 * (q[3] * c[k] + d[k]);
 }
 
 // A motion as examples/FORMATS.md has it, in double.
 static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
-  if (count == 1)
-    return to_double(&samples[0]);
+  if (count == 1) return to_double(&samples[0]);
   double at = t * (double)(count - 1);
   size_t k = (size_t)at;
-  if (k > count - 2)
-    k = count - 2;
+  if (k > count - 2) k = count - 2;
   double u = at - (double)k;
   double dot = 0;
   pose64 a = to_double(&samples[k]);
   pose64 b = to_double(&samples[k + 1]);
   pose64 out;
-  for (int i = 0; i < 4; i++)
-    dot += a.q[i] * b.q[i];
-  for (int i = 0; i < 4 && dot < 0; i++)
-    b.q[i] = -b.q[i];
+  for (int i = 0; i < 4; i++) dot += a.q[i] * b.q[i];
+  for (int i = 0; i < 4 && dot < 0; i++) b.q[i] = -b.q[i];
   double angle = acos(fmin(fabs(dot), 1));
   double wa = 1 - u;
   double wb = u;
@@ -76,10 +67,8 @@ static pose64 pose_at(const nsvcd_pose *samples, size_t count, double t) {
     out.q[i] = wa * a.q[i] + wb * b.q[i];
     square += out.q[i] * out.q[i];
   }
-  for (int i = 0; i < 4; i++)
-    out.q[i] /= sqrt(square);
-  for (int i = 0; i < 3; i++)
-    out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
+  for (int i = 0; i < 4; i++) out.q[i] /= sqrt(square);
+  for (int i = 0; i < 3; i++) out.p[i] = (1 - u) * a.p[i] + u * b.p[i];
   return out;
 }
 
@@ -88,8 +77,7 @@ static void place64(const pose64 *at, const pose64 *fixed, const double *point, 
   double world[3];
   double back[4] = {-fixed->q[0], -fixed->q[1], -fixed->q[2], fixed->q[3]};
   rotate64(at->q, point, world);
-  for (int k = 0; k < 3; k++)
-    world[k] += at->p[k] - fixed->p[k];
+  for (int k = 0; k < 3; k++) world[k] += at->p[k] - fixed->p[k];
   rotate64(back, world, out);
 }
 
@@ -105,8 +93,7 @@ static void random_motion(size_t count, int kind, double turn, double path, cons
     along[k] = uniform(-1, 1) * path;
   }
   random_quat(q);
-  for (int k = 0; k < 4; k++)
-    start[k] = (double)q[k];
+  for (int k = 0; k < 4; k++) start[k] = (double)q[k];
   for (size_t n = 0; n < count; n++) {
     double t = count > 1 ? (double)n / (double)(count - 1) : 0.5;
     double half = 0.5 * turn * t;
@@ -125,8 +112,7 @@ static void random_motion(size_t count, int kind, double turn, double path, cons
     }
     if (kind == 2) {
       random_quat(poses[n].rotation);
-      for (int k = 0; k < 3; k++)
-        poses[n].position[k] = (float)(middle[k] + uniform(-1, 1) * path);
+      for (int k = 0; k < 3; k++) poses[n].position[k] = (float)(middle[k] + uniform(-1, 1) * path);
     }
     double sign = uniform(-1, 1) < 0 ? -1 : 1;
     double scale = sign * uniform(1 - 9e-5, 1 + 9e-5);  // still unit to 1e-4

@@ -30,8 +30,7 @@ static void random_quat(float *q) {
       square += v[k] * v[k];
     }
   } while (square > 1 || square < 0.01);
-  for (int k = 0; k < 4; k++)
-    q[k] = (float)(v[k] / sqrt(square));
+  for (int k = 0; k < 4; k++) q[k] = (float)(v[k] / sqrt(square));
 }
 
 #endif

@@ -20,8 +20,7 @@ static nsvcd_mesh surface_mesh(size_t vertices, size_t triangles) {
 
 static nsvcd_mesh surface_take(shapes_mesh *shape) {
   nsvcd_mesh mesh = surface_mesh(shape->vertices, shape->triangles);
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    mesh.positions[i] = (float)shape->positions[i];
+  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
   memcpy(mesh.indices, shape->indices, 3 * shape->triangles * sizeof(uint32_t));
   shapes_free(shape);
   return mesh;
@@ -60,15 +59,11 @@ static nsvcd_mesh surface_soup(shapes_rng *rng, size_t triangles, double size) {
     for (size_t k = 0; k < 3; k++) {
       const double a = (double)p[k];
       const double b = (double)p[3 + k];
-      if (t % 7 == 0)
-        p[6 + k] = (float)(a + (b - a) * 0.4 + size * 1e-3 * (k == 0));
-      if (t % 11 == 0)
-        p[3 + k] = p[6 + k] = p[k];
-      if (t % 13 == 0)
-        p[6 + k] = (float)(0.5 * (a + b));
+      if (t % 7 == 0) p[6 + k] = (float)(a + (b - a) * 0.4 + size * 1e-3 * (k == 0));
+      if (t % 11 == 0) p[3 + k] = p[6 + k] = p[k];
+      if (t % 13 == 0) p[6 + k] = (float)(0.5 * (a + b));
     }
-    for (uint32_t k = 0; k < 3; k++)
-      mesh.indices[3 * t + k] = 3 * (uint32_t)t + k;
+    for (uint32_t k = 0; k < 3; k++) mesh.indices[3 * t + k] = 3 * (uint32_t)t + k;
   }
   return mesh;
 }
@@ -115,10 +110,8 @@ static nsvcd_mesh surface_solid(uint64_t seed, int hollow) {
   shapes_mesh shape;
   shapes_rng rng = {seed};
   memset(&shape, 0, sizeof shape);
-  if (hollow)
-    shapes_random_hollow(&shape, &rng, (int)(seed % SHAPES_HOLLOWS), 1);
-  if (!hollow)
-    shapes_random_solid(&shape, &rng, 1);
+  if (hollow) shapes_random_hollow(&shape, &rng, (int)(seed % SHAPES_HOLLOWS), 1);
+  if (!hollow) shapes_random_solid(&shape, &rng, 1);
   return surface_take(&shape);
 }
 
@@ -202,10 +195,8 @@ static int place_order(const void *a, const void *b) {
   const place *x = (const place *)a;
   const place *y = (const place *)b;
   for (size_t k = 0; k < 3; k++) {
-    if (x->p[k] < y->p[k])
-      return -1;
-    if (x->p[k] > y->p[k])
-      return 1;
+    if (x->p[k] < y->p[k]) return -1;
+    if (x->p[k] > y->p[k]) return 1;
   }
   return 0;
 }
@@ -218,10 +209,8 @@ typedef struct edge {
 static int edge_order(const void *a, const void *b) {
   const edge *x = (const edge *)a;
   const edge *y = (const edge *)b;
-  if (x->low != y->low)
-    return x->low < y->low ? -1 : 1;
-  if (x->high != y->high)
-    return x->high < y->high ? -1 : 1;
+  if (x->low != y->low) return x->low < y->low ? -1 : 1;
+  if (x->high != y->high) return x->high < y->high ? -1 : 1;
   return 0;
 }
 
@@ -243,13 +232,11 @@ static shells shells_of(const nsvcd_mesh *mesh) {
   }
   qsort(places, vertices, sizeof *places, place_order);
   for (size_t v = 0, first = 0; v < vertices; v++) {
-    if (place_order(&places[first], &places[v]))
-      first = v;
+    if (place_order(&places[first], &places[v])) first = v;
     weld[places[v].vertex] = places[first].vertex;
   }
 
-  for (size_t v = 0; v < vertices; v++)
-    out.part[v] = weld[v];
+  for (size_t v = 0; v < vertices; v++) out.part[v] = weld[v];
   for (int changed = 1; changed;) {  // the least label of a triangle spreads
     changed = 0;
     for (size_t pass = 0; pass < 2 * triangles; pass++) {
@@ -266,20 +253,17 @@ static shells shells_of(const nsvcd_mesh *mesh) {
       }
     }
   }
-  for (size_t v = 0; v < vertices; v++)
-    out.part[v] = out.part[weld[v]];
+  for (size_t v = 0; v < vertices; v++) out.part[v] = out.part[weld[v]];
 
   edge *edges = (edge *)malloc(3 * triangles * sizeof *edges);
   size_t count = 0;
   uint8_t *used = (uint8_t *)calloc(vertices, 1);
   for (size_t t = 0; t < triangles; t++) {
     uint32_t c[3];
-    for (size_t i = 0; i < 3; i++)
-      c[i] = weld[mesh->indices[3 * t + i]];
+    for (size_t i = 0; i < 3; i++) c[i] = weld[mesh->indices[3 * t + i]];
     out.count += !used[out.part[c[0]]];
     used[out.part[c[0]]] = 1;
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
-      continue;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
     for (size_t i = 0; i < 3; i++) {
       const uint32_t a = c[i];
       const uint32_t b = c[(i + 1) % 3];
@@ -292,10 +276,8 @@ static shells shells_of(const nsvcd_mesh *mesh) {
   for (size_t e = 0; e < count;) {
     int sum = 0;
     const size_t first = e;
-    for (; e < count && !edge_order(&edges[first], &edges[e]); e++)
-      sum += edges[e].sign;
-    if (sum)
-      out.closed[out.part[edges[first].low]] = 0;
+    for (; e < count && !edge_order(&edges[first], &edges[e]); e++) sum += edges[e].sign;
+    if (sum) out.closed[out.part[edges[first].low]] = 0;
   }
   free(weld);
   free(places);

@@ -19,10 +19,8 @@ static const nsvcd_body *asks_body(shapes_mesh *shape, size_t patches) {
   const nsvcd_encode_options options = {.patches = patches};
   const nsvcd_body *body = NULL;
   mesh.positions = (float *)malloc(3 * shape->vertices * sizeof(float));
-  if (!mesh.positions)
-    exit(1);
-  for (size_t i = 0; i < 3 * shape->vertices; i++)
-    mesh.positions[i] = (float)shape->positions[i];
+  if (!mesh.positions) exit(1);
+  for (size_t i = 0; i < 3 * shape->vertices; i++) mesh.positions[i] = (float)shape->positions[i];
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
   free(mesh.positions);
   shapes_free(shape);
@@ -54,21 +52,14 @@ static const nsvcd_body *asks_standing(int n, shapes_rng *rng) {
   shapes_mesh shape;
   double low[3], high[3];
   memset(&shape, 0, sizeof shape);
-  if (n < 5)
-    shapes_cone(&shape, 0.05, 0, 0.01 + 0.035 * n, n % 2 ? 4 : 24);
-  if (n == 5)
-    shapes_cone(&shape, 0.05, 0.03, 0.05, 24);
-  if (n == 6)
-    shapes_cone(&shape, 0.016, 0, 0.004, 64);
-  if (n == 7)
-    shapes_cup(&shape, 0.04, 0.09, 0.003, 1.2, 24);
-  for (int k = 0; n > 7 && k < 3; k++)
-    low[k] = shapes_uniform(rng, 0.02, 0.2);
-  if (n > 7)
-    shapes_box(&shape, low[0], low[1], low[2], n % 3 ? 1 : 4);
+  if (n < 5) shapes_cone(&shape, 0.05, 0, 0.01 + 0.035 * n, n % 2 ? 4 : 24);
+  if (n == 5) shapes_cone(&shape, 0.05, 0.03, 0.05, 24);
+  if (n == 6) shapes_cone(&shape, 0.016, 0, 0.004, 64);
+  if (n == 7) shapes_cup(&shape, 0.04, 0.09, 0.003, 1.2, 24);
+  for (int k = 0; n > 7 && k < 3; k++) low[k] = shapes_uniform(rng, 0.02, 0.2);
+  if (n > 7) shapes_box(&shape, low[0], low[1], low[2], n % 3 ? 1 : 4);
   shapes_bounds(&shape, low, high);
-  for (size_t i = 0; i < shape.vertices; i++)
-    shape.positions[3 * i + 2] -= low[2];
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= low[2];
   return asks_body(&shape, 0);
 }
 
@@ -77,8 +68,7 @@ static const nsvcd_body *asks_table(int walls, int cuts) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 1, 1, 0.05, cuts);
-  for (size_t i = 0; i < shape.vertices; i++)
-    shape.positions[3 * i + 2] -= 0.025;
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.025;
   if (walls) {
     shapes_box_at(&shape, 0.325, 0, 0.25, 0.05, 1, 0.5);
     shapes_box_at(&shape, 0, 0.325, 0.25, 1, 0.05, 0.5);
@@ -243,8 +233,7 @@ static void asks_first_keeps_what_is_proven(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 1, 1, 0.05, 12);
-  for (size_t i = 0; i < shape.vertices; i++)
-    shape.positions[3 * i + 2] -= 0.025;
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.025;
   shapes_box_at(&shape, 0.4, 0, 0.3, 0.05, 0.05, 0.6);
   const nsvcd_body *table = asks_body(&shape, 0);
   const nsvcd_body_facts facts = nsvcd_body_describe(table);

@@ -1,9 +1,8 @@
 // Body blobs of the network: what they hold, in which order, and what is refused.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/trust.h"
 
-#include "ask.h"
 #include "check.h"
 #include "random_bodies.h"
 
@@ -32,8 +31,7 @@ static void body_round_trip(void) {
              nsvcd__body_latents(body)[NSVCD__LATENT * (i + 1) - 1];
     }
     CHECK_NEAR(want, got, 1e-9 * (fabs(want) + 1));
-    for (size_t i = points; i < body->padded; i++)
-      CHECK(nsvcd__body_r(body)[i] <= -1e14f);
+    for (size_t i = points; i < body->padded; i++) CHECK(nsvcd__body_r(body)[i] <= -1e14f);
   }
 }
 
@@ -45,10 +43,8 @@ static void body_order(void) {
     const nsvcd_body *body = random_body(points, 1, 0, &blob_a_memory);
     int seen[NSVCD_SMALL_PATCHES] = {0};
     put_in_order(points, order);
-    for (size_t i = 0; i < points; i++)
-      seen[order[i]]++;
-    for (size_t i = 0; i < points; i++)
-      CHECK_EQ(seen[i], 1);
+    for (size_t i = 0; i < points; i++) seen[order[i]]++;
+    for (size_t i = 0; i < points; i++) CHECK_EQ(seen[i], 1);
     size_t groups = nsvcd__body_groups(body);
     for (size_t g = 0; g < groups; g++) {
       for (size_t i = NSVCD__GROUP * g; i < NSVCD__GROUP * (g + 1) && i < points; i++) {
@@ -63,10 +59,8 @@ static void body_order(void) {
       }
     }
     double sum = 0;
-    for (size_t g = 0; g < groups; g++)
-      sum += (double)nsvcd__group_spheres(body).r[g];
-    if (points > 256)
-      CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
+    for (size_t g = 0; g < groups; g++) sum += (double)nsvcd__group_spheres(body).r[g];
+    if (points > 256) CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
   }
 }
 
@@ -108,11 +102,9 @@ static void body_malice(void) {
   size_t floats_end = size - 9 * NSVCD__LATENT;
   char *copy = aligned(&blob_b_memory);
   for (size_t at = offsetof(struct nsvcd_body, centre); at + 4 <= floats_end; at += 4) {
-    if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body)
-      continue;
+    if (at >= offsetof(struct nsvcd_body, open) && at < sizeof *body) continue;
     // the zeros at the end shift the latents' start by up to 15 bytes
-    if (at + 16 > floats_end)
-      continue;
+    if (at + 16 > floats_end) continue;
     for (size_t n = 0; n < 4; n++) {
       memcpy(copy, body, size);
       memcpy(copy + at, &bad[n], 4);

@@ -2,7 +2,8 @@
 // written apart.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/search/search.h"
+#include "../src/query/question.h"
 
 #include "any_query.h"
 #include "check.h"
@@ -27,8 +28,7 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
   int more = nsvcd__search_begin(moving, fixed, space);
   nsvcd__candidates_start(kept, found, limit);
-  while (more)
-    more = nsvcd__search_step(space, kept);
+  while (more) more = nsvcd__search_step(space, kept);
   qsort(found, kept->count, sizeof *found, deepest_first);
 }
 
@@ -37,10 +37,8 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
 static int by_pair(const void *a, const void *b) {
   const nsvcd__candidate *x = (const nsvcd__candidate *)a;
   const nsvcd__candidate *y = (const nsvcd__candidate *)b;
-  if (x->moving != y->moving)
-    return x->moving < y->moving ? -1 : 1;
-  if (x->fixed != y->fixed)
-    return x->fixed < y->fixed ? -1 : 1;
+  if (x->moving != y->moving) return x->moving < y->moving ? -1 : 1;
+  if (x->fixed != y->fixed) return x->fixed < y->fixed ? -1 : 1;
   return x->t_enter < y->t_enter ? -1 : x->t_enter > y->t_enter ? 1 : 0;
 }
 
@@ -57,8 +55,7 @@ static int is_covered(const nsvcd__candidate *sorted, size_t count, size_t i, si
       high = middle;
   }
   for (; low < count && sorted[low].moving == i && sorted[low].fixed == j; low++) {
-    if ((double)sorted[low].t_enter - 1e-6 <= t && t <= (double)sorted[low].t_exit + 1e-6)
-      return 1;
+    if ((double)sorted[low].t_enter - 1e-6 <= t && t <= (double)sorted[low].t_exit + 1e-6) return 1;
   }
   return 0;
 }
@@ -82,8 +79,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
   CHECK_EQ(best.count, all.total < limit ? all.total : limit);
   for (size_t n = 0; n < best.count; n++)
     sum->kept_wrong += memcmp(&few[n], &items[n], sizeof few[n]) != 0;
-  for (size_t n = 1; n < all.count; n++)
-    CHECK(items[n - 1].depth >= items[n].depth);
+  for (size_t n = 1; n < all.count; n++) CHECK(items[n - 1].depth >= items[n].depth);
   for (size_t n = 0; n < all.count; n++) {
     const nsvcd__candidate *c = &items[n];
     CHECK(0 <= c->t_enter && c->t_enter <= c->t_least && c->t_least <= c->t_exit && c->t_exit <= 1);
@@ -113,8 +109,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
                        p[1] - (double)nsvcd__body_patches(fixed).y[j],
                        p[2] - (double)nsvcd__body_patches(fixed).z[j]};
         double r = ri + (double)nsvcd__body_r(fixed)[j];
-        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r)
-          continue;
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > r * r) continue;
         sum->overlaps++;
         pair_met[i][j] = 1;
         sum->lost += !is_covered(items, all.count, i, j, t);
@@ -244,11 +239,9 @@ static void deviation_is_bounded(void) {
       nsvcd__chords_of_sphere(b, point, &chords);
       const float x[3] = {chords.start[0][l], chords.start[1][l], chords.start[2][l]};
       const float v[3] = {chords.way[0][l], chords.way[1][l], chords.way[2][l]};
-      for (int k = 0; k < 3; k++)
-        square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
+      for (int k = 0; k < 3; k++) square += pow((double)x[k] + tau * (double)v[k] - p[k], 2);
       CHECK_LE(sqrt(square), chords.reach[l]);
-      if (trial % 4 == 3)
-        most = fmax(most, sqrt(square) / (double)chords.reach[l]);
+      if (trial % 4 == 3) most = fmax(most, sqrt(square) / (double)chords.reach[l]);
     }
   }
   printf("  the bound is attained to %.4f\n", most);
@@ -261,8 +254,7 @@ static void ties(void) {
   memset(centres, 0, sizeof centres);
   memset(areas, 0, sizeof areas);
   memset(latents, 0, sizeof latents);
-  for (size_t i = 0; i < 40; i++)
-    radii[i] = 1;
+  for (size_t i = 0; i < 40; i++) radii[i] = 1;
   const nsvcd_body *a = build(40, &blob_a_memory);
   const nsvcd_body *b = build(40, &blob_b_memory);
   nsvcd_pose fixed = {{0.5f, 0, 0}, {0, 0, 0, 1}};
@@ -276,8 +268,7 @@ static void ties(void) {
   for (size_t limit = 1; limit <= 64; limit++) {
     search(a, b, &motion, work, few, limit, &best);
     CHECK(memcmp(few, items, limit * sizeof *few) == 0);
-    for (size_t n = 0; n < limit; n++)
-      CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
+    for (size_t n = 0; n < limit; n++) CHECK_EQ(few[n].moving * 40 + few[n].fixed, n);
   }
 }
 
@@ -335,8 +326,7 @@ static void runs_are_cut(void) {
   CHECK_EQ(items[kept.count - 1].t_exit, 1);
   for (size_t n = 0; n < kept.count; n++) {
     CHECK_LE((items[n].t_exit - items[n].t_enter) * 360, 46);
-    if (n > 0)
-      CHECK_EQ(items[n].t_enter, items[n - 1].t_exit);
+    if (n > 0) CHECK_EQ(items[n].t_enter, items[n - 1].t_exit);
   }
 }
 

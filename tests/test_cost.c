@@ -16,7 +16,8 @@ static OF_THREAD struct {
   size_t collision, boxes;  // of no interest here
 } tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
-#include "../neuralsvcd.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "any_query.h"
 #include "query_scene.h"
@@ -34,8 +35,7 @@ static void cost_blow_up(query_memory *memory, float factor) {
   float *r = (float *)(body + 1) + 3 * (size_t)body->padded;
   float *group_r =
       (float *)(body + 1) + 4 * (size_t)body->padded + 3 * nsvcd__group_slots(body->padded);
-  for (size_t i = 0; i < body->padded; i++)
-    r[i] *= r[i] > 0 ? factor : 1;
+  for (size_t i = 0; i < body->padded; i++) r[i] *= r[i] > 0 ? factor : 1;
   for (size_t i = 0; i < nsvcd__group_slots(body->padded); i++)
     group_r[i] *= group_r[i] > 0 ? factor : 1;
   body->radius *= factor;
@@ -44,8 +44,7 @@ static void cost_blow_up(query_memory *memory, float factor) {
 
 static nsvcd__query *cost_query(void) {
   static nsvcd__query *query;
-  if (!query)
-    query = any_query();
+  if (!query) query = any_query();
   return query;
 }
 
@@ -61,8 +60,7 @@ static size_t cost_search(const query_scene *s) {
   nsvcd__candidates_start(&kept, query->kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
   int more = nsvcd__search_begin(s->moving, s->fixed, &query->broad_phase);
-  while (more)
-    more = nsvcd__search_step(&query->broad_phase, &kept);
+  while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
   return query->broad_phase.segments;
 }
 
@@ -95,8 +93,7 @@ static void cost_is_bounded(void) {
       CHECK_GE(bound, tally.tests);
       CHECK_GE(n % 3 == 0 ? 3 * k : 12 * k, tally.ranked);
       CHECK_GE(n % 3 == 0 ? 0 : k, tally.judged);
-      if (k != 8)
-        continue;
+      if (k != 8) continue;
       most_ranked = tally.ranked > most_ranked ? tally.ranked : most_ranked;
       most_judged = tally.judged > most_judged ? tally.judged : most_judged;
     }
@@ -126,13 +123,11 @@ static void cost_open(cost_batch *b, uint64_t seed) {
   for (size_t m = 0; m < COST_MOTIONS; m++) {
     double offset[3];
     const double reach = m / 8 % 2 ? 0.2 : 0.02;
-    for (int k = 0; k < 3; k++)
-      offset[k] = shapes_uniform(&rng, -reach, reach);
+    for (int k = 0; k < 3; k++) offset[k] = shapes_uniform(&rng, -reach, reach);
     for (size_t i = 0; i < QUERY_POSES; i++) {
       nsvcd_pose *pose = &b->poses[m * QUERY_POSES + i];
       *pose = b->scene.motion[i];
-      for (int k = 0; k < 3; k++)
-        pose->position[k] += (float)offset[k];
+      for (int k = 0; k < 3; k++) pose->position[k] += (float)offset[k];
     }
   }
 }
@@ -198,8 +193,7 @@ static void cost_batch_follows_who_moves(void) {
       questions[m] =
           m % 2 ? question_of(s->moving, &s->fixed_pose, 1, s->fixed, path, &options)
                 : question_of(s->moving, path, QUERY_POSES, s->fixed, &s->fixed_pose, &options);
-      if (m % 2)
-        questions[m].b.count = QUERY_POSES;
+      if (m % 2) questions[m].b.count = QUERY_POSES;
     }
     void *w = query_workspace();
     const size_t size = nsvcd_sweep_workspace_size(NULL);
@@ -268,8 +262,7 @@ static void *cost_run(void *argument) {
       t->result = ask(s->moving, t->work->poses + m * QUERY_POSES, QUERY_POSES, s->fixed,
                       &s->fixed_pose, t->options, memory.at, size, &t->single[m]);
     }
-    if (!t->result)
-      t->result = cost_ask_batch(t->work, t->options, memory.at, t->batch);
+    if (!t->result) t->result = cost_ask_batch(t->work, t->options, memory.at, t->batch);
   }
   query_release(&memory);
   return NULL;
@@ -289,8 +282,7 @@ static void cost_check_threads(const cost_batch *work, const nsvcd_sweep_options
     threads[t].first = t * COST_MOTIONS / COST_THREADS;
     CHECK_EQ(pthread_create(&threads[t].thread, NULL, cost_run, &threads[t]), 0);
   }
-  for (size_t t = 0; t < COST_THREADS; t++)
-    pthread_join(threads[t].thread, NULL);
+  for (size_t t = 0; t < COST_THREADS; t++) pthread_join(threads[t].thread, NULL);
   for (size_t t = 0; t < COST_THREADS; t++) {
     CHECK_EQ(threads[t].result, NSVCD_OK);
     for (size_t m = 0; m < COST_MOTIONS; m++) {
@@ -349,8 +341,7 @@ static void cost_reads_numbers_once(void) {
   shapes_ellipsoid(&shape, 1, 1, 1, 32);
   const size_t first = shape.vertices;
   shapes_ellipsoid(&shape, 0.005, 0.005, 0.005, 64);
-  for (size_t i = 3 * first; i < 3 * shape.vertices; i++)
-    shape.positions[i] += 0.6 * way[i % 3];
+  for (size_t i = 3 * first; i < 3 * shape.vertices; i++) shape.positions[i] += 0.6 * way[i % 3];
   nsvcd_mesh mesh = query_mesh(&shape, 1);
   nsvcd_mesh speck = query_box(0.001, 0.001, 0.001);
   const nsvcd_body *large = NULL;
@@ -410,8 +401,7 @@ static size_t cost_stack_of(cost_asker *asker, unsigned char *stack) {
   pthread_join(thread, NULL);
   pthread_attr_destroy(&attributes);
   size_t untouched = 0;
-  while (untouched < COST_STACK && stack[untouched] == COST_PAINT)
-    untouched++;
+  while (untouched < COST_STACK && stack[untouched] == COST_PAINT) untouched++;
   return COST_STACK - untouched;
 }
 
@@ -438,8 +428,7 @@ static void cost_stack_is_bounded(void) {
     for (size_t i = 0; i < QUERY_POSES; i++) {
       const double t = (double)i / (QUERY_POSES - 1);
       asker.motion[i] = scene.motion[i];
-      if (seed % 3 == 0)
-        continue;
+      if (seed % 3 == 0) continue;
       asker.motion[i] = query_pose(0.15 + 0.001 * (double)seed, 0.05 * t, 0.02);
       query_multiply(scene.motion[i].rotation, asker.motion[0].rotation, asker.motion[i].rotation);
     }

@@ -1,7 +1,7 @@
 // The decoder: poses of pairs, what it is told of them, parity with the trainer, int8 against float.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/network/decoder.h"
 
 #include "arrays.h"
 #include "check.h"
@@ -39,8 +39,7 @@ static void poses_at_are_poses(void) {
       nsvcd__f3_store(at.rotation.y, want + 3);
       nsvcd__f3_store(at.rotation.z, want + 6);
       nsvcd__f3_store(at.position, want + 9);
-      for (size_t k = 0; k < 12; k++)
-        worst = fmax(worst, fabs((double)(lanes[k][l] - want[k])));
+      for (size_t k = 0; k < 12; k++) worst = fmax(worst, fabs((double)(lanes[k][l] - want[k])));
     }
   }
   CHECK_LE(worst, 1e-5);
@@ -58,8 +57,7 @@ static void half_rotation_vector(void) {
     double sign = trial % 5 ? 1 : -1;
     random_quat(random);
     length = sqrt((double)(random[0] * random[0] + random[1] * random[1] + random[2] * random[2]));
-    for (int k = 0; k < 3; k++)
-      axis[k] = (double)random[k] / length;
+    for (int k = 0; k < 3; k++) axis[k] = (double)random[k] / length;
     nsvcd__quat q;
     q.x = (float)(sign * s * axis[0]);
     q.y = (float)(sign * s * axis[1]);
@@ -97,8 +95,8 @@ static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (
   pairs.r1 = nsvcd__v_set(pair->r1);
   pairs.r2 = nsvcd__v_set(pair->r2);
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
-    pairs.z1[l] = pair->z1;
-    pairs.z2[l] = pair->z2;
+    pairs.z[0][l] = pair->z1;
+    pairs.z[1][l] = pair->z2;
   }
   nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
   memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
@@ -237,8 +235,7 @@ static void inputs_do_not_depend_on_who_moves(void) {
 static void degenerate_pairs_are_finite(void) {
   int8_t z[NSVCD__LATENT] = {0};
   int8_t other[NSVCD__LATENT];
-  for (size_t k = 0; k < NSVCD__LATENT; k++)
-    other[k] = (int8_t)(k % 100);
+  for (size_t k = 0; k < NSVCD__LATENT; k++) other[k] = (int8_t)(k % 100);
   for (int trial = 0; trial < 32; trial++) {
     pair_data pair;
     memset(&pair, 0, sizeof pair);
@@ -253,10 +250,8 @@ static void degenerate_pairs_are_finite(void) {
     }
     float x[NSVCD__DECODER_IN];
     inputs_of(&pair, x);
-    for (size_t k = 0; k < NSVCD__DECODER_IN; k++)
-      CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++)
-      CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
+    for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
+    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
   }
 }
 

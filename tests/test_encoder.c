@@ -1,7 +1,8 @@
 // The encoder: parity with the trainer, and equivariance.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/encoder/encoder.h"
+#include "../src/network/latent_rotation.h"
 
 #include "arrays.h"
 #include "check.h"
@@ -40,8 +41,7 @@ static void random_patch(float *points, float *normals, size_t count) {
       n[k] = network_uniform() + lean[k];
     }
     length = length3(n);
-    for (size_t k = 0; k < 3; k++)
-      normals[3 * i + k] = n[k] / length;
+    for (size_t k = 0; k < 3; k++) normals[3 * i + k] = n[k] / length;
   }
 }
 
@@ -56,12 +56,10 @@ static void encoder_is_equivariant(void) {
     random_patch(points, normals, 40);
     random_rotation(m);
     if (trial % 2) {  // mirrored as well: the degree-2 block is even, degree 1 odd
-      for (size_t k = 0; k < 9; k++)
-        m[k] = -m[k];
+      for (size_t k = 0; k < 9; k++) m[k] = -m[k];
     }
     const float scale = powf(10, 3 * network_uniform());
-    for (size_t k = 0; k < 3; k++)
-      centre[k] = scale * network_uniform();
+    for (size_t k = 0; k < 3; k++) centre[k] = scale * network_uniform();
     for (size_t i = 0; i < 40; i++) {
       mul33_vec(m, points + 3 * i, turned_points + 3 * i);
       mul33_vec(m, normals + 3 * i, turned_normals + 3 * i);

@@ -2,7 +2,9 @@
 // memory.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "failing_heap.h"
 #include "query_scene.h"
@@ -121,8 +123,7 @@ static void query_encode_refuses_bad_input(void) {
   mesh.positions[4] = 2 * NSVCD_MAX_COORDINATE;
   query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_NUMBER);
   mesh.positions[4] = kept;
-  for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
-    mesh.positions[i] = 0.1f;  // no area
+  for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] = 0.1f;  // no area
   query_encode_refuses(&mesh, &options, memory.at, size, NSVCD_ERROR_EMPTY);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
@@ -151,8 +152,7 @@ static void query_encode_survives_every_failed_allocation(void) {
     }
     CHECK_EQ(result, NSVCD_ERROR_MEMORY);
     CHECK(body == NULL);
-    if (failures > 1000)
-      break;
+    if (failures > 1000) break;
   }
   CHECK(failures >= 1 && failures < 1000);
   query_release(&memory);

@@ -2,7 +2,10 @@
 // which are refused, or harmless.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/ground/strings.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "query_scene.h"
 #include "proof_scene.h"
@@ -17,8 +20,7 @@ static void query_a_blob_survives_a_file(void) {
     size_t size = nsvcd_body_describe(s.moving).size;
     FILE *file = tmpfile();
     CHECK(file != NULL);
-    if (!file)
-      break;
+    if (!file) break;
     CHECK_EQ(fwrite(s.moving, 1, size, file), size);
     rewind(file);
     query_memory copy = query_reserve(size);
@@ -47,8 +49,7 @@ static void query_blobs_of_the_other_byte_order(void) {
   for (size_t i = 0; i < size; i++) {
     const size_t mirrored = i / 4 * 4 + 3 - i % 4;
     const unsigned char byte = bytes[i];
-    if (i >= mirrored)
-      continue;
+    if (i >= mirrored) continue;
     bytes[i] = bytes[mirrored];
     bytes[mirrored] = byte;
   }
@@ -78,8 +79,7 @@ static void query_facts_contain_the_mesh(void) {
         float radius = 0;
         float away = 0;
         CHECK(nsvcd_body_patch(body, p, centre, &radius));
-        for (int k = 0; k < 3; k++)
-          away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
+        for (int k = 0; k < 3; k++) away += powf(mesh.positions[3 * i + (size_t)k] - centre[k], 2);
         nearest = fmin(nearest, (double)(sqrtf(away) - radius));
       }
       CHECK_LE(nearest, 1e-6);
@@ -104,8 +104,7 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
     query_scene s;
     query_scene_open(&s, seed);
     nsvcd_mesh mesh = query_solid(2 * seed, 0.2);
-    for (size_t i = 0; i < 3 * mesh.vertex_count; i++)
-      mesh.positions[i] *= scale;
+    for (size_t i = 0; i < 3 * mesh.vertex_count; i++) mesh.positions[i] *= scale;
     query_memory encoded_memory;
     query_memory scaled_memory = query_reserve(nsvcd_body_describe(s.moving).size);
     const nsvcd_body *encoded = query_encode(&mesh, QUERY_POINTS, &encoded_memory);
@@ -118,8 +117,7 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
       nsvcd_answer b = query_ask(scaled, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
       int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
       CHECK_EQ(a.status, b.status);
-      if (seed % 2)
-        CHECK(near);
+      if (seed % 2) CHECK(near);
       close += near;
       compared++;
       CHECK_NEAR(nsvcd_body_describe(encoded).radius / nsvcd_body_describe(scaled).radius, 1, 1e-3);
@@ -220,8 +218,7 @@ static forgery proof_forge(const nsvcd_body *body) {
   forgery f;
   f.size = body->size;
   f.memory = malloc(f.size);
-  if (!f.memory)
-    exit(1);
+  if (!f.memory) exit(1);
   memcpy(f.memory, body, f.size);
   f.body = (struct nsvcd_body *)f.memory;
   f.inner =
@@ -234,8 +231,7 @@ static nsvcd_result proof_load(forgery *f) {
   const nsvcd_body *body = NULL;
   if (f->inner->size <= f->size - (size_t)((char *)f->inner - (char *)f->memory))
     f->inner->checksum = nsvcd__body_checksum(f->inner);
-  if (f->body->size <= f->size)
-    f->body->checksum = nsvcd__body_checksum(f->body);
+  if (f->body->size <= f->size) f->body->checksum = nsvcd__body_checksum(f->body);
   return nsvcd_body_load(f->memory, f->size, &body);
 }
 
@@ -263,8 +259,7 @@ static void proof_forge_floats(const nsvcd_body *body, const nsvcd__facets *f) {
     }
   }
   const float negative = -1e-6f;
-  for (int k = 1; k < 4; k++)
-    proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
+  for (int k = 1; k < 4; k++) proof_expect_refusal(body, proof_offset(f, arrays[k]), &negative, 4);
   proof_expect_refusal(body, proof_offset(f, f->discs + 5 * padded), &negative, 4);
 }
 
@@ -275,8 +270,7 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
     memcpy(&value, (const char *)f->body + counts + 4 * k, 4);
     const uint32_t bad[6] = {value + 1,   value - 1,   0xffffffffu,
                              0x80000000u, 0x55555556u, value ^ 0x10000u};
-    for (int n = 0; n < 6; n++)
-      proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
+    for (int n = 0; n < 6; n++) proof_expect_refusal(body, counts + 4 * k, &bad[n], 4);
   }
   for (size_t i = 0; i <= f->body->patches; i++) {
     const uint32_t *firsts[3] = {f->first_vertex + i, f->first_triangle + i, f->first_byte + i};
@@ -296,12 +290,9 @@ static void proof_forge_counts(const nsvcd_body *body, const nsvcd__facets *f) {
   for (size_t i = 0; i < f->body->patches; i++) {
     const unsigned char *at = proof_numbers(f, i);
     const unsigned char *end = f->listings + f->first_byte[i + 1];
-    if (end - at >= 5)
-      proof_expect_refusal(body, proof_offset(f, at), far, 5);
-    if (end - at >= 5)
-      proof_expect_refusal(body, proof_offset(f, at), endless, 5);
-    if (end > at)
-      proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
+    if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), far, 5);
+    if (end - at >= 5) proof_expect_refusal(body, proof_offset(f, at), endless, 5);
+    if (end > at) proof_expect_refusal(body, proof_offset(f, end - 1), endless, 1);
   }
 }
 
@@ -315,8 +306,7 @@ static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
     for (int n = 0; n < 4; n++) {
       uint32_t value;
       memcpy(&value, (const char *)f->body + fields[k], 4);
-      if (value == bad[n])
-        continue;
+      if (value == bad[n]) continue;
       if (k == 5 && f->body == body && bad[n] > value)
         continue;  // a count of triangles too large is harmless
       proof_expect_refusal(body, fields[k], &bad[n], 4);
@@ -344,10 +334,8 @@ static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t
     for (int n = 0; n < 3; n++) {
       double q[4];
       shapes_quaternion(rng, q);
-      for (int k = 0; k < 4; k++)
-        poses[n].rotation[k] = (float)q[k];
-      for (int k = 0; k < 3; k++)
-        poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
+      for (int k = 0; k < 4; k++) poses[n].rotation[k] = (float)q[k];
+      for (int k = 0; k < 3; k++) poses[n].position[k] = (float)shapes_uniform(rng, -0.2, 0.2);
     }
     (*accepted)++;
     CHECK_EQ(ask(f.body, poses, 3, other->body, &fixed, &options, proof_workspace(),
@@ -372,13 +360,11 @@ static void proof_forged_blobs(void) {
     proof_forge_floats(body, &facets);
     proof_forge_counts(body, &facets);
     proof_forge_header(body, &facets);
-    for (int n = 0; n < 400; n++)
-      proof_forge_anything(body, &rng, &accepted);
+    for (int n = 0; n < 400; n++) proof_forge_anything(body, &rng, &accepted);
     // The body of triangles by itself is a body as well.
     proof_forge_floats(facets.body, &facets);
     proof_forge_counts(facets.body, &facets);
-    for (int n = 0; n < 400; n++)
-      proof_forge_anything(facets.body, &rng, &accepted);
+    for (int n = 0; n < 400; n++) proof_forge_anything(facets.body, &rng, &accepted);
     free(f.memory);
   }
   printf("  of 3200 blobs with random bytes %zu were accepted, and asked\n", accepted);

@@ -3,7 +3,9 @@
 // header's switches.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "query_scene.h"
 #include "gradient_reference.h"
@@ -34,16 +36,13 @@ static const nsvcd_body *pool[2][POOL];  // of 64 patches, of one
 
 static void pool_open(void) {
   const size_t points[2] = {QUERY_POINTS, 1};
-  if (pool[0][0])
-    return;
+  if (pool[0][0]) return;
   for (size_t i = 0; i < POOL; i++) {
     nsvcd_mesh mesh = query_solid(900 + i, i % 2 ? 0.2 : 0.3);
-    for (size_t n = 0; n < 2; n++)
-      pool[n][i] = query_encode(&mesh, points[n], &pool_memory[n][i]);
+    for (size_t n = 0; n < 2; n++) pool[n][i] = query_encode(&mesh, points[n], &pool_memory[n][i]);
     nsvcd_mesh_free(&mesh, NULL);
   }
-  for (size_t n = 0; n < 2; n++)
-    scaled_memory[n] = query_reserve(nsvcd_body_size(QUERY_POINTS));
+  for (size_t n = 0; n < 2; n++) scaled_memory[n] = query_reserve(nsvcd_body_size(QUERY_POINTS));
 }
 static const nsvcd_body *pool_scaled(size_t n, const nsvcd_body *body, double scale) {
   const nsvcd_body *out = NULL;
@@ -64,15 +63,13 @@ static nsvcd_answer ask_sweep(const scene *s) {
 }
 // The answer, and what decided. Did a network answer?
 static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
-  nsvcd__task task;
   nsvcd_question question =
       question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
   question.options.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd__question_check(&question), NSVCD_OK);
   nsvcd__query *query = nsvcd__query_open(&question, query_workspace());
-  nsvcd__task_of(&question, &task);
-  task.decisive = decisive;
-  nsvcd__answer_task(&task, query, NULL, answer);
+  query->task.decisive = decisive;
+  nsvcd__answer_query(query, NULL, answer);
   return answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT;
 }
 
@@ -80,12 +77,10 @@ static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisiv
 
 static void turn_pose(nsvcd_pose *pose, const double *by) {  // by a rotation vector, on the left
   double q[4], turned[4];
-  for (int k = 0; k < 4; k++)
-    q[k] = (double)pose->rotation[k];
+  for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
   reference_turn(by, q, turned);
   const double length = sqrt(reference_dot(turned, turned) + turned[3] * turned[3]);
-  for (int k = 0; k < 4; k++)
-    pose->rotation[k] = (float)(turned[k] / length);
+  for (int k = 0; k < 4; k++) pose->rotation[k] = (float)(turned[k] / length);
 }
 
 // `count` poses past the fixed body: at mid-motion `away` from its origin, `travel` between the
@@ -113,8 +108,7 @@ static void pass_by(scene *s, shapes_rng *rng, size_t count, double away, double
       turn[k] = angle * (double)n * axis[k];
     }
     turn_pose(pose, turn);
-    for (int k = 0; k < 3; k++)
-      turn[k] = jitter * off[2 - k];
+    for (int k = 0; k < 3; k++) turn[k] = jitter * off[2 - k];
     turn_pose(pose, turn);
   }
 }
@@ -126,15 +120,13 @@ static int decisive_centres(const scene *s, double *moving, double *fixed) {
   reference_pair pair;
   reference_pose poses[REFERENCE_POSES];
   double in_fixed[2][3], m[9], q[4];
-  if (!decide(s, &answer, &decisive))
-    return 0;
+  if (!decide(s, &answer, &decisive)) return 0;
   reference_open(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
                  &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                  decisive.decoder, &pair, poses);
   reference_place(&pair, poses, 0.5, in_fixed[0]);
   memcpy(in_fixed[1], pair.c2, sizeof pair.c2);
-  for (int k = 0; k < 4; k++)
-    q[k] = (double)s->fixed_pose.rotation[k];
+  for (int k = 0; k < 4; k++) q[k] = (double)s->fixed_pose.rotation[k];
   reference_matrix(q, m);
   reference_mul(m, in_fixed[0], moving);
   reference_mul(m, in_fixed[1], fixed);
@@ -155,8 +147,7 @@ static void move_about(scene *s, const double *centre, const double *along, cons
     const double turn[3] = {t * angle * axis[0], t * angle * axis[1], t * angle * axis[2]};
     const double unit[4] = {0, 0, 0, 1};
     double arm[3], turned[3], q[4], m[9];
-    for (int k = 0; k < 3; k++)
-      arm[k] = (double)middle.position[k] - centre[k];
+    for (int k = 0; k < 3; k++) arm[k] = (double)middle.position[k] - centre[k];
     reference_turn(turn, unit, q);
     reference_matrix(q, m);
     reference_mul(m, arm, turned);
@@ -218,15 +209,12 @@ static int slow(scene *s, shapes_rng *rng, size_t n) {
 static int approach(scene *s, shapes_rng *rng, double off, double angle) {
   double a[3], b[3], along[3], axis[3], line[3];
   pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
-  if (!decisive_centres(s, a, b))
-    return 0;
+  if (!decisive_centres(s, a, b)) return 0;
   const double step = shapes_uniform(rng, 0.1, 2);
-  for (int k = 0; k < 3; k++)
-    line[k] = step * (b[k] - a[k]);
+  for (int k = 0; k < 3; k++) line[k] = step * (b[k] - a[k]);
   shapes_direction(rng, axis);
   reference_cross(axis, line, along);
-  for (int k = 0; k < 3; k++)
-    along[k] = line[k] + off * along[k];
+  for (int k = 0; k < 3; k++) along[k] = line[k] + off * along[k];
   s->count = count_between(rng, 2, 4);
   move_about(s, a, along, axis, angle);
   return 1;
@@ -243,10 +231,8 @@ static int turn_about_the_pair(scene *s, shapes_rng *rng, size_t n) {
   const double none[3] = {0, 0, 0};
   (void)n;
   pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
-  if (!decisive_centres(s, a, b))
-    return 0;
-  for (int k = 0; k < 3; k++)
-    a[k] = 0.5 * (a[k] + b[k]);
+  if (!decisive_centres(s, a, b)) return 0;
+  for (int k = 0; k < 3; k++) a[k] = 0.5 * (a[k] + b[k]);
   shapes_direction(rng, axis);
   s->count = count_between(rng, 2, 4);
   move_about(s, a, none, axis, shapes_uniform(rng, 0.02, 1));
@@ -272,13 +258,10 @@ static int shallow(scene *s, shapes_rng *rng, size_t n) {
 }
 static int far_from_zero(scene *s, shapes_rng *rng, size_t n) {
   nsvcd_pose common = {{0, 0, 0}, {0, 0, 0, 1}};
-  for (int k = 0; k < 3; k++)
-    common.position[k] = (float)shapes_uniform(rng, -1000, 1000);
-  if (!moderate(s, rng, n))
-    return 0;
+  for (int k = 0; k < 3; k++) common.position[k] = (float)shapes_uniform(rng, -1000, 1000);
+  if (!moderate(s, rng, n)) return 0;
   s->fixed_pose = query_moved(&common, &s->fixed_pose);
-  for (size_t i = 0; i < s->count; i++)
-    s->poses[i] = query_moved(&common, &s->poses[i]);
+  for (size_t i = 0; i < s->count; i++) s->poses[i] = query_moved(&common, &s->poses[i]);
   return 1;
 }
 static int tiny_or_huge(scene *s, shapes_rng *rng, size_t n) {
@@ -301,8 +284,7 @@ static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
   double a[3], b[3], off[3], axis[3];
   (void)n;
   pass_by(s, rng, 1, shapes_uniform(rng, 0.3, 0.9), 0, 0, 0);
-  if (!decisive_centres(s, a, b))
-    return 0;
+  if (!decisive_centres(s, a, b)) return 0;
   const double size = (double)nsvcd_body_describe(s->moving).mean_patch_radius;
   shapes_direction(rng, off);
   shapes_direction(rng, axis);
@@ -317,7 +299,6 @@ static int centres_meet(scene *s, shapes_rng *rng, size_t n) {
 // Bodies of one patch whose latents have no lean, some at rest: axis 2 of those is then that of a
 // convention.
 static int without_lean(scene *s, shapes_rng *rng, size_t n) {
-  const size_t size = nsvcd_body_size(1);
   for (int k = 0; k < 2; k++) {
     const nsvcd_body *from = pool[1][shapes_pick(rng, POOL)];
     const nsvcd__f3 none = {0, 0, 0};
@@ -328,12 +309,11 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     CHECK(nsvcd_body_patch(from, 0, at, &radius));
     const nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
-    for (size_t i = 0; i < 3; i++)
-      latent[NSVCD_W_CHANNELS * i] = 0;
-    const nsvcd__latents_source source = {1,      &centre, &radius,          &none,
-                                          latent, &first,  NSVCD_WEIGHTS_ID, 1};
+    for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
+    const nsvcd__latents_source source = {1, &centre, &radius, &none, latent, &first, 1};
     const nsvcd_body **body = k ? &s->fixed : &s->moving;
-    CHECK_EQ(nsvcd__body_build(&source, scaled_memory[k].at, size, body), NSVCD_OK);
+    CHECK_EQ(nsvcd__body_build(&source, scaled_memory[k].at), NSVCD_OK);
+    *body = (const nsvcd_body *)(const void *)scaled_memory[k].at;
   }
   return n % 2 ? at_rest(s, rng, 1) : moderate(s, rng, n);
 }
@@ -356,16 +336,12 @@ static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
   for (int body = 0; body < 2; body++) {
     const nsvcd_pose *pose = body ? &s->fixed_pose : &s->poses[0];
     double c[3], turned[3];
-    if (body == 0)
-      memset(arm, 0, sizeof arm);
-    for (int k = 0; k < 4; k++)
-      q[k] = (double)pose->rotation[k];
-    for (int k = 0; k < 3; k++)
-      c[k] = (double)centre[body][k];
+    if (body == 0) memset(arm, 0, sizeof arm);
+    for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
+    for (int k = 0; k < 3; k++) c[k] = (double)centre[body][k];
     reference_matrix(q, m);
     reference_mul(m, c, turned);
-    for (int k = 0; k < 3; k++)
-      arm[k] = body ? arm[k] + turned[k] : -turned[k];
+    for (int k = 0; k < 3; k++) arm[k] = body ? arm[k] + turned[k] : -turned[k];
   }
   for (size_t i = 0; i < s->count; i++) {
     const double t = 2 * (double)i / (double)(s->count - 1) - 1;
@@ -396,8 +372,7 @@ static int other_options(scene *s, shapes_rng *rng, size_t n) {
 static void settle_sides(scene *s) {
   const nsvcd_question question =
       question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
-  if (!nsvcd__is_swapped(&question.a, &question.b))
-    return;
+  if (!nsvcd__is_swapped(&question.a, &question.b)) return;
   CHECK_EQ(s->count, 1);
   const nsvcd_body *moving = s->moving;
   const nsvcd_pose pose = s->poses[0];
@@ -451,8 +426,7 @@ static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__d
   memset(s, 0, sizeof *s);
   s->moving = pool[0][shapes_pick(&rng, POOL)];
   s->fixed = pool[0][shapes_pick(&rng, POOL)];
-  if (!families[f].make(s, &rng, n))
-    return 0;
+  if (!families[f].make(s, &rng, n)) return 0;
   settle_sides(s);
   return decide(s, answer, decisive);
 }
@@ -494,8 +468,7 @@ static int is_at_a_kink(const reference_pair *pair, const reference_pose *poses,
       reference_displace(&moved[i / 6], i % 6, i % 6 < 3 ? size * by : by);
     }
     reference_gradient(pair, moved, metres, radians, other);
-    if (!(relative_error(other, expected, pair->count, length) <= 0.01))
-      return 1;
+    if (!(relative_error(other, expected, pair->count, length) <= 0.01)) return 1;
   }
   return 0;
 }
@@ -522,8 +495,7 @@ static void gradient_matches_the_reference(void) {
       reference_pose poses[REFERENCE_POSES];
       float gradient[6 * REFERENCE_POSES];
       double found[6 * REFERENCE_POSES], expected[6 * REFERENCE_POSES], times[2], graze;
-      if (!scene_of(f, n, &s, &answer, &decisive))
-        continue;
+      if (!scene_of(f, n, &s, &answer, &decisive)) continue;
       reference_open(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
                      &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                      decisive.decoder, &pair, poses);
@@ -546,8 +518,7 @@ static void gradient_matches_the_reference(void) {
       }
 #endif
       errors[count++] = error;
-      if (error <= 0.01)
-        continue;
+      if (error <= 0.01) continue;
       shapes_rng rng = {n};
       const double size = 0.5 * (length + (double)s.fixed->extent);
       const int kink = is_at_a_kink(&pair, poses, length, size, metres, radians, expected, &rng);
@@ -569,8 +540,7 @@ static void gradient_matches_the_reference(void) {
     CHECK_LE((double)beyond / (double)count, allowed);
     CHECK_LE((double)unexplained / (double)count, SLACK * families[f].unexplained);
     CHECK_LE(errors[count / 2], MEDIAN_SLACK * families[f].median);
-    if (allowed < 0.01)
-      CHECK_LE(errors[count * 99 / 100], families[f].most);
+    if (allowed < 0.01) CHECK_LE(errors[count * 99 / 100], families[f].most);
   }
 }
 
@@ -582,8 +552,7 @@ static scene displaced(const scene *s, double step, const double *along) {
   for (size_t n = 0; n < s->count; n++) {
     const double turn[3] = {step * along[6 * n + 3], step * along[6 * n + 4],
                             step * along[6 * n + 5]};
-    for (size_t k = 0; k < 3; k++)
-      out.poses[n].position[k] += (float)(step * along[6 * n + k]);
+    for (size_t k = 0; k < 3; k++) out.poses[n].position[k] += (float)(step * along[6 * n + k]);
     turn_pose(&out.poses[n], turn);
   }
   return out;
@@ -603,8 +572,7 @@ static void gradient_follows_the_logit(void) {
       nsvcd_answer answer;
       nsvcd__decisive decisive, beside[2];
       float gradient[6 * REFERENCE_POSES];
-      if (!scene_of(f, n, &s, &answer, &decisive))
-        continue;
+      if (!scene_of(f, n, &s, &answer, &decisive)) continue;
       CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
       const double length = (double)s.moving->extent;
       shapes_rng rng = {n};
@@ -627,8 +595,7 @@ static void gradient_follows_the_logit(void) {
         norm = sqrt(norm);
         slope /= norm;
         steepest = sqrt(steepest);
-        for (size_t i = 0; i < 6 * s.count; i++)
-          along[i] /= norm;
+        for (size_t i = 0; i < 6 * s.count; i++) along[i] /= norm;
         for (int side = 0; side < 2; side++) {
           const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
           nsvcd_answer there = ask_sweep(&moved);
@@ -639,8 +606,7 @@ static void gradient_follows_the_logit(void) {
           logit[side] = (double)there.logit;
         }
         asked++;
-        if (!same)
-          continue;
+        if (!same) continue;
         count[random]++;
         close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
       }
@@ -686,8 +652,7 @@ static void gradient_refuses(void) {
   char *workspace = (char *)query_workspace();
   size_t n = 0;
   pool_open();
-  while (!scene_of(0, n, &s, &answer, &decisive) || s.count < 3)
-    n++;
+  while (!scene_of(0, n, &s, &answer, &decisive) || s.count < 3) n++;
   const nsvcd_sweep_options wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
   nsvcd_pose broken[REFERENCE_POSES];
   check_refused(&s, s.poses, s.count, workspace, size, NULL, 0, NSVCD_ERROR_ARGUMENT);
@@ -753,8 +718,7 @@ static void gradient_check_balance(const scene *s, int both, double *worst, size
       }
     }
   }
-  if (!(size > 0))
-    return;
+  if (!(size > 0)) return;
   ++*count;
   for (size_t k = 0; k < 3; k++) {
     *worst = fmax(*worst, fabs(force[k]) / size);
@@ -771,8 +735,7 @@ static void gradient_balances(void) {
     nsvcd_answer answer;
     nsvcd__decisive decisive;
     (void)scene_of(n % 2, n, &s, &answer, &decisive);
-    if (s.count == 0)
-      continue;
+    if (s.count == 0) continue;
     for (int both = 0; both < 2; both++)
       gradient_check_balance(&s, both, &worst[both], &count[both]);
   }
@@ -796,12 +759,10 @@ static void gradient_answers_as_sweep(void) {
       nsvcd__decisive decisive;
       float gradient[2][6 * REFERENCE_POSES + 1];
       (void)scene_of(f, n, &s, &answer, &decisive);
-      if (s.count == 0)
-        continue;
+      if (s.count == 0) continue;
       for (int i = 0; i < 2; i++) {
         memset(query_workspace(), i ? 0xff : 0, nsvcd_sweep_workspace_size(NULL));
-        for (size_t k = 0; k <= 6 * REFERENCE_POSES; k++)
-          gradient[i][k] = 7;
+        for (size_t k = 0; k <= 6 * REFERENCE_POSES; k++) gradient[i][k] = 7;
         CHECK_EQ(ask_gradient(&s, &answer, gradient[i]), NSVCD_OK);
         CHECK_EQ(gradient[i][6 * s.count], 7);
       }
@@ -809,8 +770,7 @@ static void gradient_answers_as_sweep(void) {
       CHECK(query_same_answer(&answer, &expected));
       CHECK(memcmp(gradient[0], gradient[1], 6 * s.count * sizeof(float)) == 0);
       double most = 0;
-      for (size_t k = 0; k < 6 * s.count; k++)
-        most = fmax(most, fabs((double)gradient[0][k]));
+      for (size_t k = 0; k < 6 * s.count; k++) most = fmax(most, fabs((double)gradient[0][k]));
       const int network = answer.status == NSVCD_STATUS_OK || answer.status == NSVCD_STATUS_LIMIT;
       CHECK(network ? most > 0 : !(most > 0));
       statuses[answer.status]++;
@@ -833,8 +793,7 @@ static void gradient_is_zero_where_the_pair_is_not(void) {
     nsvcd_answer answer;
     nsvcd__decisive decisive;
     float gradient[6 * REFERENCE_POSES];
-    if (!scene_of(3, n, &s, &answer, &decisive) || s.count < 4)
-      continue;
+    if (!scene_of(3, n, &s, &answer, &decisive) || s.count < 4) continue;
     CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);
     cases++;
     for (size_t k = 0; k < s.count; k++) {
@@ -842,11 +801,9 @@ static void gradient_is_zero_where_the_pair_is_not(void) {
       const float *row = gradient + 6 * k;
       const int passed = decisive.candidate.t_exit * arcs > (float)k - 1.001f &&
                          decisive.candidate.t_enter * arcs < (float)k + 1.001f;
-      if (passed)
-        continue;
+      if (passed) continue;
       zero++;
-      for (size_t i = 0; i < 6; i++)
-        CHECK_EQ(row[i], 0);
+      for (size_t i = 0; i < 6; i++) CHECK_EQ(row[i], 0);
     }
   }
   CHECK_GE(cases, 50);
@@ -865,10 +822,8 @@ static void gradient_takes_microseconds(void) {
       nsvcd_answer answer;
       nsvcd__decisive decisive;
       float gradient[6 * REFERENCE_POSES];
-      if (!scene_of(head ? SHALLOW : 0, n, &s, &answer, &decisive))
-        continue;
-      if (decisive.decoder != &nsvcd_w_decoders[head])
-        continue;
+      if (!scene_of(head ? SHALLOW : 0, n, &s, &answer, &decisive)) continue;
+      if (decisive.decoder != &nsvcd_w_decoders[head]) continue;
       double least[2] = {1e9, 1e9};
       for (int run = 0; run < 10; run++) {
         const int turns = 20;
@@ -878,8 +833,7 @@ static void gradient_takes_microseconds(void) {
               nsvcd_sweep_workspace_size(NULL), &answer);
         }
         const clock_t middle = clock();
-        for (int i = 0; i < turns; i++)
-          ask_gradient(&s, &answer, gradient);
+        for (int i = 0; i < turns; i++) ask_gradient(&s, &answer, gradient);
         least[0] = fmin(least[0], 1e6 * (double)(middle - start) / CLOCKS_PER_SEC / turns);
         least[1] = fmin(least[1], 1e6 * (double)(clock() - middle) / CLOCKS_PER_SEC / turns);
       }
@@ -887,10 +841,8 @@ static void gradient_takes_microseconds(void) {
       times[1][count] = least[1];
       extra[count++] = least[1] - least[0];
     }
-    if (count == 0)
-      continue;  // compiled out
-    for (int i = 0; i < 2; i++)
-      qsort(times[i], count, sizeof(double), compare_doubles);
+    if (count == 0) continue;  // compiled out
+    for (int i = 0; i < 2; i++) qsort(times[i], count, sizeof(double), compare_doubles);
     qsort(extra, count, sizeof(double), compare_doubles);
     printf(
         "  median of %zu, %s decides: nsvcd_sweep %.2f us, nsvcd_sweep_gradient %.2f us; the "

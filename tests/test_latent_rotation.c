@@ -1,7 +1,7 @@
 // Latents turned by a rotation: the group laws of D(R).
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/network/latent_rotation.h"
 
 #include "arrays.h"
 #include "check.h"
@@ -17,8 +17,7 @@ static void rotation_operator_is_a_group(void) {
     random_rotation(a);
     random_rotation(b);
     mul33(a, b, ab);
-    for (size_t k = 0; k < NSVCD__VECTORS; k++)
-      z[k] = network_uniform();
+    for (size_t k = 0; k < NSVCD__VECTORS; k++) z[k] = network_uniform();
     rotate_latent(b, z, x);
     rotate_latent(a, x, y);
     rotate_latent(ab, z, w);

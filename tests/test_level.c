@@ -5,7 +5,9 @@
 #define _POSIX_C_SOURCE 200809L
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/plan/plan.h"
 
 #include <sys/mman.h>
 
@@ -28,8 +30,7 @@ static nsvcd_encode_options level_options(size_t points) {
 
 static void *level_workspace(void) {
   static void *memory;
-  if (!memory)
-    memory = malloc(nsvcd_sweep_workspace_size(NULL));
+  if (!memory) memory = malloc(nsvcd_sweep_workspace_size(NULL));
   return memory;
 }
 
@@ -48,8 +49,7 @@ typedef struct level_world {
 
 static const level_world *level_shared(void) {
   static level_world world;
-  if (world.level.body)
-    return &world;
+  if (world.level.body) return &world;
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   level_make(&shape, 20, 60000, 1);
@@ -119,8 +119,7 @@ static void level_walks_find_all(void) {
                           nsvcd__group_spheres(body).z[g] - ball[2]};
       const float reach = nsvcd__group_spheres(body).r[g] + ball[3];
       size_t next = 0;
-      if (level_square(d) > reach * reach)
-        continue;
+      if (level_square(d) > reach * reach) continue;
       CHECK(nsvcd__walk_next(&walk, &next));
       CHECK_EQ(next, g);
       found++;
@@ -220,16 +219,14 @@ static void level_verdicts_are_right(void) {
       undecided += answer.status == NSVCD_STATUS_UNDECIDED;
       hits += collides != 0;
       asked++;
-      if (label.status == ORACLE_FREE && label.distance < 1e-4)
-        continue;
+      if (label.status == ORACLE_FREE && label.distance < 1e-4) continue;
       CHECK_EQ(answer.collides, collides);
 
       const nsvcd_body *piece = level_piece(&w->level, way.body, way.stored);
       if (piece) {
         const nsvcd_question local = level_question(&way, piece);
         const nsvcd_answer other = level_ask(&local);
-        if (label.status != ORACLE_INSIDE)
-          CHECK_EQ(other.collides, collides);
+        if (label.status != ORACLE_INSIDE) CHECK_EQ(other.collides, collides);
         nsvcd_body_free(piece, NULL);
       }
 
@@ -288,8 +285,7 @@ static void level_contacts_are_those_of_the_piece(void) {
   for (int trial = 0; trial < 40; trial++) {
     const level_way way = level_draw(&rng, LEVEL_DASH, w->bodies, &w->level);
     const nsvcd_body *piece = level_piece(&w->level, way.body, way.stored);
-    if (!piece)
-      continue;
+    if (!piece) continue;
     nsvcd_question question = level_question(&way, w->level.body);
     nsvcd_question local = level_question(&way, piece);
     question.options.first = local.options.first = 0.001f;
@@ -301,8 +297,7 @@ static void level_contacts_are_those_of_the_piece(void) {
       CHECK_LE(whole.contact_time - 0.00101f, whole.free_until);
       contacts++;
     }
-    if (whole.status != NSVCD_STATUS_INSIDE)
-      CHECK_EQ(whole.collides, part.collides);
+    if (whole.status != NSVCD_STATUS_INSIDE) CHECK_EQ(whole.collides, part.collides);
     nsvcd_body_free(piece, NULL);
 
     question.options.first = 0;
@@ -310,8 +305,7 @@ static void level_contacts_are_those_of_the_piece(void) {
     const nsvcd_answer measured = level_ask(&question);
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
     const oracle_options exact = {1e-4, 0, 0, 1};
-    if (measured.status != NSVCD_STATUS_CERTIFIED_FREE)
-      continue;
+    if (measured.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
     const oracle_result label =
         oracle_sweep(&way.body->oracle, way.poses, 2, &w->level.oracle, &origin, &exact);
     CHECK_LE(measured.clearance_low, label.distance);
@@ -492,8 +486,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
       }
       w /= 4 * acos(-1);
       CHECK_NEAR(squares[n], least, 1e-4);
-      if (n > 0 || least < 1)
-        continue;
+      if (n > 0 || least < 1) continue;
       const double found = (double)nsvcd__winding_number(body, nsvcd__f3_load(place));
       worst = fmax(worst, fabs(found - w));
       inside += fabs(w) > 0.5;
@@ -507,8 +500,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
 
   const nsvcd__level top = nsvcd__level_of(body->padded, nsvcd__level_count(body->padded) - 1);
   for (size_t k = 0; k < 3; k++) {
-    for (size_t i = 0; i < body->patches; i++)
-      sums[k] += (double)areas[k * body->padded + i];
+    for (size_t i = 0; i < body->patches; i++) sums[k] += (double)areas[k * body->padded + i];
     for (size_t i = 0; i < top.slots; i++)
       sums[k] -= (double)nsvcd__level_areas(body, top)[k * top.slots + i];
     CHECK_NEAR(sums[k], 0, 1e-3);
@@ -532,8 +524,7 @@ static void level_by_the_network(void) {
     nsvcd_question question = level_question(&way, level_with_latents());
     question.options.method = NSVCD_METHOD_NETWORK;
     const nsvcd_answer answer = level_ask(&question);
-    if (answer.status == NSVCD_STATUS_CERTIFIED_FREE)
-      CHECK(!collides);
+    if (answer.status == NSVCD_STATUS_CERTIFIED_FREE) CHECK(!collides);
     certified += answer.status == NSVCD_STATUS_CERTIFIED_FREE;
     wrong += answer.collides != collides;
     hits += collides != 0;
@@ -642,15 +633,12 @@ static void level_planning(void) {
     const nsvcd_question straight = level_question(&way, w->level.body);
     nsvcd_question end = straight;
     end.a.count = 1;
-    if (level_ask(&end).collides || !level_ask(&straight).collides)
-      continue;
+    if (level_ask(&end).collides || !level_ask(&straight).collides) continue;
     end.a.poses = way.stored + 1;
-    if (level_ask(&end).collides)
-      continue;
+    if (level_ask(&end).collides) continue;
     barred++;
     CHECK_EQ(nsvcd_plan(&problem, &options, workspace, size, control, &answer), NSVCD_OK);
-    if (answer.status != NSVCD_PLAN_CONVERGED)
-      continue;
+    if (answer.status != NSVCD_PLAN_CONVERGED) continue;
     solved++;
     oracle_pose poses[65];
     for (size_t n = 0; n <= 64; n++) {
@@ -684,8 +672,7 @@ static void level_of_bad_triangles(void) {
   for (size_t t = 0; t < sane->triangle_count; t++) {
     memcpy(mesh.indices + 6 * t, sane->indices + 3 * t, 12);
     // two corners are one
-    for (size_t k = 0; k < 3; k++)
-      mesh.indices[6 * t + 3 + k] = sane->indices[3 * t + (k > 1)];
+    for (size_t k = 0; k < 3; k++) mesh.indices[6 * t + 3 + k] = sane->indices[3 * t + (k > 1)];
   }
   const nsvcd_encode_options options = level_options(4000);
   const nsvcd_body *half, *turned, *crumbs;
@@ -748,8 +735,7 @@ static void level_of_bad_triangles(void) {
 
 static int level_cancel(float done, void *user) {
   float *last = (float *)user;
-  if (done < last[0] || done > 1)
-    last[1] = 1;  // it never goes back
+  if (done < last[0] || done > 1) last[1] = 1;  // it never goes back
   last[0] = done;
   last[2] += 1;
   return last[2] >= last[3];

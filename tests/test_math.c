@@ -2,7 +2,9 @@
 // (examples/scenery/oracle.h); where numbers lie in rows; bits and sizes.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/ground/rotations.h"
+#include "../src/ground/spheres.h"
+#include "../src/ground/bits.h"
 
 #include "../examples/scenery/oracle.h"
 #include "check.h"
@@ -101,8 +103,7 @@ static void math_vectors(void) {
     double a[3], b[3], want[3];
     for (int n = 0; n < 2; n++) {
       const double scale = pow(10, uniform(-12, 6));
-      for (int k = 0; k < 3; k++)
-        p[n][k] = (float)(scale * uniform(-1, 1));
+      for (int k = 0; k < 3; k++) p[n][k] = (float)(scale * uniform(-1, 1));
     }
     for (int k = 0; k < 3; k++) {
       a[k] = (double)p[0][k];
@@ -113,27 +114,22 @@ static void math_vectors(void) {
     const nsvcd__f3 y = nsvcd__f3_row(p[0], 1);
     const double size = math_size(a);
     const double other = math_size(b);
-    for (int k = 0; k < 3; k++)
-      want[k] = a[k] + b[k];
+    for (int k = 0; k < 3; k++) want[k] = a[k] + b[k];
     math_check(nsvcd__f3_add(x, y), want, size + other);
     oracle_sub(a, b, want);
     math_check(nsvcd__f3_sub(x, y), want, size + other);
-    for (int k = 0; k < 3; k++)
-      want[k] = (double)s * b[k];
+    for (int k = 0; k < 3; k++) want[k] = (double)s * b[k];
     math_check(nsvcd__f3_scale(y, s), want, size * other);
-    for (int k = 0; k < 3; k++)
-      want[k] += a[k];
+    for (int k = 0; k < 3; k++) want[k] += a[k];
     math_check(nsvcd__f3_add_scaled(x, s, y), want, size + size * other);
     oracle_cross(a, b, want);
     math_check(nsvcd__f3_cross(x, y), want, 2 * size * other);
     CHECK_NEAR(nsvcd__f3_dot(x, y), oracle_dot(a, b), MATH_ROUNDING * 3 * size * other);
     CHECK_NEAR(nsvcd__f3_length(x), oracle_length(a), MATH_ROUNDING * oracle_length(a));
-    for (int k = 0; k < 3; k++)
-      want[k] = fmin(a[k], b[k]);
+    for (int k = 0; k < 3; k++) want[k] = fmin(a[k], b[k]);
     math_check(nsvcd__f3_min(x, y), want, 0);
     CHECK_EQ(nsvcd__f3_exceeds(x, y), want[0] < a[0] || want[1] < a[1] || want[2] < a[2]);
-    for (int k = 0; k < 3; k++)
-      want[k] = fmax(a[k], b[k]);
+    for (int k = 0; k < 3; k++) want[k] = fmax(a[k], b[k]);
     math_check(nsvcd__f3_max(x, y), want, 0);
     CHECK(!nsvcd__f3_exceeds(x, x));
   }
@@ -157,15 +153,12 @@ static void math_vectors_in_double(void) {
     oracle_sub(a, b, want);
     math_check_d3(nsvcd__d3_sub(x, y), want, scale);
     CHECK_NEAR(nsvcd__d3_squared_distance(x, y), oracle_dot(want, want), 1e-14 * size);
-    for (int k = 0; k < 3; k++)
-      want[k] = a[k] + s * b[k];
+    for (int k = 0; k < 3; k++) want[k] = a[k] + s * b[k];
     math_check_d3(nsvcd__d3_add_scaled(x, s, y), want, 4 * scale);
     math_check_d3(nsvcd__d3_add(x, nsvcd__d3_scale(y, s)), want, 4 * scale);
-    for (int k = 0; k < 3; k++)
-      want[k] = (1 - s) * a[k] + s * b[k];
+    for (int k = 0; k < 3; k++) want[k] = (1 - s) * a[k] + s * b[k];
     math_check_d3(nsvcd__d3_mix(x, y, s), want, 10 * scale);
-    for (int k = 0; k < 3; k++)
-      want[k] = a[k] / s;
+    for (int k = 0; k < 3; k++) want[k] = a[k] / s;
     math_check_d3(nsvcd__d3_over(x, s), want, scale / fabs(s));
     oracle_cross(a, b, want);
     math_check_d3(nsvcd__d3_cross(x, y), want, 2 * size);
@@ -190,16 +183,14 @@ static void math_vectors_in_double(void) {
 static nsvcd__quat math_quat(double *exact) {
   float q[4];
   random_quat(q);
-  for (int k = 0; k < 4; k++)
-    exact[k] = (double)q[k];
+  for (int k = 0; k < 4; k++) exact[k] = (double)q[k];
   return nsvcd__quat_load(q);
 }
 
 static void math_check_quat(nsvcd__quat found, const double *want, double size) {
   float q[4];
   nsvcd__quat_store(found, q);
-  for (int k = 0; k < 4; k++)
-    CHECK_NEAR(q[k], want[k], MATH_ROUNDING * size);
+  for (int k = 0; k < 4; k++) CHECK_NEAR(q[k], want[k], MATH_ROUNDING * size);
 }
 
 static void math_check_matrix(const nsvcd__mat3 *found, const double *want, double size) {
@@ -217,8 +208,7 @@ static void math_rotations(void) {
     const nsvcd__quat q = math_quat(b);
     const nsvcd__quat pq = nsvcd__quat_mul(p, q);
     const float s = (float)uniform(-1, 1);
-    for (int k = 0; k < 3; k++)
-      v[k] = (double)(float)uniform(-1, 1);
+    for (int k = 0; k < 3; k++) v[k] = (double)(float)uniform(-1, 1);
     const nsvcd__f3 x = nsvcd__f3_of((float)v[0], (float)v[1], (float)v[2]);
     oracle_quat_mul(a, b, ab);
     math_check_quat(pq, ab, 2);
@@ -248,8 +238,7 @@ static void math_rotations(void) {
     math_check(nsvcd__f3_transform(&moved, x), want, 8);
     oracle_rotate_back(m, v, want);
     math_check(nsvcd__mat3_apply_transpose(&turn, x), want, 6);
-    for (int k = 0; k < 9; k++)
-      mn[k] = 2 * (m[k] + (double)s * n[k]);
+    for (int k = 0; k < 9; k++) mn[k] = 2 * (m[k] + (double)s * n[k]);
     const nsvcd__mat3 mixed = nsvcd__mat3_mix(2, &turn, s, &before);
     math_check_matrix(&mixed, mn, 8);
 
@@ -277,8 +266,7 @@ static void math_rotations_in_double(void) {
     oracle_quat_normalize(b);
     const nsvcd__dquat p = math_dquat(a);
     const nsvcd__dquat q = math_dquat(b);
-    for (int k = 0; k < 4; k++)
-      inverse[k] = k < 3 ? -a[k] : a[k];
+    for (int k = 0; k < 4; k++) inverse[k] = k < 3 ? -a[k] : a[k];
     oracle_quat_mul(inverse, b, ab);
     const nsvcd__dquat turn = nsvcd__dquat_inverse_mul(p, q);
     math_check_d3(nsvcd__dquat_axis(turn), ab, 4);
@@ -290,12 +278,12 @@ static void math_rotations_in_double(void) {
     CHECK_NEAR(sum.w, a[3] + length * b[3], 1e-15 * (1 + length));
     const nsvcd__dquat unit = nsvcd__dquat_unit(nsvcd__dquat_scale(p, length));
     math_check_d3(nsvcd__dquat_axis(unit), a, 2);
-    CHECK_NEAR(nsvcd__dquat_square(unit), 1, 2e-15);
+    CHECK_NEAR(nsvcd__dquat_dot(unit, unit), 1, 2e-15);
 
     oracle_matrix(a, m);
     const nsvcd__d3 x = nsvcd__dquat_axis(q);
     const nsvcd__dmat3 matrix = nsvcd__dmat3_of(p);
-    const nsvcd__dmat3 back = nsvcd__dmat3_transpose(&matrix);
+    const nsvcd__dmat3 back = nsvcd__dmat3_transpose(matrix);
     const nsvcd__dmat3 twice = nsvcd__dmat3_scale(&matrix, 2);
     oracle_rotate(m, b, want);
     math_check_d3(nsvcd__dmat3_apply(&matrix, x), want, 6);
@@ -324,16 +312,14 @@ static void math_arcs(void) {
     double a[4], b[4], axis[3], turn[4];
     const nsvcd__quat p = math_quat(a);
     (void)math_quat(b);
-    for (int k = 0; k < 3; k++)
-      axis[k] = b[k] / oracle_length(b);
+    for (int k = 0; k < 3; k++) axis[k] = b[k] / oracle_length(b);
     oracle_axis_angle(axis, pow(10, uniform(-6, 0.49)), turn);
     oracle_quat_mul(turn, a, b);
     const nsvcd__quat q = nsvcd__quat_of((float)b[0], (float)b[1], (float)b[2], (float)b[3]);
     double square = 0;  // of the chord, between the floats
     const double d[4] = {(double)p.x - (double)q.x, (double)p.y - (double)q.y,
                          (double)p.z - (double)q.z, (double)p.w - (double)q.w};
-    for (int k = 0; k < 4; k++)
-      square += d[k] * d[k];
+    for (int k = 0; k < 4; k++) square += d[k] * d[k];
     const double want = 2 * asin(0.5 * sqrt(square));
     CHECK_NEAR(nsvcd__quat_arc(p, q), want, 1e-6 * want);
     CHECK(!nsvcd__quats_opposed(p, q));
@@ -352,8 +338,7 @@ static void math_sides_are_exact(void) {
     for (int k = 0; k < 4; k++) {
       const int64_t x = (int64_t)uniform(-8388608, 8388608);
       int64_t y = (int64_t)uniform(-8388608, 8388608);
-      if (k == 3 && x)
-        y = -product / x;  // so that the sum is near 0
+      if (k == 3 && x) y = -product / x;  // so that the sum is near 0
       a[k] = (float)x / 8388608;
       b[k] = (float)y / 8388608;
       if (y > 8388608 || y < -8388608)
@@ -382,8 +367,7 @@ static void math_slerps(void) {
     const float u = trial % 5 ? (float)uniform(0, 1) : trial % 2 ? 0 : 1;
     (void)math_quat(ends[0].rotation);
     (void)math_quat(turn);
-    for (int k = 0; k < 3; k++)
-      axis[k] = turn[k] / oracle_length(turn);
+    for (int k = 0; k < 3; k++) axis[k] = turn[k] / oracle_length(turn);
     oracle_axis_angle(axis, angles[trial % 10], turn);
     oracle_quat_mul(turn, ends[0].rotation, ends[1].rotation);
     for (int n = 0; n < 2; n++) {
@@ -402,8 +386,7 @@ static void math_slerps(void) {
     float q[4];
     double dot = 0;
     nsvcd__quat_store(found, q);
-    for (int k = 0; k < 4; k++)
-      dot += (double)q[k] * want.rotation[k];
+    for (int k = 0; k < 4; k++) dot += (double)q[k] * want.rotation[k];
     for (int k = 0; k < 4; k++)
       worst = fmax(worst, fabs((double)q[k] - (dot < 0 ? -1 : 1) * want.rotation[k]));
     CHECK(memcmp(&found, &other, sizeof found) == 0);  // b and its opposite are one rotation
@@ -422,16 +405,14 @@ static void math_check_rows(const float *rows, size_t at, size_t stride, size_t 
   for (size_t i = 0; i < MATH_ROWS; i++) {
     float want = -1;
     for (size_t k = 0; k < count; k++) {
-      if (i == at + k * stride)
-        want = (float)(k + 1);
+      if (i == at + k * stride) want = (float)(k + 1);
     }
     CHECK_EQ(rows[i], want);
   }
 }
 
 static void math_clear(float *rows) {
-  for (size_t i = 0; i < MATH_ROWS; i++)
-    rows[i] = -1;
+  for (size_t i = 0; i < MATH_ROWS; i++) rows[i] = -1;
 }
 
 // What is written where it belongs is read from there, and nothing beside it is touched.
@@ -482,8 +463,7 @@ static void math_bits(void) {
       const uint64_t above = (uint64_t)uniform(0, 1e18) << bit;
       const uint64_t bits = above | (uint64_t)1 << bit;
       size_t count = 0;
-      for (size_t k = 0; k < 64; k++)
-        count += bits >> k & 1;
+      for (size_t k = 0; k < 64; k++) count += bits >> k & 1;
       CHECK_EQ(nsvcd__lowest_bit(bits), bit);
       CHECK_EQ(nsvcd__bit_count(bits), count);
     }

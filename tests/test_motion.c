@@ -1,7 +1,7 @@
 // The motion of one body as the other sees it. The reference is double precision and written apart.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/motion/motion.h"
 
 #include "check.h"
 #include "random_motions.h"
@@ -29,8 +29,7 @@ static void motion_pose_is_slerp(void) {
       const nsvcd__transform found = nsvcd__motion_pose(&motion, t);
       float out[3];
       nsvcd__f3_store(nsvcd__f3_transform(&found, nsvcd__f3_load(point)), out);
-      for (int k = 0; k < 3; k++)
-        worst = fmax(worst, fabs((double)out[k] - want[k]));
+      for (int k = 0; k < 3; k++) worst = fmax(worst, fabs((double)out[k] - want[k]));
     }
   }
   CHECK_LE(worst, 3e-5);  // t itself is rounded: 40 samples of speed 6 between them, times 6e-8
@@ -41,8 +40,7 @@ static void bad_poses(void) {
   nsvcd__motion motion;
   memset(&motion, 7, sizeof motion);
   nsvcd__motion before = motion;
-  for (int n = 0; n < 5; n++)
-    poses[n] = good;
+  for (int n = 0; n < 5; n++) poses[n] = good;
   CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);

@@ -3,7 +3,10 @@
 // scenes in which nothing can be done.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/ground/strings.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/plan/plan.h"
 
 #include "plan_scene.h"
 
@@ -25,8 +28,7 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
       nsvcd__spline_weights(via, ((double)n + 0.5) / (double)steps, derivative, w);
       for (size_t j = 0; j < f; j++) {
         double x = 0;
-        for (size_t k = 0; k < via + 2; k++)
-          x += w[k] * control[k * f + j];
+        for (size_t k = 0; k < via + 2; k++) x += w[k] * control[k * f + j];
         x /= pow((double)o->duration, (double)derivative);
         cost += weights[derivative - 1] * x * x / (double)steps;
       }
@@ -38,8 +40,7 @@ static double plan_exact_cost(const plan_scene *s, const nsvcd_plan_options *o, 
     nsvcd__spline_weights(via, (double)n / (double)segments, 0, w);
     for (size_t j = 0; j < f; j++) {
       joints[j] = 0;
-      for (size_t k = 0; k < via + 2; k++)
-        joints[j] += w[k] * control[k * f + j];
+      for (size_t k = 0; k < via + 2; k++) joints[j] += w[k] * control[k * f + j];
       const double inner = 0.005 * (double)(s->high[j] - s->low[j]);
       const double out = fmax(
           0, fmax((double)s->low[j] + inner - joints[j], joints[j] - (double)s->high[j] + inner));
@@ -57,8 +58,7 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
   shapes_rng rng = {(uint64_t)(10 + kind * 4 + jacobian * 2 + limits)};
   plan_begin(&s, kind, kind == PLAN_XYZ ? 3 : 4);
   s.problem.collision = plan_bump_collision;
-  if (jacobian)
-    s.problem.jacobian = plan_jacobian;
+  if (jacobian) s.problem.jacobian = plan_jacobian;
   s.rest[s.problem.body_count - 1] = query_pose(0.2, 0.1, 0.05);
   if (kind == PLAN_XYZ) {
     s.attached = 1;
@@ -88,14 +88,12 @@ static void plan_gradient_case(plan_kind kind, int jacobian, int limits, double 
     s.options.velocity = (float)shapes_uniform(&rng, 1, 20);
     s.options.duration = n % 2 ? 2.0f : 40.0f;  // smoothness outweighs the bumps, or they it
     plan_random_numbers(&rng, numbers, 0.3, control);
-    for (size_t k = 0; k < numbers; k++)
-      exact[k] = (double)control[k];
-    if (!plan_open(&s, &in))
-      continue;
+    for (size_t k = 0; k < numbers; k++) exact[k] = (double)control[k];
+    if (!plan_open(&s, &in)) continue;
     nsvcd__planner *p = &in.planner;
     const size_t segments = p->refine.moments - 1;
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, NULL);
-    const nsvcd__cost again = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, NULL);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, 0);
+    const nsvcd__cost again = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, 0);
     const double whole = plan_exact_cost(&s, &p->options, via, segments, exact);
     CHECK_EQ(p->error, NSVCD_OK);
     CHECK_EQ(cost.total, again.total);  // the gradient does not change it
@@ -134,12 +132,11 @@ static void plan_gradient_of_the_cost(void) {
 // run looked at.
 static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, const float *control) {
   uint64_t hash = 1469598103934665603u;
-  nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);  // p->poses
+  nsvcd__cost_of(p, stage, control, INFINITY, NULL, 0);  // p->poses
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->moments; s++) {
       const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
-      if (answer.logit <= -p->options.margin)
-        continue;
+      if (answer.logit <= -p->options.margin) continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
       hash = (hash ^ (answer.patch_a * 512 + answer.patch_b)) * 1099511628211u;
     }
@@ -173,8 +170,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
   s.options.acceleration = -1;
   s.options.collision = 1;
   s.options.sweep.precision = NSVCD_PRECISION_FLOAT;
-  if (!plan_open(&s, &in))
-    return;
+  if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const size_t f = s.problem.joints;
   const size_t numbers = 6 * f;
@@ -185,26 +181,21 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
     double slope = 0;
     if (kind == PLAN_XYZ) {
       plan_random_numbers(&rng, numbers, 0.16, control);
-      for (size_t k = 0; k < 6; k++)
-        control[k * f] = -0.25f + 0.1f * (float)k;
+      for (size_t k = 0; k < 6; k++) control[k * f] = -0.25f + 0.1f * (float)k;
     } else {
-      for (size_t k = 0; k < numbers; k++)
-        control[k] = (float)shapes_uniform(&rng, -0.5, 0.5);
+      for (size_t k = 0; k < numbers; k++) control[k] = (float)shapes_uniform(&rng, -0.5, 0.5);
     }
     plan_random_numbers(&rng, numbers, 1, direction);
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, NULL);
-    if (cost.collision <= 0)
-      continue;
-    for (size_t k = 0; k < numbers; k++)
-      slope += (double)gradient[k] * (double)direction[k];
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, INFINITY, gradient, 0);
+    if (cost.collision <= 0) continue;
+    for (size_t k = 0; k < numbers; k++) slope += (double)gradient[k] * (double)direction[k];
     (*tried)++;
     const uint64_t who = plan_decisive(p, &p->refine, control);
     int same = 1;
     for (int i = -2; i <= 2; i++) {
-      for (size_t k = 0; k < numbers; k++)
-        moved[k] = control[k] + 1e-4f * (float)i * direction[k];
+      for (size_t k = 0; k < numbers; k++) moved[k] = control[k] + 1e-4f * (float)i * direction[k];
       same = same && plan_decisive(p, &p->refine, moved) == who;
-      at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL, NULL).total;
+      at[i + 2] = nsvcd__cost_of(p, &p->refine, moved, INFINITY, NULL, 0).total;
     }
     const double near = ((double)at[3] - (double)at[1]) / 2e-4;
     const double far = ((double)at[4] - (double)at[0]) / 4e-4;
@@ -255,10 +246,9 @@ static void plan_wrenches_are_derivatives(void) {
     double change = 0;
     double expected = 0;
     const nsvcd_body_pair pair = {(uint32_t)(n % 2), (uint32_t)(1 - n % 2)};
-    for (int b = 0; b < 2; b++)
-      query_random_pose(&rng, 1, &poses[b]);
+    for (int b = 0; b < 2; b++) query_random_pose(&rng, 1, &poses[b]);
     plan_random_numbers(&rng, 6, 1, wrench);
-    nsvcd__add_wrench(&pair, poses, 0.5f, nsvcd__wrench_load(wrench), wrenches);
+    nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
     oracle_pose exact[2];
     for (int b = 0; b < 2; b++) {
       exact[b] = plan_exact_pose(&poses[b]);
@@ -276,18 +266,15 @@ static void plan_wrenches_are_derivatives(void) {
         plan_turn(moved[b][3] / angle, moved[b][4] / angle, moved[b][5] / angle, angle, by);
         oracle_quat_mul(by, exact[b].rotation, product);
         memcpy(exact[b].rotation, product, sizeof product);
-        for (int k = 0; k < 3; k++)
-          exact[b].position[k] += moved[b][k];
+        for (int k = 0; k < 3; k++) exact[b].position[k] += moved[b][k];
       }
       oracle_matrix(exact[pair.b].rotation, m);
       oracle_sub(exact[pair.a].position, exact[pair.b].position, d);
       oracle_rotate_back(m, d, step ? after : before);
-      for (int k = 0; k < 4; k++)
-        inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
+      for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
       oracle_quat_mul(inverse, exact[pair.a].rotation, q[step]);
     }
-    for (int k = 0; k < 4; k++)
-      inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
+    for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
     oracle_quat_mul(q[1], inverse, turned);
     for (int k = 0; k < 3; k++) {
       change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) +
@@ -309,8 +296,7 @@ static void plan_bundled_gradient_is_a_mean(void) {
   s.rest[3] = query_pose(0.2, 0.1, 0.05);
   plan_pair(&s, 0, 2);
   plan_pair(&s, 1, 3);
-  if (!plan_open(&s, &in))
-    return;
+  if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
   const size_t f = 5;
@@ -325,13 +311,11 @@ static void plan_bundled_gradient_is_a_mean(void) {
   plan_random_numbers(&rng, stage->draws * numbers, 0.2, p->drawn);
   for (size_t n = 0; n < stage->draws; n++) {
     memcpy(moved, control, sizeof moved);
-    for (size_t k = 0; k < numbers; k++)
-      moved[f + k] += p->drawn[n * numbers + k];
-    nsvcd__cost_of(p, stage, moved, INFINITY, gradient, NULL);
-    for (size_t k = 0; k < numbers; k++)
-      sum[k] += (double)gradient[f + k] / (double)stage->draws;
+    for (size_t k = 0; k < numbers; k++) moved[f + k] += p->drawn[n * numbers + k];
+    nsvcd__cost_of(p, stage, moved, INFINITY, gradient, 0);
+    for (size_t k = 0; k < numbers; k++) sum[k] += (double)gradient[f + k] / (double)stage->draws;
   }
-  nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
+  nsvcd__cost_of(p, stage, control, INFINITY, gradient, 0);
   nsvcd__bundled_gradient(p, stage, control);
   for (size_t k = 0; k < numbers; k++) {
     norm += sum[k] * sum[k];
@@ -352,7 +336,6 @@ static void plan_refining_converges(void) {
     for (int longer = 0; longer < 2; longer++) {
       plan_begin(&s, PLAN_XYZ, 2);
       plan_inside in;
-      nsvcd__searching search = {0, 0, 0};
       s.problem.collision = plan_bump_collision;
       s.problem.jacobian = plan_jacobian;
       s.problem.progress = NULL;
@@ -365,13 +348,11 @@ static void plan_refining_converges(void) {
       s.options.refine.draws = 1;
       s.options.refine.noise = -1;
       s.options.collision = 1;
-      if (!plan_open(&s, &in))
-        return;
+      if (!plan_open(&s, &in)) return;
       nsvcd__smoothest(&in.planner, &in.planner.refine, in.planner.best);
-      nsvcd__refine(&in.planner, &search);
+      nsvcd__refine(&in.planner);
       cost[longer] =
-          nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, NULL)
-              .total;
+          nsvcd__cost_of(&in.planner, &in.planner.refine, in.planner.best, INFINITY, NULL, 0).total;
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);
     }
@@ -408,8 +389,7 @@ static void plan_random_poses(shapes_rng *rng, nsvcd__planner *p, size_t samples
       nsvcd_pose *pose = &p->poses[s * bodies + b];
       float by[4];
       plan_turn(axis[0], axis[1], axis[2], angle * (double)s, q);
-      for (int k = 0; k < 4; k++)
-        by[k] = (float)q[k];
+      for (int k = 0; k < 4; k++) by[k] = (float)q[k];
       query_multiply(by, at.rotation, pose->rotation);
       for (int k = 0; k < 3; k++)
         pose->position[k] =
@@ -430,16 +410,13 @@ static void plan_culling_misses_nothing(void) {
   plan_begin(&s, PLAN_XYZ, 6);
   const int shapes[6] = {PLAN_OFF_CENTRE, PLAN_BALL, PLAN_OFF_CENTRE,
                          PLAN_BOX,        PLAN_WALL, PLAN_LINK};
-  for (size_t b = 0; b < 6; b++)
-    s.bodies[b] = plan_body(shapes[b]);
+  for (size_t b = 0; b < 6; b++) s.bodies[b] = plan_body(shapes[b]);
   for (uint32_t a = 0; a < 6; a++) {
     for (uint32_t b = 0; b < 6; b++) {
-      if (a != b)
-        plan_pair(&s, a, b);
+      if (a != b) plan_pair(&s, a, b);
     }
   }
-  if (!plan_open(&s, &in))
-    return;
+  if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 1500; n++) {
     const size_t samples = 9;
@@ -448,8 +425,7 @@ static void plan_culling_misses_nothing(void) {
                       : n % 3 == 1 ? 0.6
                                    : 2);
     // far off, and rounded
-    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++)
-      p->poses[i].position[1] += 1e5f;
+    for (size_t i = 0; n % 5 == 0 && i < samples * 6; i++) p->poses[i].position[1] += 1e5f;
     nsvcd__find_stances(p, samples);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
       for (size_t stride = 0; stride < 2; stride++) {
@@ -497,8 +473,7 @@ static void plan_cost_is_the_sum_over_segments(void) {
   plan_pair(&s, 1, 3);
   plan_pair(&s, 0, 3);
   plan_pair(&s, 2, 0);
-  if (!plan_open(&s, &in))
-    return;
+  if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const nsvcd__stage *stage = &p->refine;
   for (int n = 0; n < 400; n++) {
@@ -509,8 +484,8 @@ static void plan_cost_is_the_sum_over_segments(void) {
     int collides_at_all = 0;
     int dropped_here = 0;
     plan_random_numbers(&rng, (stage->via + 2) * s.problem.joints, 0.6, control);
-    const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL, NULL);
-    const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient, NULL);
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, control, INFINITY, NULL, 0);
+    const nsvcd__cost again = nsvcd__cost_of(p, stage, control, INFINITY, gradient, 0);
     CHECK_NEAR(cost.collision, again.collision, 1e-5 * (double)cost.collision);
     CHECK_EQ(cost.collides, again.collides);
     for (uint32_t k = 0; k < s.problem.pair_count; k++) {
@@ -521,8 +496,7 @@ static void plan_cost_is_the_sum_over_segments(void) {
       memset(runs, 0, sizeof runs);
       for (size_t i = 0; i + 1 < stage->moments;) {  // which runs are clear
         size_t length = 0;
-        while (length < 8 && i + length + 1 < stage->moments && meets[i + length])
-          length++;
+        while (length < 8 && i + length + 1 < stage->moments && meets[i + length]) length++;
         if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin)
           memset(runs + i, 1, length);
         i += length ? length : 1;
@@ -533,8 +507,7 @@ static void plan_cost_is_the_sum_over_segments(void) {
         sum += share;
         collides_at_all |= answer.collides;
         costly += share > 0;
-        if (!meets[i])
-          CHECK_EQ(share, 0);
+        if (!meets[i]) CHECK_EQ(share, 0);
         if (runs[i]) {
           without += share;
           dropped += share > 0;
@@ -573,19 +546,17 @@ static void plan_cost_stops_at_its_limit(void) {
   s.rest[3] = query_pose(0.3, 0.25, 0);
   plan_pair(&s, 1, 2);
   plan_pair(&s, 1, 3);
-  if (!plan_open(&s, &in))
-    return;
+  if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   for (int n = 0; n < 200; n++) {
     float control[PLAN_VIA * PLAN_JOINTS];
     plan_random_numbers(&rng, (p->refine.via + 2) * s.problem.joints, 0.5, control);
-    const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, NULL);
+    const nsvcd__cost whole = nsvcd__cost_of(p, &p->refine, control, INFINITY, NULL, 0);
     const float limit = whole.total * (float)shapes_uniform(&rng, 0.1, 2);
-    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, NULL);
+    const nsvcd__cost cost = nsvcd__cost_of(p, &p->refine, control, limit, NULL, 0);
     if (whole.total < 0.9999f * limit)
       CHECK_NEAR(cost.total, whole.total, 1e-5 * (double)whole.total);
-    if (whole.total > 1.0001f * limit)
-      CHECK_GE(cost.total, limit);
+    if (whole.total > 1.0001f * limit) CHECK_GE(cost.total, limit);
     cut += cost.total < 0.999f * whole.total;
   }
   CHECK_GE(cut, 20);
@@ -639,12 +610,10 @@ static plan_outcome plan_run(plan_scene *s) {
       written += ((unsigned char *)&out.answer)[k] != untouched;
   }
   CHECK_EQ(written, 0);
-  if (out.result)
-    return out;
+  if (out.result) return out;
   const nsvcd_plan_answer *a = &out.answer;
   const size_t seeds = o->seeds ? o->seeds : 6;
-  for (size_t k = 0; k < numbers; k++)
-    CHECK(isfinite(out.control[k]));
+  for (size_t k = 0; k < numbers; k++) CHECK(isfinite(out.control[k]));
   for (size_t j = 0; j < f; j++) {
     CHECK_EQ(out.control[j], s->start[j]);
     CHECK_EQ(out.control[(out.via + 1) * f + j], s->goal[j]);
@@ -660,8 +629,7 @@ static plan_outcome plan_run(plan_scene *s) {
   CHECK(isfinite(a->stray) && a->stray >= 0);
   CHECK(a->pair == NSVCD_NONE || a->pair < s->problem.pair_count);
   CHECK(a->joint == NSVCD_NONE || a->joint < f);
-  if (a->status == NSVCD_PLAN_CONVERGED)
-    CHECK(!a->collides && a->joint == NSVCD_NONE);
+  if (a->status == NSVCD_PLAN_CONVERGED) CHECK(!a->collides && a->joint == NSVCD_NONE);
   for (size_t k = 0; k < numbers && a->status == NSVCD_PLAN_CONVERGED; k++) {
     CHECK_GE(out.control[k], s->low[k % f] - 2e-5f);
     CHECK_LE(out.control[k], s->high[k % f] + 2e-5f);
@@ -737,8 +705,7 @@ static void plan_goes_round_a_wall(void) {
     for (int n = 0; n <= 400; n++) {
       float x[3];
       nsvcd_spline(out.control, out.via, 3, (float)n / 400, 0, x);
-      for (size_t j = 0; j < 3; j++)
-        CHECK(x[j] >= s.low[j] - 1e-4f && x[j] <= s.high[j] + 1e-4f);
+      for (size_t j = 0; j < 3; j++) CHECK(x[j] >= s.low[j] - 1e-4f && x[j] <= s.high[j] + 1e-4f);
     }
   }
   printf("  of 8 seeds the least exact distance is %.1f mm\n", 1000 * least);
@@ -820,8 +787,7 @@ static void plan_keeps_the_best_of_its_seeds(void) {
     CHECK_LE(out.answer.cost, best.answer.cost);
     const int is_better = out.answer.cost < best.answer.cost;
     const size_t bytes = (out.via + 2) * s.problem.joints * sizeof(float);
-    if (!is_better)
-      CHECK(memcmp(out.control, best.control, bytes) == 0);
+    if (!is_better) CHECK(memcmp(out.control, best.control, bytes) == 0);
     better += seeds > 1 && is_better;
     best = out;
   }
@@ -871,8 +837,7 @@ static void plan_grasped_bodies_move_along(void) {
   CHECK_EQ(out.result, NSVCD_OK);
   CHECK_EQ(out.answer.status, NSVCD_PLAN_CONVERGED);
   plan_scene carried = s;  // the second ball alone, above the first
-  for (size_t j = 0; j < 3; j++)
-    CHECK_EQ(carried.start[j], s.start[j]);
+  for (size_t j = 0; j < 3; j++) CHECK_EQ(carried.start[j], s.start[j]);
   oracle_mesh ball, wall;
   CHECK(oracle_mesh_init(&ball, plan_shapes[PLAN_BALL].positions, plan_shapes[PLAN_BALL].vertices,
                          plan_shapes[PLAN_BALL].indices, plan_shapes[PLAN_BALL].triangles, 1));
@@ -885,8 +850,7 @@ static void plan_grasped_bodies_move_along(void) {
     nsvcd_pose placed[3];
     nsvcd_spline(out.control, out.via, 3, (float)n / 200, 0, joints);
     plan_place(&s, joints, placed);
-    for (int b = 0; b < 2; b++)
-      poses[b][n] = plan_exact_pose(&placed[b]);
+    for (int b = 0; b < 2; b++) poses[b][n] = plan_exact_pose(&placed[b]);
   }
   for (int b = 0; b < 2; b++)
     CHECK_EQ(oracle_sweep(&ball, poses[b], 201, &wall, &at, NULL).status, ORACLE_FREE);
@@ -904,8 +868,7 @@ static void plan_grasped_bodies_move_along(void) {
 // A body of a shared shape, with triangles; it lives until the process ends.
 static const nsvcd_body *plan_solid(int shape) {
   static const nsvcd_body *bodies[PLAN_SHAPES];
-  if (bodies[shape])
-    return bodies[shape];
+  if (bodies[shape]) return bodies[shape];
   plan_body(shape);  // makes the shape
   nsvcd_mesh flat = query_mesh(&plan_shapes[shape], 1);
   CHECK_EQ(nsvcd_encode(&flat, NULL, NULL, NULL, 0, &bodies[shape]), NSVCD_OK);
@@ -936,8 +899,7 @@ static void plan_proves_at_the_end(void) {
     const plan_outcome out = plan_run(&s);
     CHECK(out.answer.status == NSVCD_PLAN_CONVERGED ||
           (out.answer.status == NSVCD_PLAN_LIMIT && out.answer.collides));
-    if (out.answer.status != NSVCD_PLAN_CONVERGED)
-      continue;
+    if (out.answer.status != NSVCD_PLAN_CONVERGED) continue;
     CHECK_GE(plan_exact_distance(&s, &out, PLAN_BALL, PLAN_WALL),
              (double)s.options.sweep.clearance - 1e-5);
     converged++;
@@ -1027,8 +989,7 @@ static void plan_stages_can_be_left_out(void) {
       const double x = (double)out.control[3 * k + j];
       const double y = (double)out.control[3 * (out.via + 1 - k) + j];
       CHECK_NEAR(x + y, (double)s.start[j] + (double)s.goal[j], 1e-5);
-      if (k)
-        CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
+      if (k) CHECK(out.control[3 * k] >= out.control[3 * k - 3] - 1e-6f);
     }
   }
 }
@@ -1090,8 +1051,7 @@ static oracle_pose plan_seen(const plan_scene *s, const plan_outcome *out, nsvcd
   oracle_pose to_b = {{0, 0, 0}, {0, 0, 0, 0}};
   const double origin[3] = {0, 0, 0};
   double away[3];
-  for (int k = 0; k < 4; k++)
-    to_b.rotation[k] = (k < 3 ? -1 : 1) * poses[pair.b].rotation[k];
+  for (int k = 0; k < 4; k++) to_b.rotation[k] = (k < 3 ? -1 : 1) * poses[pair.b].rotation[k];
   oracle_sub(origin, poses[pair.b].position, away);
   oracle_transform(&to_b, away, to_b.position);
   return oracle_compose(&to_b, &poses[pair.a]);
@@ -1137,8 +1097,7 @@ static void plan_strays_as_far_as_it_says(void) {
   double ratio[2] = {HUGE_VAL, 0};
   shapes_rng rng = {31};
   plan_begin(&s, PLAN_ARMS, 4);
-  for (size_t b = 0; b < 4; b++)
-    s.bodies[b] = plan_body(shapes[b]);
+  for (size_t b = 0; b < 4; b++) s.bodies[b] = plan_body(shapes[b]);
   s.problem.collision = plan_bump_collision;
   s.rest[3] = query_pose(0, 0, -2);
   plan_pair(&s, 0, 0);
@@ -1168,8 +1127,7 @@ static void plan_strays_as_far_as_it_says(void) {
       ratio[0], ratio[1]);
   CHECK_LE(most[0], 2e-4);
   CHECK_GE(most[5], 2e-4);  // else the default need not be so fine
-  for (int c = 1; c < 5; c++)
-    CHECK_GE(most[c], 2 * most[c + 1]);
+  for (int c = 1; c < 5; c++) CHECK_GE(most[c], 2 * most[c + 1]);
   CHECK_GE(ratio[0], 0.98);
   CHECK_LE(ratio[1], 1.6);
   s.problem.bodies = NULL;  // of which nothing is known
@@ -1192,8 +1150,7 @@ static float plan_lure(void *user, const nsvcd_pose *poses, size_t samples, floa
   for (size_t i = 0; i < samples; i++) {
     const double away = 3 - (double)poses[i * stride].position[0];
     sum += away * away;
-    if (gradient)
-      gradient[6 * i * stride] += (float)(-2 * away);
+    if (gradient) gradient[6 * i * stride] += (float)(-2 * away);
   }
   return (float)sum;
 }
@@ -1228,12 +1185,12 @@ static void plan_via_points_keep_the_limits(void) {
   p->check.moments = 2;
   nsvcd__stage_init(&p->options, &p->check);
   nsvcd__smoothest(p, &p->refine, control);
-  const nsvcd__cost within = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, NULL);
+  const nsvcd__cost within = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, 0);
   CHECK(nsvcd__is_free(&within));
   for (size_t k = 3; k < 33; k++) {
     const float kept = control[k];
     control[k] = k % 2 ? 2.001f : -2.001f;
-    const nsvcd__cost beyond = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, NULL);
+    const nsvcd__cost beyond = nsvcd__cost_of(p, &p->check, control, INFINITY, NULL, 0);
     CHECK_EQ(beyond.joint, k % 3);
     control[k] = kept;
   }
@@ -1241,10 +1198,8 @@ static void plan_via_points_keep_the_limits(void) {
 }
 
 static void plan_refuses(plan_scene *s, nsvcd_result expected, int measured) {
-  if (!measured)
-    CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
-  if (measured)
-    CHECK(nsvcd_plan_workspace_size(&s->problem, &s->options) > 0);
+  if (!measured) CHECK_EQ(nsvcd_plan_workspace_size(&s->problem, &s->options), 0);
+  if (measured) CHECK(nsvcd_plan_workspace_size(&s->problem, &s->options) > 0);
   const plan_outcome out = plan_run(s);  // checks that nothing is written
   CHECK_EQ(out.result, expected);
 }
@@ -1272,8 +1227,7 @@ static void plan_refuses_options_out_of_range(void) {
     o->check = o->check ? o->check : 10;
     CHECK(nsvcd_plan_workspace_size(&s.problem, o) > 0);
     for (int n = 0; n < 3; n++) {
-      if (n == 2 && (k == 2 || k == 6))
-        continue;  // NSVCD_NONE
+      if (n == 2 && (k == 2 || k == 6)) continue;  // NSVCD_NONE
       *sizes[k] = n == 0 ? most[k] + 1 : n == 1 ? SIZE_MAX / 2 : SIZE_MAX;
       plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
     }
@@ -1329,34 +1283,20 @@ static void plan_refuses_problems(void) {
   CHECK_EQ(nsvcd_plan_workspace_size(NULL, NULL), 0);
   for (int k = 0; k < 14; k++) {
     *p = good;
-    if (k == 0)
-      p->joints = 0;
-    if (k == 1)
-      p->joints = NSVCD_MAX_JOINTS + 1;
-    if (k == 2)
-      p->low = NULL;
-    if (k == 3)
-      p->high = NULL;
-    if (k == 4)
-      p->start = NULL;
-    if (k == 5)
-      p->goal = NULL;
-    if (k == 6)
-      p->bodies = NULL;
-    if (k == 7)
-      p->pairs = NULL;
-    if (k == 8)
-      p->place = NULL;
-    if (k == 9)
-      p->body_count = 1;  // of which the pair's b is none
-    if (k == 10)
-      p->body_count = 65537;
-    if (k == 11)
-      s.pairs[0].b = 0;  // itself
-    if (k == 12)
-      s.pairs[0].b = 0xffffffffu;
-    if (k == 13)
-      s.bodies[1] = NULL;
+    if (k == 0) p->joints = 0;
+    if (k == 1) p->joints = NSVCD_MAX_JOINTS + 1;
+    if (k == 2) p->low = NULL;
+    if (k == 3) p->high = NULL;
+    if (k == 4) p->start = NULL;
+    if (k == 5) p->goal = NULL;
+    if (k == 6) p->bodies = NULL;
+    if (k == 7) p->pairs = NULL;
+    if (k == 8) p->place = NULL;
+    if (k == 9) p->body_count = 1;  // of which the pair's b is none
+    if (k == 10) p->body_count = 65537;
+    if (k == 11) s.pairs[0].b = 0;  // itself
+    if (k == 12) s.pairs[0].b = 0xffffffffu;
+    if (k == 13) s.bodies[1] = NULL;
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
     s.pairs[0].b = 1;
   }
@@ -1402,18 +1342,15 @@ static void plan_sizes_do_not_wrap(void) {
   static plan_scene s;
   static const nsvcd_body *bodies[2260];
   plan_wall_scene(&s);
-  for (size_t k = 0; k < 2260; k++)
-    bodies[k] = s.problem.bodies[k % s.problem.body_count];
+  for (size_t k = 0; k < 2260; k++) bodies[k] = s.problem.bodies[k % s.problem.body_count];
   s.problem.bodies = bodies;
   s.problem.body_count = 2260;
   s.options.check = 16384;
   const size_t size = nsvcd_plan_workspace_size(&s.problem, &s.options);
   const double least =
       16385.0 * 2260 * (sizeof(nsvcd_pose) + sizeof(nsvcd__stance) + 6 * sizeof(float));
-  if (least > (double)SIZE_MAX)
-    CHECK_EQ(size, 0);
-  if (least < (double)SIZE_MAX)
-    CHECK_LE(least, size);
+  if (least > (double)SIZE_MAX) CHECK_EQ(size, 0);
+  if (least < (double)SIZE_MAX) CHECK_LE(least, size);
   float control[12 * 3];
   nsvcd_plan_answer answer;
   query_memory memory = query_reserve(4096);
@@ -1497,8 +1434,7 @@ static void plan_scale(plan_scene *s, float scale, query_memory *memory) {
     const size_t size = nsvcd_body_describe(s->bodies[b]).size;
     memory[b] = query_reserve(size);
     CHECK_EQ(nsvcd_body_scale(s->bodies[b], scale, memory[b].at, size, &s->bodies[b]), NSVCD_OK);
-    for (int k = 0; k < 3; k++)
-      s->rest[b].position[k] *= scale;
+    for (int k = 0; k < 3; k++) s->rest[b].position[k] *= scale;
   }
   for (size_t j = 0; j < 3; j++) {
     s->low[j] *= scale;
@@ -1540,8 +1476,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
         query_pose((double)at[0] + shapes_uniform(&rng, -0.08, 0.08), (double)at[1], (double)at[2]);
     plan_pair(&s, 0, 2);
   }
-  if (trouble == PLAN_START_OUT)
-    s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
+  if (trouble == PLAN_START_OUT) s.start[joint] = (float)shapes_uniform(&rng, 0.51, 3);
   if (trouble == PLAN_GOAL_OUT) {  // and something near the start, which is not the reason
     s.goal[joint] = (float)shapes_uniform(&rng, -3, -0.51);
     s.problem.body_count = 3;
@@ -1549,8 +1484,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     s.rest[2] = query_pose((double)s.start[0] - 0.18, (double)s.start[1], (double)s.start[2]);
     plan_pair(&s, 0, 2);
   }
-  if (trouble == PLAN_EXCLUDED)
-    s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
+  if (trouble == PLAN_EXCLUDED) s.low[joint] = s.high[joint] = s.start[joint] + 1e-3f;
   if (trouble == PLAN_ENCLOSED) {
     s.bodies[1] = plan_body(PLAN_SHELL);
     for (size_t j = 0; j < 3; j++) {
@@ -1561,16 +1495,13 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
     }
     o->sweep.recall = 0.999f;
   }
-  if (trouble == PLAN_SAME_BODY)
-    s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
-  if (trouble == PLAN_ZERO_LENGTH)
-    memcpy(s.goal, s.start, sizeof s.goal);
+  if (trouble == PLAN_SAME_BODY) s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
+  if (trouble == PLAN_ZERO_LENGTH) memcpy(s.goal, s.start, sizeof s.goal);
   if (trouble == PLAN_NO_WIDTH) {  // y, at a distance; what cannot move stays where it is
     const float at = (float)(shapes_uniform(&rng, 1, 9) * pow(10, shapes_pick(&rng, 5)));
     s.low[1] = s.high[1] = s.start[1] = s.goal[1] = at;
   }
-  if (trouble == PLAN_NO_PAIRS)
-    s.problem.pair_count = 0;
+  if (trouble == PLAN_NO_PAIRS) s.problem.pair_count = 0;
   if (trouble == PLAN_CROWD) {
     s.problem.body_count = PLAN_BODIES;
     for (uint32_t b = 2; b < PLAN_BODIES; b++) {
@@ -1580,8 +1511,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
       plan_pair(&s, b, (uint32_t)shapes_pick(&rng, 2));
     }
   }
-  if (trouble == PLAN_ONE_VIA)
-    o->explore.via_points = o->refine.via_points = 1;
+  if (trouble == PLAN_ONE_VIA) o->explore.via_points = o->refine.via_points = 1;
   if (trouble == PLAN_HUGE) {
     plan_scale(&s, 1e5f, scaled);
     o->explore.noise = 5e4f;
@@ -1605,8 +1535,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
                             &o->margin,   &o->explore.noise, &o->refine.noise, &o->duration};
   const float extremes[] = {1e20f, 1e-20f, -1, 1e30f, 3e38f, 1e-38f, 0, 1e5f};
   for (size_t k = 0; k < 8; k++) {
-    if (trouble == PLAN_NEGATIVE)
-      *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
+    if (trouble == PLAN_NEGATIVE) *weights[k] = (float)shapes_uniform(&rng, -10, -1e-3);
     if (trouble == PLAN_EXTREME && (seed % 8 == k || shapes_pick(&rng, 3) == 0))
       *weights[k] = extremes[shapes_pick(&rng, 8)];
   }
@@ -1614,20 +1543,16 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   const plan_outcome again = plan_run(&s);
   const nsvcd_plan_answer *a = &out.answer;
   CHECK_EQ(out.result, again.result);
-  if (!out.result)
-    CHECK(plan_same(&out, &again, 3));
-  for (int b = 0; b < 2; b++)
-    query_release(&scaled[b]);
+  if (!out.result) CHECK(plan_same(&out, &again, 3));
+  for (int b = 0; b < 2; b++) query_release(&scaled[b]);
   if (trouble == PLAN_SAME_BODY) {
     CHECK_EQ(out.result, NSVCD_ERROR_ARGUMENT);
     return -1;
   }
   // the cost is beyond float's range
-  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER)
-    return -1;
+  if (trouble == PLAN_EXTREME && out.result == NSVCD_ERROR_NUMBER) return -1;
   CHECK_EQ(out.result, NSVCD_OK);
-  if (out.result)
-    return -1;
+  if (out.result) return -1;
   if (trouble == PLAN_START_HITS || trouble == PLAN_GOAL_HITS) {
     CHECK_EQ(a->status, trouble == PLAN_START_HITS ? NSVCD_PLAN_START : NSVCD_PLAN_GOAL);
     CHECK(a->pair == 1 && a->collides && a->logit > 0 && a->joint == NSVCD_NONE);
@@ -1639,13 +1564,11 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   }
   if (trouble <= PLAN_EXCLUDED && trouble != PLAN_ENCLOSED)
     CHECK(a->iterations == 0 && s.reports == 0 && a->seeds == 0);
-  if (trouble == PLAN_ENCLOSED)
-    CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
+  if (trouble == PLAN_ENCLOSED) CHECK(a->status == NSVCD_PLAN_LIMIT && a->collides && a->pair == 0);
   if (trouble == PLAN_ZERO_LENGTH || trouble == PLAN_NO_WIDTH || trouble == PLAN_NO_PAIRS) {
     CHECK_EQ(a->status, NSVCD_PLAN_CONVERGED);
   }
-  if (trouble == PLAN_ZERO_LENGTH)
-    CHECK_LE(a->smoothness, 1e-6);
+  if (trouble == PLAN_ZERO_LENGTH) CHECK_LE(a->smoothness, 1e-6);
   for (size_t k = 0; trouble == PLAN_NO_WIDTH && k < out.via + 2; k++)
     CHECK_NEAR(out.control[3 * k + 1], s.low[1], 1e-6 * (double)s.low[1]);
   return (int)a->status;
@@ -1683,8 +1606,7 @@ static void plan_differences_work_far_from_zero(void) {
     double norm = 0;
     double difference = 0;
     plan_random_numbers(&rng, 36, 0.3, control);
-    for (size_t k = 0; k < 36; k++)
-      control[k] += far;
+    for (size_t k = 0; k < 36; k++) control[k] += far;
     for (int jacobian = 0; jacobian < 2; jacobian++) {
       plan_inside in;
       plan_begin(&s, PLAN_XYZ, 2);
@@ -1696,9 +1618,8 @@ static void plan_differences_work_far_from_zero(void) {
       s.problem.collision = plan_bump_collision;
       s.problem.jacobian = jacobian ? plan_jacobian : NULL;
       plan_pair(&s, 0, 1);
-      if (!plan_open(&s, &in))
-        return;
-      nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], NULL);
+      if (!plan_open(&s, &in)) return;
+      nsvcd__cost_of(&in.planner, &in.planner.refine, control, INFINITY, gradient[jacobian], 0);
       CHECK_EQ(in.planner.error, NSVCD_OK);
       plan_close(&in);
     }

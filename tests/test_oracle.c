@@ -23,8 +23,7 @@ static oracle_pose at(double x, double y, double z) {
 }
 static oracle_pose random_pose(shapes_rng *rng, double reach) {
   oracle_pose pose;
-  for (int k = 0; k < 3; k++)
-    pose.position[k] = shapes_uniform(rng, -reach, reach);
+  for (int k = 0; k < 3; k++) pose.position[k] = shapes_uniform(rng, -reach, reach);
   shapes_quaternion(rng, pose.rotation);
   return pose;
 }
@@ -66,8 +65,7 @@ static void random_walk(shapes_rng *rng, oracle_pose *poses, size_t count, doubl
     poses[i] = poses[i - 1];
     oracle_quat_mul(q, poses[i - 1].rotation, poses[i].rotation);
     oracle_quat_normalize(poses[i].rotation);
-    for (int k = 0; k < 3; k++)
-      poses[i].position[k] += step * shapes_normal(rng);
+    for (int k = 0; k < 3; k++) poses[i].position[k] += step * shapes_normal(rng);
   }
 }
 static double volume(const shapes_mesh *mesh) {
@@ -75,8 +73,7 @@ static double volume(const shapes_mesh *mesh) {
   for (size_t i = 0; i < mesh->triangles; i++) {
     const double *p[3];
     double c[3];
-    for (size_t k = 0; k < 3; k++)
-      p[k] = mesh->positions + 3 * mesh->indices[3 * i + k];
+    for (size_t k = 0; k < 3; k++) p[k] = mesh->positions + 3 * mesh->indices[3 * i + k];
     oracle_cross(p[1], p[2], c);
     sum += oracle_dot(p[0], c) / 6;
   }
@@ -173,8 +170,7 @@ static void oracle_triangles_agree_with_sampling(void) {
     for (int i = 0; i < (N + 1) * (N + 1); i++)
       for (int j = 0; j < (N + 1) * (N + 1); j++) {
         double p[3], q[3];
-        if (i / (N + 1) + i % (N + 1) > N || j / (N + 1) + j % (N + 1) > N)
-          continue;
+        if (i / (N + 1) + i % (N + 1) > N || j / (N + 1) + j % (N + 1) > N) continue;
         on_triangle(&a, (double)(i / (N + 1)) / N, (double)(i % (N + 1)) / N, p);
         on_triangle(&b, (double)(j / (N + 1)) / N, (double)(j % (N + 1)) / N, q);
         oracle_sub(p, q, d);
@@ -327,8 +323,7 @@ static void oracle_rod_sweeps_past_wall(void) {
   // The corner at angle -a reaches the wall when reach cos(a) = reach - 0.001.
   CHECK_NEAR(r.time, (0.3 - acos(1 - 0.001 / reach)) / 1.2, 2e-3);
   // the same turn: the shorter arc
-  for (int k = 0; k < 4; k++)
-    poses[1].rotation[k] = -poses[1].rotation[k];
+  for (int k = 0; k < 4; k++) poses[1].rotation[k] = -poses[1].rotation[k];
   CHECK_NEAR(oracle_sweep(&rod, poses, 2, &wall, &here, &first).time, r.time, 1e-9);
   oracle_mesh_free(&rod);
   oracle_mesh_free(&wall);
@@ -356,8 +351,7 @@ static void oracle_path_bound_holds(void) {
       oracle_transform(&p1, v, y);
       oracle_sub(x, y, d);
       CHECK_LE(oracle_length(d), fabs(u1 - u0) + 1e-12);
-      if (fabs(u1 - u0) > 1e-3)
-        tightest = fmax(tightest, oracle_length(d) / fabs(u1 - u0));
+      if (fabs(u1 - u0) > 1e-3) tightest = fmax(tightest, oracle_length(d) / fabs(u1 - u0));
     }
     oracle_motion_free(&motion);
     oracle_mesh_free(&a);
@@ -391,8 +385,7 @@ static void oracle_sweep_agrees_with_dense_sampling(void) {
       oracle_pose pose = oracle_pose_at(poses, 9, t);
       double d = oracle_search_run(&search, &here, &pose, least);
       least = fmin(least, d);
-      if (t < r.time)
-        least_before = least;
+      if (t < r.time) least_before = least;
     }
     seen[r.status == ORACLE_COLLIDES]++;
     CHECK_GE(least, r.lower - 1e-9);
@@ -411,8 +404,7 @@ static void oracle_sweep_agrees_with_dense_sampling(void) {
       oracle_sub(r.on_moving, r.on_fixed, d);
       CHECK_NEAR(oracle_length(d), r.distance, 1e-9);
       CHECK_EQ(quick.status, r.status);
-      if (quick.status == ORACLE_FREE)
-        CHECK_GE(quick.lower, fmin(2e-3, r.distance - 1e-4) - 1e-9);
+      if (quick.status == ORACLE_FREE) CHECK_GE(quick.lower, fmin(2e-3, r.distance - 1e-4) - 1e-9);
     }
     oracle_mesh_free(&a);
     oracle_mesh_free(&b);
@@ -431,8 +423,7 @@ static void oracle_is_invariant_under_rigid_motion(void) {
     oracle_pose all = random_pose(&rng, 10);
     oracle_pose there = oracle_compose(&all, &here);
     random_walk(&rng, poses, 5, 0.05, 0.5);
-    for (int i = 0; i < 5; i++)
-      moved[i] = oracle_compose(&all, &poses[i]);
+    for (int i = 0; i < 5; i++) moved[i] = oracle_compose(&all, &poses[i]);
     oracle_result r = oracle_sweep(&a, poses, 5, &b, &here, NULL);
     oracle_result s = oracle_sweep(&a, moved, 5, &b, &there, NULL);
     CHECK_EQ(r.status, s.status);
@@ -528,8 +519,7 @@ static void convex_support(const void *object, const ccd_vec3_t *direction, ccd_
   double m[9];
   double d[3];
   double local[3];
-  for (int k = 0; k < 3; k++)
-    d[k] = (double)direction->v[k];
+  for (int k = 0; k < 3; k++) d[k] = (double)direction->v[k];
   oracle_matrix(c->pose.rotation, m);
   oracle_rotate_back(m, d, local);
   const double *farthest = c->mesh->triangles[0].v[0];
@@ -588,8 +578,7 @@ static void oracle_agrees_with_libccd(void) {
     double contained =
         fmax(oracle_inside(&ma, &a.pose, &mb, &b.pose), oracle_inside(&mb, &b.pose, &ma, &a.pose));
     int hit = exact <= 0 || contained > 0.5;
-    if (hit || exact > 1e-4)
-      CHECK_EQ(ccdGJKIntersect(&a, &b, &ccd), hit);
+    if (hit || exact > 1e-4) CHECK_EQ(ccdGJKIntersect(&a, &b, &ccd), hit);
     if (!hit && exact > 1e-3) {
       a.grown = exact - 1e-4;
       CHECK(!ccdGJKIntersect(&a, &b, &ccd));

@@ -11,10 +11,8 @@ static task_scene plan_spheres_scene;
 static plan_spheres plan_spheres_tested;
 
 static void plan_spheres_pose_at(const nsvcd_pose *from, oracle_pose *to) {
-  for (int k = 0; k < 3; k++)
-    to->position[k] = (double)from->position[k];
-  for (int k = 0; k < 4; k++)
-    to->rotation[k] = (double)from->rotation[k];
+  for (int k = 0; k < 3; k++) to->position[k] = (double)from->position[k];
+  for (int k = 0; k < 4; k++) to->rotation[k] = (double)from->rotation[k];
 }
 // The distance of a point from a mesh by all of its triangles, and its sign by the winding number.
 static double plan_spheres_truth(const task_body *body, const oracle_pose *pose,
@@ -74,8 +72,7 @@ static double plan_spheres_truth(const task_body *body, const oracle_pose *pose,
       v = vb / (va + vb + vc);
       w = vc / (va + vb + vc);
     }
-    for (int k = 0; k < 3; k++)
-      at[k] = p[0][k] + v * ab[k] + w * ac[k];
+    for (int k = 0; k < 3; k++) at[k] = p[0][k] + v * ab[k] + w * ac[k];
     oracle_sub(x, at, away);
     least = fmin(least, oracle_length(away));
   }
@@ -103,8 +100,7 @@ static double plan_spheres_formula(const plan_spheres *s, const task_scene *scen
       oracle_transform(&at, c, world);
       oracle_transform(&of, b->exact.center, to);
       oracle_sub(world, to, to);
-      if (oracle_length(to) > b->exact.radius + e + (double)ball->radius)
-        continue;
+      if (oracle_length(to) > b->exact.radius + e + (double)ball->radius) continue;
       double d = plan_spheres_truth(b, &of, world) - (double)ball->radius;
       *least = fmin(*least, d);
       sum += d >= e ? 0 : d >= 0 ? (e - d) * (e - d) / 2 / e : e / 2 - d;
@@ -135,16 +131,13 @@ static int plan_spheres_make(int task, float activation, int exact) {
   plan_spheres *s = &plan_spheres_tested;
   if (plan_spheres_made != task) {
     plan_spheres_unmake();
-    if (!(task == 0 ? task_dish_episode(scene, 1) : task_bimanual_episode(scene, 1)))
-      return 0;
-    if (!plan_spheres_init(s, scene, 397, 200, 0.04f, 2, exact))
-      return 0;
+    if (!(task == 0 ? task_dish_episode(scene, 1) : task_bimanual_episode(scene, 1))) return 0;
+    if (!plan_spheres_init(s, scene, 397, 200, 0.04f, 2, exact)) return 0;
     plan_spheres_made = task;
   }
   s->activation = activation;
   s->exact = exact;  // no more than what the grids were made for
-  if (task == 0)
-    task_select(scene, 1);
+  if (task == 0) task_select(scene, 1);
   return plan_spheres_select(s, scene);
 }
 
@@ -159,12 +152,9 @@ static void plan_spheres_cover_bodies(void) {
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
     spheres_body points;
     size_t covered = 0;
-    if (!b->eight_count)
-      continue;
-    if (body->kind == TASK_ROBOT)
-      robot += b->fit->ball_count;
-    if (body->kind != TASK_ROBOT)
-      CHECK_EQ(b->fit->ball_count, 200);
+    if (!b->eight_count) continue;
+    if (body->kind == TASK_ROBOT) robot += b->fit->ball_count;
+    if (body->kind != TASK_ROBOT) CHECK_EQ(b->fit->ball_count, 200);
     // none stands out by more than a surface point's 2 mm
     for (size_t k = 0; k < b->fit->ball_count; k++) {
       const float *c = b->fit->balls[k].centre;
@@ -180,8 +170,7 @@ static void plan_spheres_cover_bodies(void) {
       float gap = 1;
       for (size_t n = 0; n < b->fit->ball_count; n++) {
         float d[3];
-        for (int j = 0; j < 3; j++)
-          d[j] = points.balls[k].centre[j] - b->fit->balls[n].centre[j];
+        for (int j = 0; j < 3; j++) d[j] = points.balls[k].centre[j] - b->fit->balls[n].centre[j];
         gap = fminf(gap, sqrtf(plan_spheres_dot(d, d)) - b->fit->balls[n].radius);
       }
       covered += gap < 0.02f;
@@ -231,11 +220,9 @@ static float plan_spheres_shifted(const nsvcd_pose *poses, int body, int k, doub
     double old[4];
     double out[4];
     oracle_axis_angle(axis, step, turn);
-    for (int j = 0; j < 4; j++)
-      old[j] = (double)poses[body].rotation[j];
+    for (int j = 0; j < 4; j++) old[j] = (double)poses[body].rotation[j];
     oracle_quat_mul(turn, old, out);
-    for (int j = 0; j < 4; j++)
-      moved[body].rotation[j] = (float)out[j];
+    for (int j = 0; j < 4; j++) moved[body].rotation[j] = (float)out[j];
   }
   return plan_spheres_cost(&plan_spheres_tested, moved, 1, HUGE_VALF, &collides, NULL);
 }
@@ -283,8 +270,7 @@ static void plan_spheres_far_is_free(void) {
   }
   CHECK_EQ(plan_spheres_cost(&plan_spheres_tested, poses, 3, HUGE_VALF, &collides, gradient), 0);
   CHECK_EQ(collides, 0);
-  for (int i = 0; i < 18 * count; i++)
-    CHECK_EQ(gradient[i], 0);
+  for (int i = 0; i < 18 * count; i++) CHECK_EQ(gradient[i], 0);
   // Starts and goals keep 3 mm from everything: no sphere stands out by more than 2.
   for (int k = 0; k < 3; k++) {
     task_select(&plan_spheres_scene, k);

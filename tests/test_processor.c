@@ -104,8 +104,7 @@ static float processor_worst_logit(nsvcd_precision precision) {
     for (size_t n = 1; n < processor_count(); n++) {
       const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
       CHECK_EQ(answer.status, first.status);
-      if (first.status == NSVCD_STATUS_OK)
-        worst = fmaxf(worst, fabsf(answer.logit - first.logit));
+      if (first.status == NSVCD_STATUS_OK) worst = fmaxf(worst, fabsf(answer.logit - first.logit));
     }
     processor_close(&s);
   }
@@ -149,8 +148,7 @@ static void processor_the_best_answers(void) {
     processor_close(&s);
   }
   // else this test could not fail
-  if (processor_count() > 1)
-    CHECK_GE(different, 1);
+  if (processor_count() > 1) CHECK_GE(different, 1);
 }
 
 // Workspaces are laid out alike: one that suffices for one suffices for all.
@@ -163,12 +161,10 @@ static void processor_sizes_are_the_same(void) {
 static void processor_self_tests(void) {
   nsvcd_result (*const tests[3])(void) = {nsvcd__self_test, nsvcd__self_test_avx2,
                                           nsvcd__self_test_avx512};
-  for (size_t n = 0; n < processor_count(); n++)
-    CHECK_EQ(tests[n](), NSVCD_OK);
+  for (size_t n = 0; n < processor_count(); n++) CHECK_EQ(tests[n](), NSVCD_OK);
   int failed = 0;
   const clock_t start = clock();
-  for (int n = 0; n < 100000; n++)
-    failed += nsvcd_self_test() != NSVCD_OK;
+  for (int n = 0; n < 100000; n++) failed += nsvcd_self_test() != NSVCD_OK;
   printf("  the self test takes %.2f us\n", 10 * (double)(clock() - start) / CLOCKS_PER_SEC);
   CHECK_EQ(failed, 0);
 }

@@ -8,9 +8,16 @@
 static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
                             double end, const float *normal);
 #define NSVCD__CERTIFIES
+static unsigned forgetful;  // > 0: what is only remembered is forgotten one time in so many
+static unsigned forgotten;  // how often it was
+static int proof_forgets(void);
+#define NSVCD__PAUSE(p) (proof_forgets() ? nsvcd__forget(&(p)->memo) : (void)0)
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
   proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
-#include "../neuralsvcd.h"
+#include "../src/ground/strings.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "any_query.h"
 #include "ask.h"
@@ -36,12 +43,9 @@ static struct {
 
 static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, double start,
                             double end, const float *normal) {
-  if (heard.deaf)
-    return;
-  if (!heard.items)
-    heard.items = (proof_record *)malloc(CERTIFICATES * sizeof *heard.items);
-  if (!heard.items)
-    exit(1);
+  if (heard.deaf) return;
+  if (!heard.items) heard.items = (proof_record *)malloc(CERTIFICATES * sizeof *heard.items);
+  if (!heard.items) exit(1);
   if (heard.count == CERTIFICATES) {
     heard.left_out++;
     return;
@@ -54,8 +58,7 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
   r->b = b;
   r->start = start;
   r->end = end;
-  for (int k = 0; k < 3; k++)
-    r->normal[k] = (double)normal[k];
+  for (int k = 0; k < 3; k++) r->normal[k] = (double)normal[k];
 }
 
 static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
@@ -79,8 +82,7 @@ static nsvcd_question proof_question(const attack *a, const nsvcd_sweep_options 
 static void proof_settle_sides(attack *a) {
   const nsvcd_sweep_options options = proof_options();
   const nsvcd_question question = proof_question(a, &options);
-  if (!nsvcd__is_swapped(&question.a, &question.b))
-    return;
+  if (!nsvcd__is_swapped(&question.a, &question.b)) return;
   const proof_body *moving = a->moving;
   const proof_track track = a->motion.moving;
   a->moving = a->fixed;
@@ -109,8 +111,7 @@ static void proof_turned(const double *turn, const oracle_pose *pose, const doub
   oracle_matrix(turn, m);
   oracle_sub(pose->position, pivot, d);
   oracle_rotate(m, d, out->position);
-  for (int k = 0; k < 3; k++)
-    out->position[k] += pivot[k];
+  for (int k = 0; k < 3; k++) out->position[k] += pivot[k];
   oracle_quat_mul(turn, pose->rotation, out->rotation);
   oracle_quat_normalize(out->rotation);
 }
@@ -118,14 +119,11 @@ static void proof_turned(const double *turn, const oracle_pose *pose, const doub
 static void proof_random_rotation(shapes_rng *rng, int aligned, double *q) {
   const double half = sqrt(0.5);
   shapes_quaternion(rng, q);
-  if (!aligned)
-    return;
+  if (!aligned) return;
   const int axis = shapes_pick(rng, 4);
-  for (int k = 0; k < 4; k++)
-    q[k] = 0;
+  for (int k = 0; k < 4; k++) q[k] = 0;
   q[3] = axis == 3 ? 1 : half;
-  if (axis < 3)
-    q[axis] = half;
+  if (axis < 3) q[axis] = half;
 }
 
 // A pose of the moving body with its surface `gap` from the fixed one's; `point`: where, `away`:
@@ -139,12 +137,10 @@ static int proof_near_contact(shapes_rng *rng, const attack *a, const oracle_pos
   for (int trial = 0; trial < 10; trial++) {
     const double far = shapes_uniform(rng, 0, 1.2) * reach;
     shapes_direction(rng, d);
-    for (int k = 0; k < 3; k++)
-      pose->position[k] = fixed->position[k] + far * d[k];
+    for (int k = 0; k < 3; k++) pose->position[k] = fixed->position[k] + far * d[k];
     const double distance =
         oracle_distance(&a->moving->oracle, pose, &a->fixed->oracle, fixed, on_moving, on_fixed);
-    if (distance <= 1e-6 * reach)
-      continue;
+    if (distance <= 1e-6 * reach) continue;
     for (int k = 0; k < 3; k++) {
       away[k] = (on_moving[k] - on_fixed[k]) / distance;
       pose->position[k] -= (distance - gap) * away[k];
@@ -168,11 +164,9 @@ static void proof_motion_past(shapes_rng *rng, const oracle_pose *pose, const do
   double axis[3], along[3], turn[4];
   shapes_direction(rng, axis);
   shapes_direction(rng, along);
-  if (shapes_pick(rng, 2))
-    memcpy(axis, away, sizeof axis);
+  if (shapes_pick(rng, 2)) memcpy(axis, away, sizeof axis);
   const double inwards = oracle_dot(along, away);
-  for (int k = 0; k < 3; k++)
-    along[k] -= inwards * away[k];
+  for (int k = 0; k < 3; k++) along[k] -= inwards * away[k];
   for (size_t n = 0; n < count; n++) {
     const double s = count > 1 ? (double)n / (double)(count - 1) - when : 0;
     oracle_axis_angle(axis, angle * s, turn);
@@ -193,12 +187,9 @@ static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
   oracle_pose fixed, pose, poses[PROOF_POSES];
   double point[3], away[3];
   shapes_quaternion(rng, fixed.rotation);
-  if (shapes_pick(rng, 3) == 0)
-    proof_random_rotation(rng, 1, fixed.rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = shapes_uniform(rng, -1, 1) * offset * size;
-  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away))
-    return 0;
+  if (shapes_pick(rng, 3) == 0) proof_random_rotation(rng, 1, fixed.rotation);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * offset * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return 0;
   proof_motion_past(rng, &pose, point, away, size, angle, count, poses);
   proof_motion_set(&a->motion, poses, count, &fixed);
   return 1;
@@ -224,8 +215,7 @@ static void proof_carry(shapes_rng *rng, attack *a, double angle, double way) {
   const oracle_pose rest = fixed->poses[0];
   oracle_pose carried[PROOF_POSES], poses[PROOF_POSES];
   double axis[3], along[3];
-  if (moving->count < 2 || fixed->count > 1)
-    return;
+  if (moving->count < 2 || fixed->count > 1) return;
   shapes_direction(rng, axis);
   shapes_direction(rng, along);
   for (int side = 0; side < 2; side++) {
@@ -234,12 +224,9 @@ static void proof_carry(shapes_rng *rng, attack *a, double angle, double way) {
       const double t = (double)i / (double)(n - 1);
       oracle_pose common;
       oracle_axis_angle(axis, angle * t, common.rotation);
-      for (int k = 0; k < 3; k++)
-        common.position[k] = way * t * along[k];
-      if (side)
-        carried[i] = oracle_compose(&common, &rest);
-      if (!side)
-        poses[i] = oracle_compose(&common, &moving->poses[i]);
+      for (int k = 0; k < 3; k++) common.position[k] = way * t * along[k];
+      if (side) carried[i] = oracle_compose(&common, &rest);
+      if (!side) poses[i] = oracle_compose(&common, &moving->poses[i]);
     }
   }
   const float scales[2] = {moving->scale, fixed->scale};
@@ -266,10 +253,8 @@ static double proof_gap(const double *normal, const proof_place *at, const doubl
   double lowest = DBL_MAX;
   double highest = -DBL_MAX;
   oracle_rotate_back(at->matrix, normal, turned);
-  for (size_t i = 0; i < xs; i++)
-    lowest = fmin(lowest, oracle_dot(turned, x[i]));
-  for (size_t i = 0; i < ys; i++)
-    highest = fmax(highest, oracle_dot(normal, y[i]));
+  for (size_t i = 0; i < xs; i++) lowest = fmin(lowest, oracle_dot(turned, x[i]));
+  for (size_t i = 0; i < ys; i++) highest = fmax(highest, oracle_dot(normal, y[i]));
   return lowest + oracle_dot(normal, at->position) - highest;
 }
 
@@ -298,14 +283,12 @@ static int proof_is_true(const attack *a, const proof_record *r, double t, repla
     }
     allowed = 1e-7 * scale * (allowed + oracle_length(d));
   } else {
-    if (!p->pool_count || !q->pool_count)
-      return 1;
+    if (!p->pool_count || !q->pool_count) return 1;
     gap = proof_gap(r->normal, &at, (const double(*)[3])p->pool, p->pool_count,
                     (const double(*)[3])q->pool, q->pool_count);
   }
   sum->evaluations++;
-  if (gap > -allowed)
-    return 1;
+  if (gap > -allowed) return 1;
   sum->worst = fmin(sum->worst, gap / scale / proof_size(a));
   return 0;
 }
@@ -321,8 +304,7 @@ static void proof_replay_records(const attack *a, shapes_rng *rng, replay *sum) 
     const int times = r->kind == NSVCD__BY_TRIANGLES ? 2 : 4;
     for (int k = 0; k < times; k++) {
       const double t = r->start + shares[k] * (r->end - r->start);
-      if (proof_is_true(a, r, t, sum))
-        continue;
+      if (proof_is_true(a, r, t, sum)) continue;
       sum->wrong++;
     }
   }
@@ -338,12 +320,10 @@ static const size_t *proof_index(const attack *a) {
     first = (size_t *)malloc((pairs + 1) * sizeof *first);
     room = pairs + 1;
   }
-  if (!first)
-    exit(1);
+  if (!first) exit(1);
   size_t n = 0;
   for (size_t pair = 0; pair <= pairs; pair++) {
-    while (n < heard.count && heard.items[n].i * a->fixed->count + heard.items[n].j < pair)
-      n++;
+    while (n < heard.count && heard.items[n].i * a->fixed->count + heard.items[n].j < pair) n++;
     first[pair] = n;
   }
   return first;
@@ -358,12 +338,10 @@ static int proof_triangles_covered(const attack *a, size_t i, size_t j, const pr
   const size_t all = (p->end - p->first) * wide;
   size_t covered = 0;
   unsigned char *seen = (unsigned char *)calloc(all + 1, 1);
-  if (!seen)
-    exit(1);
+  if (!seen) exit(1);
   for (size_t n = 0; n < count; n++) {
     const proof_record *r = &records[n];
-    if (r->kind != NSVCD__BY_TRIANGLES || t < r->start || t > r->end)
-      continue;
+    if (r->kind != NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
     unsigned char *mark = &seen[(r->a - p->first) * wide + (r->b - q->first)];
     covered += !*mark;
     *mark = 1;
@@ -378,8 +356,7 @@ static int proof_is_covered(const attack *a, const size_t *first, size_t i, size
   const size_t count = first[pair + 1] - first[pair];
   for (size_t n = 0; n < count; n++) {
     const proof_record *r = &records[n];
-    if (r->kind != NSVCD__BY_TRIANGLES && t >= r->start && t <= r->end)
-      return 1;
+    if (r->kind != NSVCD__BY_TRIANGLES && t >= r->start && t <= r->end) return 1;
   }
   return proof_triangles_covered(a, i, j, records, count, t);
 }
@@ -396,8 +373,7 @@ static void proof_cover_at(const attack *a, const size_t *first, double t, repla
       const double reach = (proof_ratio(a) * p->radius + q->radius) * (1 - 1e-9);
       double d[3];
       oracle_sub(centre, q->centre, d);
-      if (!q->hull_count || oracle_dot(d, d) >= reach * reach)
-        continue;
+      if (!q->hull_count || oracle_dot(d, d) >= reach * reach) continue;
       sum->pairs++;
       sum->bare += !proof_is_covered(a, first, i, j, t);
     }
@@ -408,10 +384,8 @@ static void proof_cover_at(const attack *a, const size_t *first, double t, repla
 // plane on them.
 static void proof_nearest_at(const attack *a, const size_t *first, double t, replay *sum) {
   // the oracle's meshes have no scale
-  if (a->motion.moving.scale < 1 || a->motion.moving.scale > 1)
-    return;
-  if (a->motion.fixed.scale < 1 || a->motion.fixed.scale > 1)
-    return;
+  if (a->motion.moving.scale < 1 || a->motion.moving.scale > 1) return;
+  if (a->motion.fixed.scale < 1 || a->motion.fixed.scale > 1) return;
   const proof_place at = proof_place_at(&a->motion, t);
   const oracle_pose pose = proof_pose_at(&a->motion.moving, t);
   const oracle_pose fixed = proof_pose_at(&a->motion.fixed, t);
@@ -423,8 +397,7 @@ static void proof_nearest_at(const attack *a, const size_t *first, double t, rep
   oracle_sub(s.on_b, at.position, d);
   oracle_rotate_back(at.matrix, d, x);
   for (size_t i = 0; i < a->moving->count; i++) {
-    if (!a->moving->patches[i].hull_count || proof_holds(&a->moving->patches[i], x) != 1)
-      continue;
+    if (!a->moving->patches[i].hull_count || proof_holds(&a->moving->patches[i], x) != 1) continue;
     for (size_t j = 0; j < a->fixed->count; j++) {
       if (!a->fixed->patches[j].hull_count || proof_holds(&a->fixed->patches[j], s.on_a) != 1)
         continue;
@@ -432,8 +405,7 @@ static void proof_nearest_at(const attack *a, const size_t *first, double t, rep
       sum->nearest++;
       for (size_t n = first[pair]; n < first[pair + 1]; n++) {
         const proof_record *r = &heard.items[n];
-        if (r->kind == NSVCD__BY_TRIANGLES || t < r->start || t > r->end)
-          continue;
+        if (r->kind == NSVCD__BY_TRIANGLES || t < r->start || t > r->end) continue;
         const double gap =
             proof_gap(r->normal, &at, (const double(*)[3])x, 1, (const double(*)[3])s.on_a, 1);
         sum->wrong += !(gap > 0);
@@ -448,22 +420,16 @@ static void proof_replay(attack *a, shapes_rng *rng, replay *sum) {
   proof_ask(a);
   sum->verdicts[a->answer.status]++;
   proof_replay_records(a, rng, sum);
-  if (a->answer.status == NSVCD_STATUS_WITNESS)
-    proof_check_witness(a);
-  if (a->answer.status != NSVCD_STATUS_CERTIFIED_FREE || heard.left_out)
-    return;
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
+  if (a->answer.status != NSVCD_STATUS_CERTIFIED_FREE || heard.left_out) return;
   const size_t *first = proof_index(a);
   const double arcs = a->motion.moving.count > 1 ? (double)(a->motion.moving.count - 1) : 1;
   for (int k = 0; k < 6; k++) {
     double t = shapes_uniform(rng, 0, 1);
-    if (k == 0)
-      t = 0;
-    if (k == 1)
-      t = 1;
-    if (k == 2)
-      t = floor(t * arcs) / arcs;
-    if (k == 3 && heard.count)
-      t = heard.items[shapes_next(rng) % heard.count].end;
+    if (k == 0) t = 0;
+    if (k == 1) t = 1;
+    if (k == 2) t = floor(t * arcs) / arcs;
+    if (k == 3 && heard.count) t = heard.items[shapes_next(rng) % heard.count].end;
     proof_cover_at(a, first, t, sum);
     proof_nearest_at(a, first, t, sum);
   }
@@ -492,8 +458,7 @@ static struct {
 
 // No point of the body moves by more than this in an interval of time about t.
 static double proof_track_speed(const proof_track *m, double size, double t, double interval) {
-  if (m->count < 2)
-    return 0;
+  if (m->count < 2) return 0;
   const double arcs = (double)(m->count - 1);
   double fastest = 0;
   for (int side = -1; side <= 1; side++) {
@@ -516,18 +481,15 @@ static oracle_triangle proof_world_triangle(const proof_body *b, size_t triangle
   oracle_triangle out;
   double corners[3][3];
   proof_corners(b, triangle, corners);
-  for (int k = 0; k < 9; k++)
-    corners[k / 3][k % 3] *= scale;
-  for (int k = 0; k < 3; k++)
-    oracle_transform(pose, corners[k], out.v[k]);
+  for (int k = 0; k < 9; k++) corners[k / 3][k % 3] *= scale;
+  for (int k = 0; k < 3; k++) oracle_transform(pose, corners[k], out.v[k]);
   oracle_triangle_normal(&out);
   return out;
 }
 static oracle_triangle proof_point_triangle(const float *point) {
   oracle_triangle out;
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++)
-      out.v[k][i] = (double)point[i];
+    for (int i = 0; i < 3; i++) out.v[k][i] = (double)point[i];
     out.normal[k] = 0;
   }
   return out;
@@ -565,12 +527,10 @@ static void proof_check_normal(const attack *a, const oracle_triangle *y) {
   double off[3];
   double tolerance = 0;
   CHECK(length < 1e-6 || fabs(length - 1) < 1e-6);
-  if (oracle_length(y->normal) < 0.5)
-    return;
+  if (oracle_length(y->normal) < 0.5) return;
   for (size_t n = patch->first; n < patch->end; n++) {
     oracle_triangle stored;
-    if (a->fixed->listings[n].triangle != w->triangle_b)
-      continue;
+    if (a->fixed->listings[n].triangle != w->triangle_b) continue;
     memcpy(stored.v, a->fixed->listings[n].stored, sizeof stored.v);
     tolerance = fmax(tolerance, proof_normal_error(&stored, patch->quantum) + 1e-6);
   }
@@ -590,8 +550,7 @@ static void proof_check_triangles(const attack *a, int meets) {
   const nsvcd_answer *w = &a->answer;
   CHECK(w->triangle_a < a->moving->triangles && w->triangle_b < a->fixed->triangles);
   CHECK(w->contact_time >= w->free_until && w->contact_time <= 1);
-  if (w->triangle_a >= a->moving->triangles || w->triangle_b >= a->fixed->triangles)
-    return;
+  if (w->triangle_a >= a->moving->triangles || w->triangle_b >= a->fixed->triangles) return;
   const double scale = (double)a->motion.moving.scale;
   const double fixed_scale = (double)a->motion.fixed.scale;
   const oracle_pose pose = proof_pose_at(&a->motion.moving, (double)w->contact_time);
@@ -615,8 +574,7 @@ static void proof_check_triangles(const attack *a, int meets) {
       proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->contact_time, 3e-8) +
       1e-12 * (size + far);
   CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + fixed_moved);
-  if (!meets)
-    return;
+  if (!meets) return;
   witnesses.count++;
   witnesses.worst_gap = fmax(witnesses.worst_gap, gap / allowed);
   proof_check_normal(a, &y);
@@ -638,8 +596,7 @@ static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, doub
   oracle_sub(b[2], b[0], e1);
   oracle_cross(e0, e1, n);
   const double length = oracle_length(n);
-  if (!(length > 0))
-    return 0;
+  if (!(length > 0)) return 0;
   for (int k = 0; k < 3; k++) {
     double from[3];
     double to[3];
@@ -648,10 +605,8 @@ static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, doub
     oracle_sub(a[(k + 1) % 3], b[0], to);
     const double h0 = oracle_dot(n, from) / length;
     const double h1 = oracle_dot(n, to) / length;
-    if (h0 * h1 >= 0 || fabs(h0) < clear || fabs(h1) < clear)
-      continue;
-    for (int i = 0; i < 3; i++)
-      point[i] = a[k][i] + h0 / (h0 - h1) * (a[(k + 1) % 3][i] - a[k][i]);
+    if (h0 * h1 >= 0 || fabs(h0) < clear || fabs(h1) < clear) continue;
+    for (int i = 0; i < 3; i++) point[i] = a[k][i] + h0 / (h0 - h1) * (a[(k + 1) % 3][i] - a[k][i]);
     for (int i = 0; i < 3; i++) {
       double edge[3], d[3], c[3];
       oracle_sub(b[(i + 1) % 3], b[i], edge);
@@ -659,8 +614,7 @@ static int proof_edge_crosses(double a[3][3], double b[3][3], double clear, doub
       oracle_cross(edge, d, c);
       least = fmin(least, oracle_dot(n, c) / length / fmax(oracle_length(edge), 1e-300));
     }
-    if (least >= clear)
-      return 1;
+    if (least >= clear) return 1;
   }
   return 0;
 }
@@ -672,8 +626,7 @@ static int proof_cross_at(const attack *a, size_t x, size_t y, double t, double 
   double corners[3][3], posed[3][3], other[3][3];
   proof_corners(a->moving, x, corners);
   proof_corners(a->fixed, y, other);
-  for (int k = 0; k < 3; k++)
-    proof_apply(&at, corners[k], posed[k]);
+  for (int k = 0; k < 3; k++) proof_apply(&at, corners[k], posed[k]);
   return proof_edge_crosses(posed, other, clear, point) ||
          proof_edge_crosses(other, posed, clear, point);
 }
@@ -691,16 +644,14 @@ static int proof_corner_through(shapes_rng *rng, double a[3][3], double b[3][3],
   oracle_sub(b[2], b[0], e1);
   oracle_cross(e0, e1, n);
   const double length = oracle_length(n);
-  if (!(length > 0))
-    return 0;
+  if (!(length > 0)) return 0;
   memcpy(x, a[corner], sizeof x);
   oracle_sub(a[(corner + 1) % 3], x, e0);
   oracle_rotate(m, e0, turned);
   const double side = oracle_dot(n, turned) > 0 ? 1 : -1;
   proof_point_in(rng, b, y);
   oracle_rotate(m, x, turned);
-  for (int k = 0; k < 3; k++)
-    pose->position[k] = y[k] - side * depth * n[k] / length - turned[k];
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - side * depth * n[k] / length - turned[k];
   return 1;
 }
 
@@ -713,17 +664,13 @@ static int proof_middles_meet(shapes_rng *rng, double a[3][3], double b[3][3], d
   shapes_quaternion(rng, pose->rotation);
   oracle_matrix(pose->rotation, m);
   proof_point_in(rng, a, x);
-  for (int k = 0; k < 3; k++)
-    y[k] = b[edge][k] + share * (b[(edge + 1) % 3][k] - b[edge][k]);
+  for (int k = 0; k < 3; k++) y[k] = b[edge][k] + share * (b[(edge + 1) % 3][k] - b[edge][k]);
   oracle_sub(b[(edge + 2) % 3], y, inwards);
   const double length = oracle_length(inwards);
-  if (!(length > 0))
-    return 0;
-  for (int k = 0; k < 3; k++)
-    y[k] += fmin(depth / length, 0.5) * inwards[k];
+  if (!(length > 0)) return 0;
+  for (int k = 0; k < 3; k++) y[k] += fmin(depth / length, 0.5) * inwards[k];
   oracle_rotate(m, x, turned);
-  for (int k = 0; k < 3; k++)
-    pose->position[k] = y[k] - turned[k];
+  for (int k = 0; k < 3; k++) pose->position[k] = y[k] - turned[k];
   return 1;
 }
 
@@ -739,22 +686,18 @@ static void proof_none_covers(const attack *a, size_t x, size_t y, const double 
   double d[3], seen[3];
   oracle_sub(point, at.position, d);
   oracle_rotate_back(at.matrix, d, seen);
-  for (int k = 0; k < 3; k++)
-    seen[k] /= scale * scale;
+  for (int k = 0; k < 3; k++) seen[k] /= scale * scale;
   for (size_t n = 0; n < heard.count; n++) {
     const proof_record *r = &heard.items[n];
-    if (t < r->start || t > r->end)
-      continue;
+    if (t < r->start || t > r->end) continue;
     if (r->kind == NSVCD__BY_TRIANGLES) {
       const proof_listing *one = &a->moving->listings[r->a];
       const proof_listing *other = &a->fixed->listings[r->b];
       sum->records += one->triangle == x && other->triangle == y && one->whole && other->whole;
       continue;
     }
-    if (!proof_lists(a->moving, r->i, x) || !proof_lists(a->fixed, r->j, y))
-      continue;
-    if (proof_holds(&a->moving->patches[r->i], seen) != 1)
-      continue;
+    if (!proof_lists(a->moving, r->i, x) || !proof_lists(a->fixed, r->j, y)) continue;
+    if (proof_holds(&a->moving->patches[r->i], seen) != 1) continue;
     sum->records += proof_holds(&a->fixed->patches[r->j], point) == 1;
   }
 }
@@ -763,8 +706,7 @@ static void proof_ask_crossing(attack *a, size_t x, size_t y, double t, int move
                                crossing_sum *sum) {
   double point[3];
   for (size_t n = 0; n < a->motion.moving.count; n++) {
-    if (oracle_length(a->motion.moving.poses[n].position) > 1e6)
-      return;  // NSVCD_MAX_COORDINATE
+    if (oracle_length(a->motion.moving.poses[n].position) > 1e6) return;  // NSVCD_MAX_COORDINATE
   }
   const proof_body *moving = a->moving;
   proof_settle_sides(a);
@@ -773,8 +715,7 @@ static void proof_ask_crossing(attack *a, size_t x, size_t y, double t, int move
     x = y;
     y = other;
   }
-  if (!proof_cross_at(a, x, y, t, point))
-    return;
+  if (!proof_cross_at(a, x, y, t, point)) return;
   proof_ask(a);
   sum->asked[moves]++;
   sum->free[moves] += a->answer.status == NSVCD_STATUS_CERTIFIED_FREE;
@@ -782,8 +723,7 @@ static void proof_ask_crossing(attack *a, size_t x, size_t y, double t, int move
   sum->inside[moves] += a->answer.status == NSVCD_STATUS_INSIDE;
   sum->undecided[moves] += a->answer.status == NSVCD_STATUS_UNDECIDED;
   proof_none_covers(a, x, y, point, t, sum);
-  if (a->answer.status == NSVCD_STATUS_WITNESS)
-    proof_check_witness(a);
+  if (a->answer.status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
 }
 
 // A motion that is at the pose at time t, and elsewhere before and after.
@@ -799,8 +739,7 @@ static void proof_motion_through(shapes_rng *rng, const attack *a, const oracle_
     const double s = (double)n / (double)(count - 1) - t;
     oracle_axis_angle(axis, angle * s, turn);
     proof_turned(turn, pose, pose->position, &poses[n]);
-    for (int k = 0; k < 3; k++)
-      poses[n].position[k] += s * way * along[k];
+    for (int k = 0; k < 3; k++) poses[n].position[k] += s * way * along[k];
   }
 }
 
@@ -831,8 +770,7 @@ static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
                           : !proof_middles_meet(rng, corners, other, depth, &seen))
     return;
   shapes_quaternion(rng, fixed.rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
   pose = oracle_compose(&fixed, &seen);
   attack placed = *a;
   proof_motion_set(&placed.motion, &pose, 1, &fixed);
@@ -845,8 +783,7 @@ static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
   a->motion.fixed.scale = fixed_scale;
   attack carried = *a;
   proof_ask_crossing(a, x, y, t, 1, sum);
-  if (shapes_pick(rng, 2))
-    return;
+  if (shapes_pick(rng, 2)) return;
   proof_carry(rng, &carried, shapes_uniform(rng, 0, 4 * SHAPES_PI),
               shapes_uniform(rng, 0, 3) * size);
   proof_ask_crossing(&carried, x, y, t, 2, sum);
@@ -867,8 +804,7 @@ static void proof_crossings_are_never_free(void) {
     const size_t scale = shapes_pick(&rng, 4) ? 0 : (size_t)shapes_pick(&rng, SCALES);
     a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
     a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, scale ? 8 : MAKES));
-    for (int k = 0; k < 20; k++)
-      proof_cross_once(&a, &rng, &sum);
+    for (int k = 0; k < 20; k++) proof_cross_once(&a, &rng, &sum);
   }
   static const char *const kinds[3] = {"poses", "motions", "motions of both"};
   for (int k = 0; k < 3; k++) {
@@ -905,8 +841,7 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
     double x[3], place[3], off[3];
     shapes_direction(rng, x);
     const double length = reach * shapes_pick(rng, 3) / 2;
-    for (int i = 0; i < 3; i++)
-      x[i] *= length;
+    for (int i = 0; i < 3; i++) x[i] *= length;
     proof_apply(&at, x, place);
     const float *p0 = &span->start.position.x;
     const float *p1 = &span->end.position.x;
@@ -915,15 +850,13 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
     for (int i = 0; i < 3; i++) {
       double start = (double)p0[i];
       double end = (double)p1[i];
-      for (int j = 0; j < 3; j++)
-        start += (double)m0[3 * i + j] * x[j];
-      for (int j = 0; j < 3; j++)
-        end += (double)m1[3 * i + j] * x[j];
+      for (int j = 0; j < 3; j++) start += (double)m0[3 * i + j] * x[j];
+      for (int j = 0; j < 3; j++) end += (double)m1[3 * i + j] * x[j];
       off[i] = place[i] - start - share * (end - start);
     }
     // At the ends there is no bulge: what is off there is rounding.
     const double bulge = share > 0 && share < 1 ? (double)span->bulge * length : 0;
-    worst = fmax(worst, (oracle_length(off) - bulge) / (double)span->spread);
+    worst = fmax(worst, (oracle_length(off) - bulge) / (double)(span->rounding + span->drift));
   }
   return worst;
 }
@@ -942,8 +875,7 @@ static void proof_any_motion(shapes_rng *rng, proof_motion *m) {
   shapes_direction(rng, axis);
   shapes_quaternion(rng, fixed.rotation);
   shapes_quaternion(rng, base.rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = shapes_uniform(rng, -1, 1) * offset;
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * offset;
   for (size_t n = 0; n < count; n++) {
     const double s = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
     oracle_axis_angle(axis, angle * s, turn);
@@ -972,17 +904,16 @@ static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd_
   static nsvcd__span spans[NSVCD__MAX_SEGMENTS];
   size_t s = 0;
   proof.spans = spans;
-  proof.motion = motion;
-  proof.arc.ticks = 0;
-  proof.clipped = proof.spans_known = 0;
-  proof.plane = 0;
+  proof.ask.motion = motion;
+  proof.memo.arc.ticks = 0;
+  proof.clipped = proof.memo.spans = 0;
+  proof.memo.plane = 0;
   proof.clipped_end = HUGE_VAL;
   for (int k = 0; k < 3; k++) {  // more than once: what is allowed doubles only once
-    proof.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
+    proof.ask.end = shapes_uniform(rng, 0, 1) * fmin(proof.clipped_end, (double)motion->ticks);
     nsvcd__clip_segment(&proof, work);
   }
-  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.end)
-    s++;
+  while (s + 1 < work->segments && (double)work->begin[s + 1] <= proof.ask.end) s++;
   return *nsvcd__segment_span(&proof, work, s);
 }
 
@@ -990,9 +921,9 @@ static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd_
 static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float lengths) {
   static nsvcd__proof proof;
   double u;
-  proof.motion = motion;
-  proof.lengths = lengths;
-  proof.arc.ticks = 0;
+  proof.ask.motion = motion;
+  proof.given.lengths = lengths;
+  proof.memo.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_and_share(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
@@ -1011,10 +942,8 @@ static void proof_spans_hold_the_motion(void) {
     const float lengths = (float)pow(10, shapes_uniform(&rng, -3, 1));
     proof_motion m;
     nsvcd__motion motion;
-    if (trial % 2)
-      proof_any_motion(&rng, &m);
-    if (trial % 2 == 0)
-      proof_any_motion_of_both(&rng, &m);
+    if (trial % 2) proof_any_motion(&rng, &m);
+    if (trial % 2 == 0) proof_any_motion_of_both(&rng, &m);
     proof_motion_init(&m, &motion);
     nsvcd__cut_motion(&motion, lengths, work);
     const double reach = (double)lengths / (double)fmaxf(motion.scale, 1);
@@ -1059,8 +988,7 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     double off = 0;
     shapes_direction(rng, x);
     shapes_direction(rng, n);
-    for (int i = 0; i < 3; i++)
-      x[i] *= reach;
+    for (int i = 0; i < 3; i++) x[i] *= reach;
     if (k < 3) {
       const double wobble = k == 0 ? 0 : 0.01;
       n[0] = (double)special[k].x + wobble * n[0];
@@ -1068,8 +996,7 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
       n[2] = (double)special[k].z + wobble * n[2];
     }
     const double length = oracle_length(n);
-    if (!(length > 0.01))
-      continue;
+    if (!(length > 0.01)) continue;
     proof_apply(&at, x, place);
     const float *p0 = &span->start.position.x;
     const float *p1 = &span->end.position.x;
@@ -1078,10 +1005,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     for (int i = 0; i < 3; i++) {
       double start = (double)p0[i];
       double end = (double)p1[i];
-      for (int j = 0; j < 3; j++)
-        start += (double)m0[3 * i + j] * x[j];
-      for (int j = 0; j < 3; j++)
-        end += (double)m1[3 * i + j] * x[j];
+      for (int j = 0; j < 3; j++) start += (double)m0[3 * i + j] * x[j];
+      for (int j = 0; j < 3; j++) end += (double)m1[3 * i + j] * x[j];
       off += n[i] / length * (place[i] - start - share * (end - start));
     }
     const nsvcd__f3 unit =
@@ -1108,8 +1033,7 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, sha
     const double zero[3] = {0, 0, 0};
     double n[3], origin[3], across[3], off[3];
     shapes_direction(rng, n);
-    if (k % 2)
-      memcpy(n, axis, sizeof n);
+    if (k % 2) memcpy(n, axis, sizeof n);
     proof_apply(&at, zero, origin);
     for (int j = 0; j < 3; j++) {
       const double unit[3] = {j == 0, j == 1, j == 2};
@@ -1139,23 +1063,19 @@ static void proof_zigzag_motion(shapes_rng *rng, proof_motion *m) {
   double axis[3], side[4][3], step[4];
   oracle_pose fixed, poses[PROOF_POSES];
   shapes_direction(rng, axis);
-  for (int k = 0; k < 4; k++)
-    shapes_direction(rng, side[k]);
+  for (int k = 0; k < 4; k++) shapes_direction(rng, side[k]);
   shapes_quaternion(rng, fixed.rotation);
   shapes_quaternion(rng, poses[0].rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = 0;
+  for (int k = 0; k < 3; k++) fixed.position[k] = 0;
   for (size_t n = 0; n < count; n++) {
     double now[3];
     for (int k = 0; k < 3; k++) {
       poses[n].position[k] = 0;
       now[k] = axis[k] + tilt * side[(n + 3) % 4][k];
     }
-    if (n == 0)
-      continue;
+    if (n == 0) continue;
     const double length = oracle_length(now);
-    for (int k = 0; k < 3; k++)
-      now[k] /= length > 0 ? length : 1;
+    for (int k = 0; k < 3; k++) now[k] /= length > 0 ? length : 1;
     oracle_axis_angle(now, turn, step);
     oracle_quat_mul(step, poses[n - 1].rotation, poses[n].rotation);
     oracle_quat_normalize(poses[n].rotation);
@@ -1176,8 +1096,7 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
   shapes_direction(rng, bend);
   shapes_quaternion(rng, fixed.rotation);
   shapes_quaternion(rng, poses[0].rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = shapes_uniform(rng, -0.1, 0.1);
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -0.1, 0.1);
   for (size_t n = 0; n < count; n++) {
     const double s = (double)n / (double)(count - 1);
     double now[3];
@@ -1185,11 +1104,9 @@ static void proof_wandering_motion(shapes_rng *rng, proof_motion *m) {
       poses[n].position[k] = 0.3 * (s * s * way[k] + wander * sin(9 * s) * 0.1 * bend[k]);
       now[k] = axis[k] + wander * sin(25 * s) * drift[k];
     }
-    if (n == 0)
-      continue;
+    if (n == 0) continue;
     const double length = oracle_length(now);
-    for (int k = 0; k < 3; k++)
-      now[k] /= length > 0 ? length : 1;
+    for (int k = 0; k < 3; k++) now[k] /= length > 0 ? length : 1;
     oracle_axis_angle(now, turn / (double)(count - 1), step);
     oracle_quat_mul(step, poses[n - 1].rotation, poses[n].rotation);
     oracle_quat_normalize(poses[n].rotation);
@@ -1251,8 +1168,7 @@ static double proof_track_rate(const proof_track *m, double size, double t, doub
   const double arcs = (double)(m->count - 1);
   double moved[3], axis[3];
   *next = 1;
-  if (m->count < 2)
-    return 0;
+  if (m->count < 2) return 0;
   const size_t k = (size_t)(t * arcs) < m->count - 2 ? (size_t)(t * arcs) : m->count - 2;
   oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
   *next = (double)(k + 1) / arcs;
@@ -1267,10 +1183,8 @@ static double proof_first_approach(const attack *a, double clearance, double hai
   for (double t = 0; t <= 1;) {
     double next, fixed_next;
     const double room = proof_distance_at(a, t) - clearance;
-    if (room <= hair)
-      return t;
-    if (t >= 1)
-      break;
+    if (room <= hair) return t;
+    if (t >= 1) break;
     const double rate = proof_track_rate(&a->motion.moving, a->moving->size, t, &next) +
                         proof_track_rate(&a->motion.fixed, a->fixed->size, t, &fixed_next);
     const double until = fmin(fmin(next, fixed_next), 1);
@@ -1287,8 +1201,7 @@ static int proof_comes_within(const attack *a, double clearance, double until, d
   for (int k = 0; k <= 100 && from < until; k++) {
     const double t = from + (until - from) * k / 100;
     const double distance = proof_distance_at(a, t);
-    if (clearance > 0 ? distance < clearance - hair : !(distance > 0))
-      return 1;
+    if (clearance > 0 ? distance < clearance - hair : !(distance > 0)) return 1;
   }
   return 0;
 }
@@ -1347,18 +1260,14 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
     CHECK(proof_agree(plain.status, first->status));
   }
   CHECK(first->free_until >= 0 && first->free_until <= 1);
-  if (first->status == NSVCD_STATUS_INSIDE)
-    return;
+  if (first->status == NSVCD_STATUS_INSIDE) return;
   sum->wrong += proof_comes_within(a, 0, (double)first->free_until, 1e-6 * size);
-  if (first->status == NSVCD_STATUS_CERTIFIED_FREE)
-    CHECK_EQ(first->free_until, 1);
-  if (first->status != NSVCD_STATUS_WITNESS)
-    return;
+  if (first->status == NSVCD_STATUS_CERTIFIED_FREE) CHECK_EQ(first->free_until, 1);
+  if (first->status != NSVCD_STATUS_WITNESS) return;
   proof_check_witness(a);
   const int at_start = !(proof_distance_at(a, 0) > 0);
   sum->at_start += at_start;
-  if (at_start)
-    CHECK_EQ(first->contact_time, 0);
+  if (at_start) CHECK_EQ(first->contact_time, 0);
   proof_check_lateness(a, (double)tolerance, 0, sum);
 }
 
@@ -1371,8 +1280,7 @@ static void proof_check_first_with_doubts(attack *a, double tolerance, timing_su
   CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
   const nsvcd_answer *first = &a->answer;
   proof_count(sum, first->status);
-  if (first->status == NSVCD_STATUS_INSIDE)
-    return;
+  if (first->status == NSVCD_STATUS_INSIDE) return;
   sum->wrong += proof_comes_within(a, 0, (double)first->free_until, 1e-6 * size);
   if (first->status == NSVCD_STATUS_WITNESS) {
     proof_check_lateness(a, 0.001, (double)options.tolerance, sum);
@@ -1395,8 +1303,7 @@ static void proof_check_first_in_haste(attack *a, size_t limit, timing_sum *sum)
     proof_check_witness(a);
   else if (first->status != NSVCD_STATUS_UNDECIDED)
     return;
-  if (!(first->free_until > 0))
-    return;
+  if (!(first->free_until > 0)) return;
   sum->asked++;
   sum->wrong += proof_comes_within(a, 0, (double)first->free_until,
                                    1e-6 * (a->moving->size + a->fixed->size));
@@ -1407,8 +1314,7 @@ static int proof_timing_scene(shapes_rng *rng, attack *a) {
   a->moving = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
   a->fixed = proof_shared(0, (size_t)shapes_pick(rng, MAKES));
   const double gap = shapes_pick(rng, 2) ? -0.05 : pow(10, shapes_uniform(rng, -6, -1));
-  if (!proof_scene(rng, a, gap, 0.3))
-    return 0;
+  if (!proof_scene(rng, a, gap, 0.3)) return 0;
   const double size = a->moving->size + a->fixed->size;
   if (shapes_pick(rng, 2))
     proof_carry(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
@@ -1426,13 +1332,11 @@ static void proof_finds_first_contacts(void) {
   memset(&hasty, 0, sizeof hasty);
   while (sum.asked < wanted) {
     attack a;
-    if (!proof_timing_scene(&rng, &a))
-      continue;
+    if (!proof_timing_scene(&rng, &a)) continue;
     proof_check_first(&a, tolerances[shapes_pick(&rng, 3)], &sum);
     proof_check_first(&a, 1e-4f, &fine);
     proof_check_first_with_doubts(&a, pow(10, shapes_uniform(&rng, -4, -1)), &doubtful);
-    for (size_t limit = 2; limit < 300; limit *= 2)
-      proof_check_first_in_haste(&a, limit, &hasty);
+    for (size_t limit = 2; limit < 300; limit *= 2) proof_check_first_in_haste(&a, limit, &hasty);
   }
   printf("  with little work: %zu beginnings, %zu of those wrong\n", hasty.asked, hasty.wrong);
   CHECK_EQ(hasty.wrong, 0);
@@ -1476,8 +1380,7 @@ static void proof_check_clearance(attack *a, float clearance, timing_sum *sum) {
     CHECK_LE(fabs((double)w->clearance_low / (double)clearance - 1), 1e-5);
     CHECK_EQ(w->free_until, 1);
   }
-  if (w->status != NSVCD_STATUS_WITNESS)
-    return;
+  if (w->status != NSVCD_STATUS_WITNESS) return;
   const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
   const double distance = proof_distance_at(a, (double)w->contact_time);
   CHECK_LE(distance, (double)w->clearance_high + moved + 1e-9 * size);
@@ -1510,8 +1413,7 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   proof_count(sum, w->status);
   CHECK(w->clearance_low >= 0 && w->clearance_low <= w->clearance_high);
   CHECK_EQ(w->free_until, w->status == NSVCD_STATUS_CERTIFIED_FREE);
-  if (w->status == NSVCD_STATUS_INSIDE)
-    return;
+  if (w->status == NSVCD_STATUS_INSIDE) return;
   if (w->clearance_low > 0)
     sum->wrong += proof_comes_within(a, (double)w->clearance_low, 1, 1e-6 * size);
   const double moved = proof_speed_bound(a, (double)w->contact_time, 6e-8);
@@ -1536,8 +1438,7 @@ static void proof_keeps_clearances(void) {
   memset(sums, 0, sizeof sums);
   while (sums[0].asked < (size_t)(400 * proof_many())) {
     attack a;
-    if (!proof_timing_scene(&rng, &a))
-      continue;
+    if (!proof_timing_scene(&rng, &a)) continue;
     const double size = a.moving->size + a.fixed->size;
     const float clearance = (float)(size * pow(10, shapes_uniform(&rng, -5, 0.3)));
     proof_check_clearance(&a, clearance, &sums[0]);
@@ -1560,6 +1461,59 @@ static void proof_keeps_clearances(void) {
 }
 
 // -------------------------------------------------------------------------------------------------
+// what is only remembered
+
+static int proof_forgets(void) {
+  static uint32_t random = 1;
+  if (forgetful == 0) return 0;
+  random = random * 1664525u + 1013904223u;
+  const int forgets = (random >> 8) % forgetful == 0;
+  forgotten += (unsigned)forgets;
+  return forgets;
+}
+
+// What a proof remembers may be forgotten at any time, and no verdict changes; with skins, first
+// contacts, clearances and distances too.
+static void proof_may_forget(void) {
+  shapes_rng rng = {0xf0};
+  size_t asked = 0;
+  size_t more_work = 0;
+  forgotten = 0;
+  while (asked < (size_t)(400 * proof_many())) {
+    attack a;
+    if (!proof_timing_scene(&rng, &a)) continue;
+    const double size = a.moving->size + a.fixed->size;
+    nsvcd_sweep_options options = proof_options();
+    options.work = 0xffffffffu;
+    if (asked % 5 == 1) options.clearance = (float)(size * shapes_uniform(&rng, 0, 0.2));
+    if (asked % 5 == 2) options.first = 0.01f;
+    if (asked % 5 == 3) options.skin = (float)(size * shapes_uniform(&rng, 0, 0.1));
+    if (asked % 5 == 4) options.measure = (float)(0.01 * size);
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    const nsvcd_answer whole = a.answer;
+    forgetful = 1 + (unsigned)asked % 3;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    forgetful = 0;
+    CHECK_EQ(a.answer.status, whole.status);
+    CHECK_EQ(a.answer.collides, whole.collides);
+    if (options.first > 0) {
+      CHECK_LE(fabs((double)(a.answer.contact_time - whole.contact_time)), 0.0101);
+      CHECK_LE(fabs((double)(a.answer.free_until - whole.free_until)), 0.0101);
+    }
+    if (options.measure > 0) {
+      CHECK_LE(a.answer.clearance_low, whole.clearance_high);
+      CHECK_LE(whole.clearance_low, a.answer.clearance_high);
+    }
+    more_work += a.answer.work > whole.work;
+    asked++;
+  }
+  printf("  %zu questions, forgotten %u times, %zu took more work for it\n", asked, forgotten,
+         more_work);
+  CHECK_GE(forgotten, 1000);
+  CHECK_GE(more_work, asked / 10);
+}
+
+// -------------------------------------------------------------------------------------------------
 // leaving a contact
 
 // A floor, and with `wall` a wall on its far side (x > 0.5), of many triangles or few.
@@ -1569,10 +1523,8 @@ static proof_body proof_floor(int wall, int cuts) {
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 2, 2, 0.1, cuts);
   // its top is z = 0
-  for (size_t i = 0; i < shape.vertices; i++)
-    shape.positions[3 * i + 2] -= 0.05;
-  if (wall)
-    shapes_box_at(&shape, 0.55, 0, 0.5, 0.1, 2, 1);
+  for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;
+  if (wall) shapes_box_at(&shape, 0.55, 0, 0.5, 0.1, 2, 1);
   proof_body b = proof_encode(&shape, 1, NULL, &result);
   CHECK_EQ(result, NSVCD_OK);
   shapes_free(&shape);
@@ -1596,11 +1548,9 @@ static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1,
   nsvcd_sweep_options options = proof_options();
   oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
   oracle_pose poses[3];
-  if (shapes_pick(rng, 2))
-    shapes_quaternion(rng, fixed.rotation);
+  if (shapes_pick(rng, 2)) shapes_quaternion(rng, fixed.rotation);
   if (shapes_pick(rng, 2)) {
-    for (int k = 0; k < 3; k++)
-      fixed.position[k] = shapes_uniform(rng, -1, 1);
+    for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1);
   }
   for (int n = 0; n < 3; n++) {
     const double t = 0.5 * n;
@@ -1608,8 +1558,7 @@ static nsvcd_answer proof_push(attack *a, shapes_rng *rng, double x0, double x1,
     poses[n] = oracle_compose(&fixed, &seen);
   }
   proof_motion_set(&a->motion, poses, 3, &fixed);
-  if (shapes_pick(rng, 2))
-    proof_carry(rng, a, 0, 1);  // a turn would press it in between poses
+  if (shapes_pick(rng, 2)) proof_carry(rng, a, 0, 1);  // a turn would press it in between poses
   options.skin = skin;
   options.clearance = clearance;
   options.first = first;
@@ -1647,16 +1596,11 @@ static void proof_leaves_contacts(void) {
       const int hits = pressed || k == 5 || (k == 8 && wall);
       CHECK_EQ(answer.collides, hits);
       CHECK_EQ(answer.status == NSVCD_STATUS_CERTIFIED_FREE, !hits);
-      if (pressed)
-        CHECK_EQ(lift, 0);
-      if (pressed)
-        CHECK_EQ(answer.contact_time, 0);
-      if (!pressed)
-        CHECK_NEAR(lift, k == 9 ? 2 * skin : skin, 1e-5);
-      if (k == 5)
-        CHECK_NEAR(answer.contact_time, 0.2, 0.012);  // a skin deep of five
-      if (k == 8 && wall)
-        CHECK_NEAR(answer.contact_time, 0.4 / 0.45, 0.012);
+      if (pressed) CHECK_EQ(lift, 0);
+      if (pressed) CHECK_EQ(answer.contact_time, 0);
+      if (!pressed) CHECK_NEAR(lift, k == 9 ? 2 * skin : skin, 1e-5);
+      if (k == 5) CHECK_NEAR(answer.contact_time, 0.2, 0.012);  // a skin deep of five
+      if (k == 8 && wall) CHECK_NEAR(answer.contact_time, 0.4 / 0.45, 0.012);
     }
     proof_free(&floor);
     proof_free(&crate);
@@ -1708,8 +1652,7 @@ static double proof_lifted_distance(const attack *a, const double *lift, double 
   oracle_matrix(fixed.rotation, now);
   oracle_rotate_back(at_start, lift, seen);
   oracle_rotate(now, seen, turned);
-  for (int k = 0; k < 3; k++)
-    pose.position[k] += turned[k];
+  for (int k = 0; k < 3; k++) pose.position[k] += turned[k];
   return oracle_distance(&a->moving->oracle, &pose, &a->fixed->oracle, &fixed, NULL, NULL);
 }
 
@@ -1732,30 +1675,24 @@ static void proof_lifts_are_true(void) {
     oracle_pose fixed, pose, poses[PROOF_POSES];
     double point[3], away[3], lift[3];
     shapes_quaternion(&rng, fixed.rotation);
-    for (int k = 0; k < 3; k++)
-      fixed.position[k] = shapes_uniform(&rng, -1, 1) * size;
-    if (!proof_near_contact(&rng, &a, &fixed, gap * size, &pose, point, away))
-      continue;
+    for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(&rng, -1, 1) * size;
+    if (!proof_near_contact(&rng, &a, &fixed, gap * size, &pose, point, away)) continue;
     for (int n = 0; n < 3; n++) {  // away from it, and a little along
       poses[n] = pose;
       for (int k = 0; k < 3; k++)
         poses[n].position[k] += 0.1 * n * size * (away[k] + 0.5 * away[(k + 1) % 3]);
     }
     proof_motion_set(&a.motion, poses, 3, &fixed);
-    if (shapes_pick(&rng, 2))
-      proof_carry(&rng, &a, 1, size);
+    if (shapes_pick(&rng, 2)) proof_carry(&rng, &a, 1, size);
     options.skin = skin;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
-    for (int k = 0; k < 3; k++)
-      lift[k] = (double)a.answer.lift[k];
+    for (int k = 0; k < 3; k++) lift[k] = (double)a.answer.lift[k];
     asked++;
     lifted += oracle_length(lift) > 0;
     CHECK_LE(oracle_length(lift), 4.001 * (double)skin);
-    if (a.answer.status != NSVCD_STATUS_CERTIFIED_FREE)
-      continue;
+    if (a.answer.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
     free_then++;
-    for (int k = 0; k <= 20; k++)
-      wrong += !(proof_lifted_distance(&a, lift, k / 20.0) > 0);
+    for (int k = 0; k <= 20; k++) wrong += !(proof_lifted_distance(&a, lift, k / 20.0) > 0);
   }
   printf("  %zu bodies that touch: %zu lifted, %zu free then; %zu wrong\n", asked, lifted,
          free_then, wrong);
@@ -1778,10 +1715,8 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   oracle_pose fixed, pose;
   double point[3], away[3];
   shapes_quaternion(rng, fixed.rotation);
-  for (int k = 0; k < 3; k++)
-    fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
-  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away))
-    return;
+  for (int k = 0; k < 3; k++) fixed.position[k] = shapes_uniform(rng, -1, 1) * size;
+  if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return;
   // with two, the library looks at it from `fixed`, even if that is the smaller
   const oracle_pose still[2] = {pose, pose};
   proof_motion_set(&a->motion, still, shapes_pick(rng, 2) ? 1 : 2, &fixed);
@@ -1789,8 +1724,7 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   const oracle_mesh *x = &a->moving->oracle;
   const oracle_mesh *y = &a->fixed->oracle;
   const double distance = oracle_distance(x, at, y, &a->motion.fixed.poses[0], NULL, NULL);
-  if (distance < 1e-9 * size)
-    return;
+  if (distance < 1e-9 * size) return;
   const double moving_within = fixed_open ? 0 : oracle_inside(x, at, y, &a->motion.fixed.poses[0]);
   const double fixed_within = moving_open ? 0 : oracle_inside(y, &a->motion.fixed.poses[0], x, at);
   const int within = fmax(moving_within, fixed_within) > 0.5;
@@ -1805,8 +1739,7 @@ static void proof_place_within(attack *a, shapes_rng *rng, double gap, int movin
   sum->wrong += status == NSVCD_STATUS_CERTIFIED_FREE && within;
   sum->far_undecided += status != NSVCD_STATUS_INSIDE && status != NSVCD_STATUS_CERTIFIED_FREE &&
                         distance > 1e-4 * size;
-  if (status == NSVCD_STATUS_WITNESS)
-    proof_check_witness(a);
+  if (status == NSVCD_STATUS_WITNESS) proof_check_witness(a);
 }
 
 static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points) {
@@ -1814,8 +1747,7 @@ static proof_body proof_of_shape(shapes_mesh *shape, double scale, size_t points
   nsvcd_result result;
   const proof_body out = proof_encode(shape, scale, &options, &result);
   CHECK_EQ(result, NSVCD_OK);
-  if (result)
-    exit(1);
+  if (result) exit(1);
   shapes_free(shape);
   return out;
 }
@@ -1854,8 +1786,7 @@ static void proof_knows_what_is_within(void) {
   outer[0] = proof_two_boxes(0.3, 0.5, 40);
   outer[1] = proof_inverted_ball();
   outer[2] = proof_make(SHEET, 1, 20, 2);
-  for (int k = 0; k < 3; k++)
-    outers[k] = &outer[k];
+  for (int k = 0; k < 3; k++) outers[k] = &outer[k];
   for (int k = 3; k < OUTER; k++) {
     static const size_t shared[OUTER - 3] = {0, 2, 4, 9, 6, 13, 17};
     outers[k] = proof_shared(0, shared[k - 3]);
@@ -1884,10 +1815,8 @@ static void proof_knows_what_is_within(void) {
     CHECK_GE(sum->inside, 500);
   }
   CHECK_EQ(any.far_undecided, 0);
-  for (int k = 0; k < INNER; k++)
-    proof_free(&inner[k]);
-  for (int k = 0; k < 3; k++)
-    proof_free(&outer[k]);
+  for (int k = 0; k < INNER; k++) proof_free(&inner[k]);
+  for (int k = 0; k < 3; k++) proof_free(&outer[k]);
 }
 
 // As nsvcd__crossings, but all triangles of a patch whose sphere the ray meets are asked in double.
@@ -1896,22 +1825,20 @@ static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *u
   size_t count = 0;
   int sum = 0;
   for (size_t i = 0; i < f->body->patches; i++) {
-    if (!(nsvcd__patches_on_ray(f->body, ray, i / NSVCD__GROUP) >> i % NSVCD__GROUP & 1))
-      continue;
+    const size_t first = i / NSVCD__GROUP * NSVCD__GROUP;
+    const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(f->body), first);
+    if (!(nsvcd__is_on_ray(ray, members) >> (i - first) & 1)) continue;
     nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
     for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
       nsvcd__d3 corners[3];
       nsvcd__read_number(&numbers, n);
-      if (!numbers.encloses)
-        continue;
+      if (!numbers.encloses) continue;
       nsvcd__facet_triangle(f, i, n, corners);
       const double margin = (double)f->quanta[i] + ray->margin;
       const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
       size_t known = 0;
-      while (known < count && crossed[known] != numbers.number)
-        known++;
-      if (!crossing || known < count || count == 1000)
-        continue;
+      while (known < count && crossed[known] != numbers.number) known++;
+      if (!crossing || known < count || count == 1000) continue;
       crossed[count++] = numbers.number;
       sum += crossing;
     }
@@ -1926,8 +1853,7 @@ static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, dou
   size_t patch = 0;
   nsvcd__d3 t[3];
   nsvcd__ray ray;
-  while (f->first_triangle[patch + 1] <= listing)
-    patch++;
+  while (f->first_triangle[patch + 1] <= listing) patch++;
   nsvcd__facet_triangle(f, patch, listing, t);
   const nsvcd__d3 aim = nsvcd__d3_mix(t[0], t[1], shapes_uniform(rng, 0, 1));
   const double sign = shapes_pick(rng, 2) ? 1 : -1;
@@ -1938,6 +1864,7 @@ static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, dou
   ray.from = nsvcd__d3_add_scaled(nsvcd__d3_load(f->body->centre), radius, away);
   ray.direction = nsvcd__d3_unit(nsvcd__d3_sub(to, ray.from), nsvcd__d3_of(0, 0, 1));
   ray.margin = margin;
+  ray.rounding = (float)margin + 4 * NSVCD__ROUNDING * f->body->extent;
   return ray;
 }
 
@@ -2031,8 +1958,7 @@ static void proof_answers_are_the_same_again(void) {
   for (size_t trial = 0; trial < 300; trial++) {
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
-    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -1)), 1))
-      continue;
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -7, -1)), 1)) continue;
     memset(proof_workspace(), 0xff, nsvcd_sweep_workspace_size(NULL));
     proof_ask(&a);
     const nsvcd_answer first = a.answer;
@@ -2052,16 +1978,12 @@ static void proof_sides_do_not_matter(void) {
     nsvcd_sweep_options options = proof_options();
     attack a;
     nsvcd_answer other;
-    if (!proof_timing_scene(&rng, &a))
-      continue;
+    if (!proof_timing_scene(&rng, &a)) continue;
     a.motion.moving.scale = trial % 3 ? 1 : 1.2f;
     a.motion.fixed.scale = trial % 5 ? 1 : 0.7f;
-    if (trial % 2)
-      options.first = 0.01f;
-    if (trial % 7 == 0)
-      options.clearance = 0.003f;
-    if (trial % 4 == 0)
-      options.skin = 0.001f;
+    if (trial % 2) options.first = 0.01f;
+    if (trial % 7 == 0) options.clearance = 0.003f;
+    if (trial % 4 == 0) options.skin = 0.001f;
     const nsvcd_question question = proof_question(&a, &options);
     nsvcd_question turned = question;
     turned.a = question.b;
@@ -2092,10 +2014,8 @@ static void proof_sides_do_not_matter(void) {
     const oracle_triangle y =
         proof_world_triangle(a.fixed, a.answer.triangle_b, &fixed, (double)a.motion.fixed.scale);
     oracle_triangle away = x;
-    for (int k = 0; k < 9; k++)
-      away.v[k / 3][k % 3] += 0.002 * (double)a.answer.normal[k % 3];
-    if (proof_triangle_distance(&x, &y) < 1e-4)
-      continue;
+    for (int k = 0; k < 9; k++) away.v[k / 3][k % 3] += 0.002 * (double)a.answer.normal[k % 3];
+    if (proof_triangle_distance(&x, &y) < 1e-4) continue;
     witnesses_seen++;
     CHECK_GE(proof_triangle_distance(&away, &y), proof_triangle_distance(&x, &y) + 0.0015);
   }
@@ -2115,8 +2035,7 @@ static void proof_keeps_its_limit(void) {
     nsvcd_sweep_options options = proof_options();
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
-    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1))
-      continue;
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
     options.work = 100000000;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
     const nsvcd_answer full = a.answer;
@@ -2163,8 +2082,7 @@ static void proof_keeps_its_limit_in_large_patches(void) {
     attack a;
     a.moving = trial % 2 ? &ball : &crumbs;
     a.fixed = &ball;
-    if (!proof_scene(&rng, &a, 1e-3, 0))
-      continue;
+    if (!proof_scene(&rng, &a, 1e-3, 0)) continue;
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
     most = a.answer.work > most ? a.answer.work : most;
   }
@@ -2299,8 +2217,7 @@ static void proof_shrink_into(shapes_rng *rng, attack *a) {
   const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
   oracle_pose pose;
   shapes_quaternion(rng, pose.rotation);
-  for (int k = 0; k < 3; k++)
-    pose.position[k] = shapes_uniform(rng, -0.4, 0.4) * a->fixed->size;
+  for (int k = 0; k < 3; k++) pose.position[k] = shapes_uniform(rng, -0.4, 0.4) * a->fixed->size;
   proof_motion_set(&a->motion, &pose, 1, &fixed);
   a->motion.moving.scale = (float)(0.05 * a->fixed->size / a->moving->size);
 }
@@ -2320,14 +2237,12 @@ static void proof_takes_no_more_work(void) {
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     const double gap = shapes_pick(&rng, 3) ? pow(10, shapes_uniform(&rng, -4, -1)) : -0.02;
-    if (!proof_scene(&rng, &a, gap, 0.3))
-      continue;
+    if (!proof_scene(&rng, &a, gap, 0.3)) continue;
     const double size = a.moving->size + a.fixed->size;
     scenes++;
     for (int kind = 0; kind < COSTS; kind++) {
       const nsvcd_sweep_options options = proof_cost_options((cost_kind)kind, size);
-      if (kind == COST_INSIDE)
-        proof_shrink_into(&rng, &a);
+      if (kind == COST_INSIDE) proof_shrink_into(&rng, &a);
       CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
       sums[kind] += a.answer.work;
     }
@@ -2362,12 +2277,10 @@ static void proof_bodies_on_themselves(void) {
       double d[3];
       proof_random_rotation(&rng, trial % 2, pose.rotation);
       shapes_direction(&rng, d);
-      for (int k = 0; k < 3; k++)
-        pose.position[k] = (double)(trial % 3) * d[k];
+      for (int k = 0; k < 3; k++) pose.position[k] = (double)(trial % 3) * d[k];
       verdicts[proof_ask_place(&a, &pose, &pose)]++;
       moved = pose;
-      for (int k = 0; k < 3; k++)
-        moved.position[k] += shift * d[(k + 1) % 3];
+      for (int k = 0; k < 3; k++) moved.position[k] += shift * d[(k + 1) % 3];
       proof_ask_place(&a, &moved, &pose);
       if (oracle_distance(&a.moving->oracle, &a.motion.moving.poses[0], &a.fixed->oracle,
                           &a.motion.fixed.poses[0], NULL, NULL) > 0)
@@ -2473,10 +2386,8 @@ static void proof_faces_pass(void) {
       CHECK_LE(fabs((double)a.answer.contact_time - when), 1e-6);
       proof_check_witness(&a);
     }
-    if (kind == 3)
-      CHECK_EQ(a.answer.status, NSVCD_STATUS_CERTIFIED_FREE);
-    if (kind == 4)
-      CHECK_EQ(a.answer.status, NSVCD_STATUS_UNDECIDED);
+    if (kind == 3) CHECK_EQ(a.answer.status, NSVCD_STATUS_CERTIFIED_FREE);
+    if (kind == 4) CHECK_EQ(a.answer.status, NSVCD_STATUS_UNDECIDED);
   }
   proof_free(&small);
   proof_free(&large);
@@ -2497,8 +2408,7 @@ static void proof_triangles_listed_twice(void) {
     const uint32_t *at = shape.indices + 3 * t;
     const uint32_t corners[3] = {at[0], at[1], at[2]};
     shapes_triangle(&shape, corners[0], corners[1], corners[2]);
-    if (t % 8 == 0)
-      shapes_triangle(&shape, corners[0], corners[1], corners[1]);
+    if (t % 8 == 0) shapes_triangle(&shape, corners[0], corners[1], corners[1]);
   }
   proof_body twice = proof_of_shape(&shape, 1, 24);
   proof_body small = proof_make(BALL, 1, 12, 0.2);
@@ -2506,8 +2416,7 @@ static void proof_triangles_listed_twice(void) {
   a.fixed = &twice;
   for (size_t trial = 0; trial < 200; trial++) {
     a.moving = trial % 2 ? &twice : &small;
-    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1))
-      continue;
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -6, -1)), 1)) continue;
     proof_replay(&a, &rng, &sum);
     a.moving = &small;
     proof_place_within(&a, &rng, 0.01, 0, 0, &within);
@@ -2534,13 +2443,10 @@ static void proof_half_turns(void) {
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     const double size = a.moving->size + a.fixed->size;
     shapes_quaternion(&rng, fixed.rotation);
-    for (int k = 0; k < 3; k++)
-      fixed.position[k] = 0;
+    for (int k = 0; k < 3; k++) fixed.position[k] = 0;
     const double gap = size * pow(10, shapes_uniform(&rng, -3, 0));
-    if (!proof_near_contact(&rng, &a, &fixed, gap, &pose, point, away))
-      continue;
-    if (trial % 4 == 0)
-      proof_random_rotation(&rng, 1, pose.rotation);
+    if (!proof_near_contact(&rng, &a, &fixed, gap, &pose, point, away)) continue;
+    if (trial % 4 == 0) proof_random_rotation(&rng, 1, pose.rotation);
     proof_motion_past(&rng, &pose, point, away, size, SHAPES_PI * (double)(count - 1), count,
                       poses);
     for (size_t n = 0; n < count && trial % 4 == 0; n++) {  // dots of exactly 0, of either sign
@@ -2569,8 +2475,7 @@ static replay proof_scenes(const char *name, uint64_t seed, double low, double h
     const double gap = pow(10, shapes_uniform(&rng, low, high));
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
-    if (!proof_scene(&rng, &a, gap, trial % 7 ? offset : 0))
-      continue;
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? offset : 0)) continue;
     proof_replay(&a, &rng, &sum);
   }
   proof_report(name, &sum);
@@ -2595,13 +2500,10 @@ static proof_body proof_multiplied(const proof_body *from, float scale) {
   b.size = from->size * (double)scale;
   b.positions = (double *)malloc(3 * b.vertices * sizeof(double));
   b.indices = (uint32_t *)malloc(3 * b.triangles * sizeof(uint32_t));
-  if (!b.positions || !b.indices)
-    exit(1);
-  for (size_t i = 0; i < 3 * b.vertices; i++)
-    b.positions[i] = from->positions[i] * (double)scale;
+  if (!b.positions || !b.indices) exit(1);
+  for (size_t i = 0; i < 3 * b.vertices; i++) b.positions[i] = from->positions[i] * (double)scale;
   memcpy(b.indices, from->indices, 3 * b.triangles * sizeof(uint32_t));
-  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1))
-    exit(1);
+  if (!oracle_mesh_init(&b.oracle, b.positions, b.vertices, b.indices, b.triangles, 1)) exit(1);
   return b;
 }
 
@@ -2624,8 +2526,7 @@ static void proof_certificates_hold_for_scaled_bodies(void) {
     for (size_t trial = 0; trial < 25; trial++) {
       const double gap = pow(10, shapes_uniform(&rng, -7, -2));
       attack one = a;
-      if (!proof_scene(&rng, &multiplied, gap, trial % 3 ? 0.3 : 0))
-        continue;
+      if (!proof_scene(&rng, &multiplied, gap, trial % 3 ? 0.3 : 0)) continue;
       one.motion = multiplied.motion;
       one.motion.moving.scale = scale;
       one.motion.fixed.scale = fixed_scale;
@@ -2650,8 +2551,7 @@ static void proof_certificates_hold_where_both_move(void) {
     const double gap = pow(10, shapes_uniform(&rng, -6, -1.3));
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
-    if (!proof_scene(&rng, &a, gap, trial % 7 ? 1 : 0))
-      continue;
+    if (!proof_scene(&rng, &a, gap, trial % 7 ? 1 : 0)) continue;
     const double size = a.moving->size + a.fixed->size;
     const double angle = shapes_uniform(&rng, 0, 4 * SHAPES_PI);
     proof_carry(&rng, &a, trial % 4 ? angle : 0, shapes_uniform(&rng, 0, 3) * size);
@@ -2672,8 +2572,7 @@ static void proof_certificates_hold_at_every_scale(void) {
       const double gap = pow(10, shapes_uniform(&rng, -6, -1.3));
       a.moving = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
       a.fixed = proof_shared(scale, (size_t)shapes_pick(&rng, 8));
-      if (!proof_scene(&rng, &a, gap, 1))
-        continue;
+      if (!proof_scene(&rng, &a, gap, 1)) continue;
       proof_replay(&a, &rng, &sum);
     }
     snprintf(name, sizeof name, "scale %g", proof_scales[scale]);
@@ -2694,8 +2593,7 @@ static nsvcd_status proof_swing(double scale, double angle, double depth, size_t
   oracle_pose poses[PROOF_POSES], fixed;
   attack a;
   memset(&shape, 0, sizeof shape);
-  for (int k = 0; k < 3; k++)
-    shapes_vertex(&shape, down[k][0], down[k][1], down[k][2]);
+  for (int k = 0; k < 3; k++) shapes_vertex(&shape, down[k][0], down[k][1], down[k][2]);
   shapes_triangle(&shape, 0, 1, 2);
   proof_body tip = proof_encode(&shape, scale, &options, &result);
   shapes_free(&shape);
@@ -2751,6 +2649,7 @@ void test_proof(void) {
   RUN(proof_spans_hold_along_directions);
   RUN(proof_finds_first_contacts);
   RUN(proof_keeps_clearances);
+  RUN(proof_may_forget);
   RUN(proof_leaves_contacts);
   RUN(proof_points_are_of_the_lifted);
   RUN(proof_lifts_are_true);

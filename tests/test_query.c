@@ -1,7 +1,10 @@
 // nsvcd_sweep through the public API: mesh -> body -> answer. Accuracy last, on a small labelled file.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/mesh/obj.h"
+#include "../src/body/trust.h"
+#include "../src/body/encode.h"
+#include "../src/entry/processor.h"
 
 #include "failing_heap.h"
 #include "query_scene.h"
@@ -62,13 +65,11 @@ static void query_logit_is_invariant_under_rigid_motion(void) {
     nsvcd_answer before = query_scene_ask(&s);
     nsvcd_pose common;
     query_random_pose(&rng, 1, &common);
-    for (int i = 0; i < QUERY_POSES; i++)
-      s.motion[i] = query_moved(&common, &s.motion[i]);
+    for (int i = 0; i < QUERY_POSES; i++) s.motion[i] = query_moved(&common, &s.motion[i]);
     s.fixed_pose = query_moved(&common, &s.fixed_pose);
     nsvcd_answer after = query_scene_ask(&s);
     CHECK_NEAR(before.logit, after.logit, QUERY_RIGID_TOLERANCE * (1 + fabs((double)before.logit)));
-    if (fabsf(before.logit) > 0.01f)
-      CHECK_EQ(before.collides, after.collides);
+    if (fabsf(before.logit) > 0.01f) CHECK_EQ(before.collides, after.collides);
     compared += before.candidates > 0;
     query_scene_close(&s);
   }
@@ -98,8 +99,7 @@ static void query_logit_is_invariant_under_scale(void) {
     scaled.fixed = to[1];
     for (int k = 0; k < 3; k++) {
       scaled.fixed_pose.position[k] *= scale;
-      for (int i = 0; i < QUERY_POSES; i++)
-        scaled.motion[i].position[k] *= scale;
+      for (int i = 0; i < QUERY_POSES; i++) scaled.motion[i].position[k] *= scale;
     }
     if (to[0] && to[1]) {
       nsvcd_answer after = query_scene_ask(&scaled);
@@ -226,8 +226,7 @@ static void query_sizes_at_the_limits(void) {
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)};
     nsvcd_pose origin = query_pose(0, 0, 0);
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
-    for (int k = 0; k < 2; k++)
-      through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
+    for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
     CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 0);
     query_release(&memory[0]);
     query_release(&memory[1]);
@@ -294,10 +293,8 @@ static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double 
     const double t = (double)i / (QUERY_POSES - 1);
     const double half = 0.5 * angle * t;
     nsvcd_pose common;
-    for (int k = 0; k < 3; k++)
-      common.position[k] = (float)(0.5 * t * along[k]);
-    for (int k = 0; k < 3; k++)
-      common.rotation[k] = (float)(sin(half) * axis[k]);
+    for (int k = 0; k < 3; k++) common.position[k] = (float)(0.5 * t * along[k]);
+    for (int k = 0; k < 3; k++) common.rotation[k] = (float)(sin(half) * axis[k]);
     common.rotation[3] = (float)cos(half);
     poses[i] = query_moved(&common, &s->motion[i]);
     others[i] = query_moved(&common, &s->fixed_pose);
@@ -338,14 +335,10 @@ static void query_sides_do_not_matter(void) {
     nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
     query_scene_open(&s, seed);
     nsvcd_question question = query_carried(&s, seed, 1.6, poses, others);
-    if (seed % 4 == 0)
-      question.b.count = 1;
-    if (seed % 4 == 1)
-      question.a.count = 1;
-    if (seed % 4 == 2)
-      question.b.body = question.a.body;
-    if (seed % 8 == 3)
-      question.a.scale = 1.5f;
+    if (seed % 4 == 0) question.b.count = 1;
+    if (seed % 4 == 1) question.a.count = 1;
+    if (seed % 4 == 2) question.b.body = question.a.body;
+    if (seed % 8 == 3) question.a.scale = 1.5f;
     const nsvcd_mover a = question.a;
     const nsvcd_answer one = query_answer(&question);
     question.a = question.b;
@@ -411,8 +404,7 @@ static void query_all_pairs_are_enough(void) {
         continue;
       }
       CHECK_EQ(a.candidates, b.candidates);
-      if (a.candidates == 0)
-        continue;
+      if (a.candidates == 0) continue;
       CHECK(query_same_answer(&a, &b));
       CHECK(a.status != NSVCD_STATUS_LIMIT);
       compared++;
@@ -451,8 +443,7 @@ static void query_recall_raises_the_logit(void) {
   for (int i = 0; i < 4; i++) {
     nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, recalls[i]);
     nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-    if (i > 1)
-      CHECK_GE(a.logit, previous);
+    if (i > 1) CHECK_GE(a.logit, previous);
     previous = a.logit;
   }
   query_scene_close(&s);
@@ -480,8 +471,7 @@ static void query_thresholds_are_interpolated(void) {
       const double at = (double)rows[row][k];
       CHECK_NEAR(query_threshold(model, k, size, size), at, 1e-6);
       CHECK_NEAR(query_threshold(model, k, size / 2, 2 * size), at, 1e-6);
-      if (row + 1 == NSVCD_W_SIZES)
-        continue;
+      if (row + 1 == NSVCD_W_SIZES) continue;
       const double next = (double)rows[row + 1][k];
       double before = at;
       for (size_t between = size + 1; between < 2 * size; between++) {
@@ -628,8 +618,7 @@ static void query_refuses_bad_poses(void) {
     query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
   }
   nsvcd_pose almost = s.fixed_pose;  // within the tolerance: accepted
-  for (size_t k = 0; k < 4; k++)
-    almost.rotation[k] *= 1.00005f;
+  for (size_t k = 0; k < 4; k++) almost.rotation[k] *= 1.00005f;
   query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &almost, NULL);
   query_scene_close(&s);
 }
@@ -682,13 +671,11 @@ static void query_add_mesh(query_library *library, const char *name, const char 
   char full[512];
   nsvcd_mesh mesh;
   CHECK(library->count < QUERY_MAX_MESHES);
-  if (library->count == QUERY_MAX_MESHES)
-    return;
+  if (library->count == QUERY_MAX_MESHES) return;
   snprintf(full, sizeof full, QUERY_DATA "%s", path);
   nsvcd_result result = nsvcd_obj_load(full, NULL, &mesh, NULL);
   CHECK_EQ(result, NSVCD_OK);
-  if (result)
-    return;
+  if (result) return;
   snprintf(library->names[library->count], sizeof library->names[0], "%s", name);
   library->bodies[library->count] = query_encode(&mesh, 0, &library->memory[library->count]);
   library->count++;
@@ -731,15 +718,12 @@ static int query_answer_problem(FILE *file, const query_library *library, void *
   if (!query_read_pose(file, &fixed_pose) ||
       fscanf(file, "%d %lf %zu", &label, &margin, &count) != 3)
     return 0;
-  if (count > 64 || label < 0 || label > 1)
-    return 0;
+  if (count > 64 || label < 0 || label > 1) return 0;
   for (size_t i = 0; i < count; i++)
-    if (!query_read_pose(file, &motion[i]))
-      return 0;
+    if (!query_read_pose(file, &motion[i])) return 0;
   const nsvcd_body *moving = query_scaled(library, names[0], scales[0], memory[0]);
   const nsvcd_body *fixed = query_scaled(library, names[1], scales[1], memory[1]);
-  if (!moving || !fixed)
-    return 0;
+  if (!moving || !fixed) return 0;
   nsvcd_answer a = query_ask(moving, motion, count, fixed, &fixed_pose, NULL);
   CHECK_EQ(a.collides, a.logit > 0);
   for (int i = 0; i < 3; i++)
@@ -773,8 +757,7 @@ static void accuracy_on_a_labelled_file(void) {
                            {"inside", QUERY_LEAST_INSIDE, {{0, 0}, {0, 0}}}};
   FILE *file = fopen(QUERY_DATA "problems.txt", "r");
   CHECK(file != NULL);  // run from the repository root
-  if (!file)
-    return;
+  if (!file) return;
   query_memory memory[2] = {query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES)),
                             query_reserve(nsvcd_body_size(NSVCD_DEFAULT_NETWORK_PATCHES))};
   void *const scaled[2] = {memory[0].at, memory[1].at};
@@ -783,8 +766,7 @@ static void accuracy_on_a_labelled_file(void) {
   while (good && fscanf(file, "%63s", word) == 1) {
     if (strcmp(word, "mesh") == 0) {
       good = fscanf(file, "%63s %255s", name, path) == 2;
-      if (good)
-        query_add_mesh(&library, name, path);
+      if (good) query_add_mesh(&library, name, path);
     } else if (strcmp(word, "problem") == 0) {
       good = query_answer_problem(file, &library, scaled, scores);
     } else if (word[0] == '#' || strcmp(word, "nsvcd-problems") == 0) {
@@ -796,8 +778,7 @@ static void accuracy_on_a_labelled_file(void) {
   CHECK(good);
   fclose(file);
   query_judge(scores);
-  for (size_t i = 0; i < library.count; i++)
-    query_release(&library.memory[i]);
+  for (size_t i = 0; i < library.count; i++) query_release(&library.memory[i]);
   query_release(&memory[0]);
   query_release(&memory[1]);
 }
@@ -808,8 +789,7 @@ static void query_sizes_are_what_is_asked(void) {
   static const size_t sizes[6] = {1, 64, 100, 192, 256, 512};
   const nsvcd_pose at = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_mesh mesh = query_solid(1, 0.3);
-  for (size_t i = 0; i < 6; i++)
-    CHECK_EQ(nsvcd_body_size(sizes[i]), NSVCD_BODY_BYTES(sizes[i]));
+  for (size_t i = 0; i < 6; i++) CHECK_EQ(nsvcd_body_size(sizes[i]), NSVCD_BODY_BYTES(sizes[i]));
   for (size_t i = 0; i < 36; i++) {
     const size_t points[2] = {sizes[i / 6], sizes[i % 6]};
     const nsvcd_body *bodies[2];
@@ -846,15 +826,12 @@ static void query_sizes_are_what_is_asked(void) {
         memset(memory.at, 0x5a, network + 64 + 16);
         CHECK_EQ(nsvcd_sweep(&question, at_place, network, &one), NSVCD_OK);
         CHECK(query_same_answer(&one, &other));
-        for (size_t n = 0; n < from; n++)
-          CHECK_EQ(((char *)memory.at)[n], 0x5a);
-        for (size_t n = 0; n < 16; n++)
-          CHECK_EQ(at_place[network + n], 0x5a);
+        for (size_t n = 0; n < from; n++) CHECK_EQ(((char *)memory.at)[n], 0x5a);
+        for (size_t n = 0; n < 16; n++) CHECK_EQ(at_place[network + n], 0x5a);
       }
       query_release(&memory);
     }
-    for (size_t k = 0; k < 2; k++)
-      nsvcd_body_free(bodies[k], NULL);
+    for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
   }
   nsvcd_mesh_free(&mesh, NULL);
   nsvcd_question question = question_of(NULL, &at, 1, NULL, NULL, NULL);
@@ -884,13 +861,11 @@ static size_t query_stays_within(const nsvcd_question *question) {
     memset(memory.at, 0x5a, QUERY_GUARD + 64 + size + QUERY_GUARD);
     CHECK_EQ(nsvcd_sweep(question, (char *)memory.at + from, size, &answer), NSVCD_OK);
     CHECK(query_same_proof(&answer, &want));
-    for (size_t n = 0; n < from; n++)
-      written += bytes[n] != 0x5a;
+    for (size_t n = 0; n < from; n++) written += bytes[n] != 0x5a;
     for (size_t n = end; n < QUERY_GUARD + 64 + size + QUERY_GUARD; n++)
       written += bytes[n] != 0x5a;
     CHECK_EQ(written, 0);
-    while (end > from && bytes[end - 1] == 0x5a)
-      end--;
+    while (end > from && bytes[end - 1] == 0x5a) end--;
     unused = from + size - end < unused ? from + size - end : unused;
   }
   query_release(&memory);
@@ -939,8 +914,7 @@ static void query_proofs_stay_within_their_workspace(void) {
   CHECK(statuses[NSVCD_STATUS_WITNESS] > 10 && statuses[NSVCD_STATUS_CERTIFIED_FREE] > 10);
   CHECK(statuses[NSVCD_STATUS_UNDECIDED] > 5);
   CHECK_LE(unused, 64);  // else nothing came near the end
-  for (size_t n = 0; n < 10; n++)
-    nsvcd_body_free(bodies[n / 5][n % 5], NULL);
+  for (size_t n = 0; n < 10; n++) nsvcd_body_free(bodies[n / 5][n % 5], NULL);
 }
 
 // A spinning body, cut into 16 segments instead of 64: what is proven is as true, and no less is.
@@ -981,8 +955,7 @@ static void query_few_segments_are_as_right(void) {
     CHECK(many.status == NSVCD_STATUS_WITNESS || many.status == NSVCD_STATUS_CERTIFIED_FREE ||
           many.status == NSVCD_STATUS_INSIDE);
     hits += (size_t)many.collides;
-    for (size_t k = 0; k < 2; k++)
-      nsvcd_body_free(bodies[k], NULL);
+    for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
     query_scene_close(&s);
   }
   CHECK(hits > 5 && hits < 36);
@@ -1028,23 +1001,19 @@ static void query_opinions_leave_what_is_known(void) {
     memset(&options, 0, sizeof options);
     query_random_pose(&rng, 0.3, &path[0]);
     path[1] = path[0];
-    for (size_t k = 0; k < 3; k++)
-      path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
+    for (size_t k = 0; k < 3; k++) path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
     options.first = n % 3 ? 1e-3f : 0;
     options.work = n % 4 ? 1 + n % 20 : 1000;
-    if (n % 4 == 0)
-      query_slide(&rng, 0.2, path);
+    if (n % 4 == 0) query_slide(&rng, 0.2, path);
     options.tolerance = n % 2 ? 0.02f : 0;
     const nsvcd_answer answer = query_ask(bodies[0], path, 2, bodies[1], NULL, &options);
-    if (answer.status != NSVCD_STATUS_UNDECIDED)
-      continue;
+    if (answer.status != NSVCD_STATUS_UNDECIDED) continue;
     const int names = answer.triangle_a != NSVCD_NO_TRIANGLE;
     CHECK_EQ(names, answer.clearance_high < HUGE_VALF);
     CHECK_EQ(names, answer.triangle_b != NSVCD_NO_TRIANGLE);
     known += names;
     opinions += !(fabsf(answer.logit) >= NSVCD_LOGIT_CERTAIN);
-    if (!names)
-      continue;
+    if (!names) continue;
     nsvcd_pose then = path[0];
     for (size_t k = 0; k < 3; k++)
       then.position[k] += answer.contact_time * (path[1].position[k] - path[0].position[k]);
@@ -1053,8 +1022,7 @@ static void query_opinions_leave_what_is_known(void) {
   printf("  undecided: %zu name triangles; %zu have an opinion\n", known, opinions);
   CHECK_GE(known, 20);
   CHECK_GE(opinions, 5);
-  for (size_t k = 0; k < 2; k++)
-    nsvcd_body_free(bodies[k], NULL);
+  for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
 }
 
 void test_query(void) {

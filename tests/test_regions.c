@@ -2,7 +2,8 @@
 // regions, of which the triangles are put together again.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/mesh/mesh.h"
+#include "../src/patches/regions.h"
 
 #include "../examples/scenery/oracle.h"
 #include "check.h"
@@ -23,16 +24,15 @@ static int regions_same_place(const nsvcd_mesh *mesh, size_t u, size_t v) {
 static void regions_check_topology(const nsvcd_mesh *mesh) {
   shells want = shells_of(mesh);
   nsvcd__topology t;
+  nsvcd__arena arena = nsvcd__arena_of(NULL);
   size_t wrong = 0;
-  CHECK(nsvcd__topology_build(mesh, NULL, &t));
+  CHECK(nsvcd__topology_build(mesh, &arena, &t));
   CHECK_EQ(t.component_count, want.count);
   for (size_t v = 0; v < mesh->vertex_count; v++) {
     size_t first = 0;
     size_t least = 0;
-    while (!regions_same_place(mesh, first, v))
-      first++;
-    while (want.part[least] != want.part[v])
-      least++;
+    while (!regions_same_place(mesh, first, v)) first++;
+    while (want.part[least] != want.part[v]) least++;
     wrong += t.welded[v] != first;
     wrong += t.parents[first] != least;
   }
@@ -42,7 +42,7 @@ static void regions_check_topology(const nsvcd_mesh *mesh) {
     wrong += t.open[t.parents[v]] == want.closed[want.part[v]];
   }
   CHECK_EQ(wrong, 0);
-  nsvcd__topology_free(&t);
+  nsvcd__arena_free(&arena);
   shells_free(&want);
 }
 
@@ -59,13 +59,13 @@ static void regions_components_are_found(void) {
 // How many triangles enclose, and how many components there are.
 static size_t enclosing(const nsvcd_mesh *mesh, size_t *components) {
   nsvcd__regions r;
+  nsvcd__arena arena = nsvcd__arena_of(NULL);
   size_t count = 0;
-  CHECK(nsvcd__regions_build(mesh, 17, NULL, &r));
+  CHECK(nsvcd__regions_build(mesh, 17, &arena, &r));
   CHECK_EQ(r.triangle_count, mesh->triangle_count);
-  for (size_t t = 0; t < r.triangle_count; t++)
-    count += (r.ids[t] & NSVCD__ENCLOSES) != 0;
+  for (size_t t = 0; t < r.triangle_count; t++) count += (r.ids[t] & NSVCD__ENCLOSES) != 0;
   *components = r.component_count;
-  nsvcd__regions_free(&r);
+  nsvcd__arena_free(&arena);
   return count;
 }
 
@@ -109,8 +109,7 @@ static void regions_open_and_closed(void) {
   // -0 is 0: a box of which some zeros are negative.
   mesh = surface_box(2, 2, 2, 2);
   for (size_t i = 0; i < 3 * mesh.vertex_count; i += 2) {
-    if (mesh.positions[i] == 0)
-      mesh.positions[i] = -mesh.positions[i];
+    if (mesh.positions[i] == 0) mesh.positions[i] = -mesh.positions[i];
   }
   CHECK_EQ(enclosing(&mesh, &components), mesh.triangle_count);
   CHECK_EQ(components, 1);
@@ -166,8 +165,7 @@ static void regions_corners(const nsvcd_mesh *mesh, size_t t, double corners[3][
 // Vertex v of a region, as exactly as it is known.
 static void regions_vertex(const nsvcd__region *region, size_t v, double *out) {
   const size_t firm = region->mesh.vertex_count - region->cut_count;
-  for (size_t k = 0; k < 3; k++)
-    out[k] = (double)region->mesh.positions[3 * v + k];
+  for (size_t k = 0; k < 3; k++) out[k] = (double)region->mesh.positions[3 * v + k];
   if (v >= firm) {
     out[0] = region->cuts[v - firm].x;
     out[1] = region->cuts[v - firm].y;
@@ -184,8 +182,7 @@ static void regions_add_vertices(nsvcd__region *region, regions_sum *sum) {
     for (size_t k = 0; k < 3; k++) {
       const float stored = region->mesh.positions[3 * v + k];
       sum->bad += stored < (float)at[k] || stored > (float)at[k];
-      if (v >= firm || !region->vertices)
-        continue;
+      if (v >= firm || !region->vertices) continue;
       const float own = sum->mesh->positions[3 * (size_t)region->vertices[v] + k];
       sum->bad += memcmp(&stored, &own, sizeof own) != 0;
     }
@@ -203,12 +200,10 @@ static void regions_add_triangles(const nsvcd__region *region, const shells *par
     const int encloses = (region->ids[t] & NSVCD__ENCLOSES) != 0;
     double part[3][3], whole[3][3], vector[3];
     sum->bad += id >= sum->mesh->triangle_count || id < last;
-    if (sum->bad)
-      return;
+    if (sum->bad) return;
     last = id;
     sum->bad += encloses != parts->closed[parts->part[sum->mesh->indices[3 * id]]];
-    for (size_t k = 0; k < 3; k++)
-      regions_vertex(region, region->mesh.indices[3 * t + k], part[k]);
+    for (size_t k = 0; k < 3; k++) regions_vertex(region, region->mesh.indices[3 * t + k], part[k]);
     regions_corners(sum->mesh, id, whole);
     for (size_t k = 0; k < 3; k++) {
       double edge[3];
@@ -217,8 +212,7 @@ static void regions_add_triangles(const nsvcd__region *region, const shells *par
       sum->bad += !regions_in_triangle(whole, part[k], sum->tolerance);
     }
     regions_area_vector(part, vector);
-    for (size_t k = 0; k < 3; k++)
-      sum->areas[3 * id + k] += vector[k];
+    for (size_t k = 0; k < 3; k++) sum->areas[3 * id + k] += vector[k];
     sum->parts[id]++;
   }
 }
@@ -227,6 +221,7 @@ static void regions_check(const nsvcd_mesh *mesh, size_t patches) {
   shells components = shells_of(mesh);
   const double scale = surface_scale(mesh);
   nsvcd__regions r;
+  nsvcd__arena arena = nsvcd__arena_of(NULL);
   regions_sum sum;
   memset(&sum, 0, sizeof sum);
   sum.mesh = mesh;
@@ -234,15 +229,14 @@ static void regions_check(const nsvcd_mesh *mesh, size_t patches) {
   sum.tolerance = 1e-12 * scale * scale;
   sum.areas = (double *)calloc(3 * mesh->triangle_count, sizeof(double));
   sum.parts = (size_t *)calloc(mesh->triangle_count, sizeof(size_t));
-  CHECK(nsvcd__regions_build(mesh, patches, NULL, &r));
+  CHECK(nsvcd__regions_build(mesh, patches, &arena, &r));
   CHECK_EQ(r.count, patches > 512 ? (patches + 255) / 256 : 1);
   CHECK_LE(r.triangle_count, mesh->triangle_count + r.most_cuts);
   CHECK(r.cut_count < r.most_cuts || r.count == 1);  // there was room for all halves
   for (size_t n = 0; n < r.count; n++) {
     nsvcd__region region;
-    const nsvcd_result result = nsvcd__region_begin(&r, n, &region);
-    if (result == NSVCD_ERROR_EMPTY)
-      continue;
+    const nsvcd_result result = nsvcd__region_begin(&r, n, &arena, &region);
+    if (result == NSVCD_ERROR_EMPTY) continue;
     CHECK_EQ(result, NSVCD_OK);
     regions_add_vertices(&region, &sum);
     regions_add_triangles(&region, &components, &sum);
@@ -258,7 +252,7 @@ static void regions_check(const nsvcd_mesh *mesh, size_t patches) {
     sum.bad += sum.parts[t] == 0 || oracle_length(vector) > sum.tolerance;
   }
   CHECK_EQ(sum.bad, 0);
-  nsvcd__regions_free(&r);
+  nsvcd__arena_free(&arena);
   shells_free(&components);
   free(sum.areas);
   free(sum.parts);
@@ -271,10 +265,8 @@ static void regions_hold_the_mesh(void) {
   for (int kind = 0; kind < SURFACE_KINDS; kind++) {
     nsvcd_mesh mesh = surface_kind(kind);
     const int failures = check.failures_in_test;
-    for (size_t n = 0; n < 5; n++)
-      regions_check(&mesh, patches[n]);
-    if (check.failures_in_test > failures)
-      printf("  kind %d\n", kind);
+    for (size_t n = 0; n < 5; n++) regions_check(&mesh, patches[n]);
+    if (check.failures_in_test > failures) printf("  kind %d\n", kind);
     nsvcd_mesh_free(&mesh, NULL);
   }
 }
@@ -285,7 +277,8 @@ static void regions_are_alike(void) {
   for (int kind = 0; kind < SURFACE_KINDS; kind++) {
     nsvcd_mesh mesh = surface_kind(kind);
     nsvcd__regions r;
-    CHECK(nsvcd__regions_build(&mesh, 5000, NULL, &r));
+    nsvcd__arena arena = nsvcd__arena_of(NULL);
+    CHECK(nsvcd__regions_build(&mesh, 5000, &arena, &r));
     double area = 0;
     for (size_t t = 0; t < mesh.triangle_count; t++) {
       double corners[3][3];
@@ -295,8 +288,7 @@ static void regions_are_alike(void) {
     double most = 0;
     for (size_t n = 0; n < r.count; n++) {
       nsvcd__region region;
-      if (nsvcd__region_begin(&r, n, &region))
-        continue;
+      if (nsvcd__region_begin(&r, n, &arena, &region)) continue;
       double own = 0;
       for (size_t t = 0; t < region.mesh.triangle_count; t++) {
         double corners[3][3];
@@ -308,7 +300,7 @@ static void regions_are_alike(void) {
       nsvcd__region_end(&r, &region);
     }
     worst = fmax(worst, most);
-    nsvcd__regions_free(&r);
+    nsvcd__arena_free(&arena);
     nsvcd_mesh_free(&mesh, NULL);
   }
   printf("  the largest region has %.2f of the mean\n", worst);
@@ -322,20 +314,19 @@ static void regions_allocation_fails(void) {
   for (int fail_at = 0; fail_at < 100; fail_at++) {
     failing_heap heap = {0, 0, fail_at};
     const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
+    nsvcd__arena arena = nsvcd__arena_of(&allocator);
     nsvcd__regions r;
     nsvcd__region region;
-    int ok = nsvcd__regions_build(&mesh, 1000, &allocator, &r);
+    int ok = nsvcd__regions_build(&mesh, 1000, &arena, &r);
     if (ok) {
-      const nsvcd_result result = nsvcd__region_begin(&r, 0, &region);
+      const nsvcd_result result = nsvcd__region_begin(&r, 0, &arena, &region);
       ok = result == NSVCD_OK;
       CHECK(ok || result == NSVCD_ERROR_MEMORY);
-      if (ok)
-        nsvcd__region_end(&r, &region);
-      nsvcd__regions_free(&r);
+      if (ok) nsvcd__region_end(&r, &region);
     }
+    nsvcd__arena_free(&arena);
     CHECK_EQ(heap.live, 0);
-    if (ok)
-      break;
+    if (ok) break;
     failures++;
   }
   CHECK(failures > 10 && failures < 30);

@@ -1,7 +1,7 @@
 // Codes, and what they say.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/ground/strings.h"
 
 #include "check.h"
 
@@ -16,6 +16,13 @@ static void mesh_result_strings(void) {
     }
   }
   CHECK(strcmp(nsvcd_result_string((nsvcd_result)(NSVCD_ERROR_BUILD + 1)), "unknown result") == 0);
+  // each at its place
+  CHECK(strcmp(nsvcd_result_string(NSVCD_OK), "ok") == 0);
+  CHECK(strcmp(nsvcd_result_string(NSVCD_ERROR_MEMORY), "out of memory") == 0);
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_POSE), "a pose") != NULL);
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_BODY), "the body is damaged") != NULL);
+  CHECK(strcmp(nsvcd_result_string(NSVCD_ERROR_CANCELLED), "cancelled") == 0);
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_BUILD), "this build") != NULL);
 }
 
 // What answers say of themselves: each has a text of its own.

@@ -1,7 +1,8 @@
 // The spline: what it passes through, its derivatives, integrals and weights.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/encode.h"
+#include "../src/plan/plan.h"
 
 #include "plan_scene.h"
 
@@ -12,8 +13,7 @@ static double plan_spline(const float *control, size_t via, double t, size_t der
   double weights[PLAN_VIA];
   double sum = 0;
   nsvcd__spline_weights(via, t, derivative, weights);
-  for (size_t k = 0; k < via + 2; k++)
-    sum += weights[k] * (double)control[k];
+  for (size_t k = 0; k < via + 2; k++) sum += weights[k] * (double)control[k];
   return sum;
 }
 
@@ -25,20 +25,17 @@ static void plan_spline_passes_through_its_points_and_rests_at_both_ends(void) {
     plan_random_numbers(&rng, 3 * (via + 2), 2, control);
     for (size_t k = 0; k < via + 2; k++) {
       nsvcd_spline(control, via, 3, (float)((double)k / last), 0, x);
-      for (size_t j = 0; j < 3; j++)
-        CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
+      for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
     }
     for (size_t derivative = 1; derivative <= 2; derivative++) {
       for (int end = 0; end < 2; end++) {
         nsvcd_spline(control, via, 3, (float)end, derivative, x);
-        for (size_t j = 0; j < 3; j++)
-          CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
+        for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
       }
     }
     for (int end = 0; end < 2; end++) {  // t is taken into [0,1]
       nsvcd_spline(control, via, 3, end ? 7.0f : -3.0f, 0, x);
-      for (size_t j = 0; j < 3; j++)
-        CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
+      for (size_t j = 0; j < 3; j++) CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
     }
   }
 }
@@ -144,29 +141,24 @@ static void plan_cholesky_solves(void) {
   for (size_t n = 1; n <= NSVCD_MAX_VIA_POINTS; n++) {
     static double a[PLAN_VIA * PLAN_VIA], root[PLAN_VIA * PLAN_VIA], l[PLAN_VIA * PLAN_VIA];
     double x[PLAN_VIA], wanted[PLAN_VIA];
-    for (size_t k = 0; k < n * n; k++)
-      root[k] = shapes_uniform(&rng, -1, 1);
+    for (size_t k = 0; k < n * n; k++) root[k] = shapes_uniform(&rng, -1, 1);
     for (size_t i = 0; i < n; i++) {
       wanted[i] = shapes_uniform(&rng, -1, 1);
       for (size_t j = 0; j < n; j++) {
         a[i * n + j] = i == j ? 0.5 : 0;
-        for (size_t k = 0; k < n; k++)
-          a[i * n + j] += root[i * n + k] * root[j * n + k];
+        for (size_t k = 0; k < n; k++) a[i * n + j] += root[i * n + k] * root[j * n + k];
       }
     }
     for (size_t i = 0; i < n; i++) {
       x[i] = 0;
-      for (size_t j = 0; j < n; j++)
-        x[i] += a[i * n + j] * wanted[j];
+      for (size_t j = 0; j < n; j++) x[i] += a[i * n + j] * wanted[j];
     }
     nsvcd__cholesky(a, n, l);
     nsvcd__solve_lower(l, n, x);
     nsvcd__solve_upper(l, n, x);
-    for (size_t i = 0; i < n; i++)
-      CHECK_NEAR(x[i], wanted[i], 1e-9);
+    for (size_t i = 0; i < n; i++) CHECK_NEAR(x[i], wanted[i], 1e-9);
     nsvcd__cholesky(a, n, a);  // in place
-    for (size_t k = 0; k < n * n; k++)
-      CHECK_EQ(a[k], l[k]);
+    for (size_t k = 0; k < n * n; k++) CHECK_EQ(a[k], l[k]);
   }
 }
 

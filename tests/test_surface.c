@@ -3,7 +3,7 @@
 // where the result says they are.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/body/encode.h"
 
 #include "check.h"
 #include "failing_heap.h"
@@ -64,12 +64,10 @@ static double triangle_distance(const vec *c, vec x) {
   least = fmin(least, segment_distance(c[1], c[2], x));
   least = fmin(least, segment_distance(c[2], c[0], x));
   const vec n = vec_cross(vec_sub(c[1], c[0]), vec_sub(c[2], c[0]));
-  if (!(vec_length(n) > 0))
-    return least;
+  if (!(vec_length(n) > 0)) return least;
   for (size_t i = 0; i < 3; i++) {
     const vec side = vec_cross(n, vec_sub(c[(i + 1) % 3], c[i]));
-    if (vec_dot(side, vec_sub(x, c[i])) < 0)
-      return least;
+    if (vec_dot(side, vec_sub(x, c[i])) < 0) return least;
   }
   return fmin(least, fabs(vec_dot(n, vec_sub(x, c[0]))) / vec_length(n));
 }
@@ -80,8 +78,7 @@ static int any_triangle_reaches(const vec *points, size_t count, vec x, double r
     for (size_t j = i; j < count; j++) {
       for (size_t k = j; k < count; k++) {
         const vec corners[3] = {points[i], points[j], points[k]};
-        if (triangle_distance(corners, x) <= reach)
-          return 1;
+        if (triangle_distance(corners, x) <= reach) return 1;
       }
     }
   }
@@ -99,11 +96,9 @@ static int in_tetrahedron(vec a, vec b, vec c, vec d, vec x) {
   const double base = vec_length(vec_sub(b, a)) * vec_length(vec_sub(c, a));
   const double size = base * vec_length(vec_sub(d, a));
   const double whole = parts[0] + parts[1] + parts[2] + parts[3];
-  if (fabs(whole) <= 1e-12 * size)
-    return 0;
+  if (fabs(whole) <= 1e-12 * size) return 0;
   for (size_t i = 0; i < 4; i++) {
-    if (parts[i] / whole < 0)
-      return 0;
+    if (parts[i] / whole < 0) return 0;
   }
   return 1;
 }
@@ -112,8 +107,7 @@ static int any_tetrahedron_holds(const vec *points, size_t count, vec x) {
     for (size_t j = i + 1; j < count; j++) {
       for (size_t k = j + 1; k < count; k++) {
         for (size_t l = k + 1; l < count; l++) {
-          if (in_tetrahedron(points[i], points[j], points[k], points[l], x))
-            return 1;
+          if (in_tetrahedron(points[i], points[j], points[k], points[l], x)) return 1;
         }
       }
     }
@@ -128,34 +122,27 @@ static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
   vec v = vec_sub(points[0], x);
   for (int step = 0; step < 60; step++) {
     const double squared = vec_dot(v, v);
-    if (squared <= reach * reach)
-      return 1;
+    if (squared <= reach * reach) return 1;
     size_t to = 0;
     size_t from = 0;
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {
       const double at = vec_dot(vec_sub(points[i], x), v);
-      if (at < least)
-        to = i;
-      if (at > most && weights[i] > 0)
-        from = i;
+      if (at < least) to = i;
+      if (at > most && weights[i] > 0) from = i;
       least = fmin(least, at);
-      if (weights[i] > 0)
-        most = fmax(most, at);
+      if (weights[i] > 0) most = fmax(most, at);
     }
-    if (least > reach * sqrt(squared))
-      return 0;
+    if (least > reach * sqrt(squared)) return 0;
     const vec d = vec_sub(points[to], points[from]);
     const double way = -vec_dot(v, d) / vec_dot(d, d);
-    if (!(way > 0))
-      break;
+    if (!(way > 0)) break;
     const double share = fmin(way, weights[from]);
     weights[from] -= share;
     weights[to] += share;
     v = vec_of(0, 0, 0);
-    for (size_t i = 0; i < count; i++)
-      v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
+    for (size_t i = 0; i < count; i++) v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
   }
   return any_triangle_reaches(points, count, x, reach) || any_tetrahedron_holds(points, count, x);
 }
@@ -164,6 +151,7 @@ static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
 
 typedef struct reader {
   const nsvcd_mesh *mesh;
+  nsvcd__arena arena;
   nsvcd__surface surface;
   // mean of the patches that it is made from; 0 where there are several regions
   double patch_radius;
@@ -198,27 +186,22 @@ static void reader_index(reader *r) {
       r->listings[reader_id(r, l)]++;
     }
   }
-  for (size_t t = 1; t <= r->mesh->triangle_count; t++)
-    r->listings[t] += r->listings[t - 1];
-  for (size_t l = s->listed; l-- > 0;)
-    r->sorted[--r->listings[reader_id(r, l)]] = (uint32_t)l;
+  for (size_t t = 1; t <= r->mesh->triangle_count; t++) r->listings[t] += r->listings[t - 1];
+  for (size_t l = s->listed; l-- > 0;) r->sorted[--r->listings[reader_id(r, l)]] = (uint32_t)l;
 }
 
-// The surface of a mesh, as nsvcd_encode makes it.
+// The surface of a mesh, as nsvcd_encode makes it. On success release the arena.
 static nsvcd_result surface_of(const nsvcd_mesh *mesh, size_t points,
-                               const nsvcd_allocator *allocator, nsvcd__surface *surface) {
-  nsvcd__encode_settings settings;
+                               const nsvcd_allocator *allocator, nsvcd__arena *arena,
+                               nsvcd__surface *surface) {
+  nsvcd_encode_options options;
   nsvcd__parts parts;
-  memset(&settings, 0, sizeof settings);
-  settings.mesh = mesh;
-  settings.allocator = allocator;
-  settings.patches = points;
-  settings.triangles = 1;
-  const nsvcd_result result = nsvcd__parts_build(&settings, &parts);
-  if (result)
-    return result;
+  memset(&options, 0, sizeof options);
+  options.patches = points;
+  const nsvcd_result result = nsvcd__parts_build(mesh, &options, allocator, &parts);
+  if (result) return result;
   *surface = parts.surface;
-  nsvcd__free(allocator, parts.centres);
+  *arena = parts.arena;
   return NSVCD_OK;
 }
 
@@ -228,18 +211,19 @@ static int reader_open(reader *r, const nsvcd_mesh *mesh, size_t points) {
   r->tolerance = 1e-12 * surface_scale(mesh);
   if (points <= NSVCD_SMALL_PATCHES) {
     nsvcd__patches patches;
-    CHECK_EQ(nsvcd__patches_build(mesh, points, NULL, &patches), NSVCD_OK);
+    nsvcd__arena arena = nsvcd__arena_of(NULL);
+    CHECK_EQ(nsvcd__patches_build(mesh, points, &arena, &patches), NSVCD_OK);
     for (size_t i = 0; i < patches.count; i++)
       r->patch_radius += (double)patches.radii[i] / (double)patches.count;
-    nsvcd__patches_free(&patches, NULL);
+    nsvcd__arena_free(&arena);
   }
-  const nsvcd_result result = surface_of(mesh, points, NULL, &r->surface);
+  const nsvcd_result result = surface_of(mesh, points, NULL, &r->arena, &r->surface);
   CHECK_EQ(result, NSVCD_OK);
   return result == NSVCD_OK;
 }
 
 static void reader_close(reader *r) {
-  nsvcd__surface_free(&r->surface);
+  nsvcd__arena_free(&r->arena);
   free(r->vertices);
   free(r->listings);
   free(r->sorted);
@@ -262,8 +246,7 @@ static int check_ranges(const reader *r) {
   CHECK_EQ(s->first_triangle[0], 0);
   CHECK_EQ(s->first_vertex[s->count], s->vertex_count);
   CHECK_EQ(s->first_triangle[s->count], s->listed);
-  for (size_t i = 0; i < 3 * s->vertex_count; i++)
-    bad += s->vertices[i] < -32767;
+  for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
     const float *ball = &s->balls[i].centre.x;
     const float *disc = &s->discs[i].normal.x;
@@ -273,12 +256,9 @@ static int check_ranges(const reader *r) {
     const size_t l = s->first_triangle[i + 1] - s->first_triangle[i];
     const int empty = l == 0;
     bad += empty ? s->hull_counts[i] != 0 || n != 0 || ball[3] != NSVCD__NOWHERE : 0;
-    for (size_t k = 0; k < 4; k++)
-      bad += !nsvcd__is_finite(ball[k]);
-    for (size_t k = 0; k < 6; k++)
-      bad += !nsvcd__is_finite(disc[k]);
-    if (empty)
-      continue;
+    for (size_t k = 0; k < 4; k++) bad += !nsvcd__is_finite(ball[k]);
+    for (size_t k = 0; k < 6; k++) bad += !nsvcd__is_finite(disc[k]);
+    if (empty) continue;
     const vec normal = vec_load(disc);
     bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
     bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
@@ -288,8 +268,7 @@ static int check_ranges(const reader *r) {
       bad += s->corners[k] >= n;
     }
   }
-  for (size_t l = 0; l < s->listed; l++)
-    bad += reader_id(r, l) >= r->mesh->triangle_count;
+  for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
   CHECK_EQ(bad, 0);
   return bad == 0;
 }
@@ -318,8 +297,7 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
   }
   const vec *hull = r->vertices + s->first_vertex[i];
   const double reach = (double)s->slacks[i] + r->tolerance;
-  if (hull_reaches(hull, s->hull_counts[i], x, reach))
-    return 1;
+  if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
   m->hull++;
   return 0;
 }
@@ -337,11 +315,9 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     const double quantum = (double)r->surface.quanta[r->patch[l]];
     // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the
     // quantum is none.
-    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance)
-      continue;
+    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance) continue;
     listed = 1;
-    if (patch_holds(r, r->patch[l], x, &tried))
-      return;
+    if (patch_holds(r, r->patch[l], x, &tried)) return;
   }
   *m = tried;
   m->points++;
@@ -354,8 +330,7 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
   memset(&m, 0, sizeof m);
   for (size_t t = 0; t < r->mesh->triangle_count; t++) {
     vec c[3];
-    for (size_t i = 0; i < 3; i++)
-      c[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) {
       const double share = shapes_uniform(rng, 0, 1);
       const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), share);
@@ -375,8 +350,7 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
     }
   }
   CHECK_EQ(m.nowhere, 0);
-  if (m.nowhere == 0)
-    return;
+  if (m.nowhere == 0) return;
   printf("  of %zu points: no triangle %zu; ", m.points, m.triangle);
   printf("left out by balls %zu, discs %zu, hulls %zu\n", m.ball, m.disc, m.hull);
 }
@@ -391,10 +365,8 @@ static void check_quanta(const reader *r) {
     const size_t t = reader_id(r, l);
     const double quantum = (double)r->surface.quanta[r->patch[l]] * (1 + 1e-6) + 10 * r->tolerance;
     reader_corners(r, l, corners);
-    for (size_t i = 0; i < 3; i++)
-      mesh_corners[i] = surface_corner(r->mesh, t, i);
-    for (size_t i = 0; i < 3; i++)
-      bad += triangle_distance(mesh_corners, corners[i]) > quantum;
+    for (size_t i = 0; i < 3; i++) mesh_corners[i] = surface_corner(r->mesh, t, i);
+    for (size_t i = 0; i < 3; i++) bad += triangle_distance(mesh_corners, corners[i]) > quantum;
   }
   CHECK_EQ(bad, 0);
 }
@@ -414,10 +386,8 @@ static int is_listed_before(const reader *r, size_t first, size_t k) {
     double most = 0;
     reader_corners(r, r->sorted[i], other);
     const double both = quantum + (double)r->surface.quanta[r->patch[r->sorted[i]]];
-    for (size_t j = 0; j < 3; j++)
-      most = fmax(most, vec_length(vec_sub(own[j], other[j])));
-    if (most <= both + 10 * r->tolerance)
-      return 1;
+    for (size_t j = 0; j < 3; j++) most = fmax(most, vec_length(vec_sub(own[j], other[j])));
+    if (most <= both + 10 * r->tolerance) return 1;
   }
   return 0;
 }
@@ -433,8 +403,7 @@ static void check_enclosing(const reader *r) {
   double volume_error = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     vec c[3];
-    for (size_t i = 0; i < 3; i++)
-      c[i] = surface_corner(mesh, t, i);
+    for (size_t i = 0; i < 3; i++) c[i] = surface_corner(mesh, t, i);
     const double size = vec_length(vec_sub(c[1], c[0])) + vec_length(vec_sub(c[2], c[0]));
     const int closed = parts.closed[parts.part[mesh->indices[3 * t]]];
     vec sum = closed ? vec_scale(area_vector(c), -1) : vec_of(0, 0, 0);
@@ -448,8 +417,7 @@ static void check_enclosing(const reader *r) {
       const size_t l = r->sorted[k];
       vec part[3];
       flags += (r->surface.ids[l] & NSVCD__ENCLOSES) != 0;
-      if (!closed || is_listed_before(r, r->listings[t], k))
-        continue;
+      if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.quanta[r->patch[l]];
       const double perimeter = vec_length(vec_sub(part[1], part[0])) +
@@ -470,10 +438,8 @@ static void check_enclosing(const reader *r) {
       volume += part_volume;
       found++;
     }
-    if (closed && !whole)
-      bad += flags != r->listings[t + 1] - r->listings[t];
-    if (!closed)
-      found = flags;
+    if (closed && !whole) bad += flags != r->listings[t + 1] - r->listings[t];
+    if (!closed) found = flags;
     bad += vec_length(sum) > error;
     bad += closed ? found == 0 : found > 0;
     marked += found > 0;
@@ -481,8 +447,7 @@ static void check_enclosing(const reader *r) {
   }
   CHECK_EQ(bad, 0);
   CHECK_LE(fabs(volume), volume_error);
-  if (bad)
-    printf("  %zu of %zu triangles enclose\n", marked, mesh->triangle_count);
+  if (bad) printf("  %zu of %zu triangles enclose\n", marked, mesh->triangle_count);
   shells_free(&parts);
 }
 
@@ -493,19 +458,16 @@ static void check_seeds(const reader *r) {
   uint8_t *taken = (uint8_t *)calloc(mesh->vertex_count, 1);
   uint8_t *used = (uint8_t *)calloc(mesh->vertex_count, 1);
   CHECK_EQ(s->component_count, parts.count);
-  for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
-    used[mesh->indices[i]] = 1;
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) used[mesh->indices[i]] = 1;
   for (size_t k = 0; k < s->component_count; k++) {
     size_t v = 0;
     const float *seed = &s->seeds[k].x;
     for (; v < mesh->vertex_count; v++) {
       const float *p = mesh->positions + 3 * v;
-      if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2])
-        break;
+      if (used[v] && p[0] == seed[0] && p[1] == seed[1] && p[2] == seed[2]) break;
     }
     CHECK(v < mesh->vertex_count);
-    if (v == mesh->vertex_count)
-      break;
+    if (v == mesh->vertex_count) break;
     CHECK(!taken[parts.part[v]]);
     taken[parts.part[v]] = 1;
   }
@@ -517,8 +479,7 @@ static void check_seeds(const reader *r) {
 static void check_all(const nsvcd_mesh *mesh, size_t points, shapes_rng *rng, size_t random) {
   reader r;
   const int failures = check.failures_in_test;
-  if (!reader_open(&r, mesh, points))
-    return;
+  if (!reader_open(&r, mesh, points)) return;
   if (check_ranges(&r)) {
     reader_index(&r);
     check_points(&r, rng, random);
@@ -543,10 +504,8 @@ static void surface_is_covered(void) {
     nsvcd_mesh mesh = surface_kind(kind);
     const size_t random = 3 + 2000 / mesh.triangle_count;
     const int failures = check.failures_in_test;
-    for (size_t n = 0; n < 8; n++)
-      check_all(&mesh, surface_points[n], &rng, random);
-    if (check.failures_in_test > failures)
-      printf("  kind %d\n", kind);
+    for (size_t n = 0; n < 8; n++) check_all(&mesh, surface_points[n], &rng, random);
+    if (check.failures_in_test > failures) printf("  kind %d\n", kind);
     nsvcd_mesh_free(&mesh, NULL);
   }
 }
@@ -610,8 +569,7 @@ static void surface_balls_are_minimal(void) {
     for (size_t i = 0; i < count; i++) {
       points[i] = nsvcd__d3_of(shapes_uniform(&rng, -1, 1), shapes_uniform(&rng, -1, 1),
                                trial % 3 ? shapes_uniform(&rng, -1, 1) : 0.25);
-      if (trial % 7 == 0 && i > 3)
-        points[i] = points[i / 2];
+      if (trial % 7 == 0 && i > 3) points[i] = points[i / 2];
     }
     const nsvcd__points all = {points, count};
     const nsvcd__d3 centre = nsvcd__ball_centre(all);
@@ -636,8 +594,7 @@ static void surface_balls_are_minimal(void) {
 
 static int same_surface(const nsvcd__surface *a, const nsvcd__surface *b) {
   const size_t n = a->count;
-  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count)
-    return 0;
+  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count) return 0;
   return !memcmp(a->balls, b->balls, 16 * n) && !memcmp(a->discs, b->discs, 24 * n) &&
          !memcmp(a->steps, b->steps, 4 * n) && !memcmp(a->slacks, b->slacks, 4 * n) &&
          !memcmp(a->quanta, b->quanta, 4 * n) && !memcmp(a->hull_counts, b->hull_counts, n) &&
@@ -667,11 +624,12 @@ static void surface_allocation_fails(void) {
     failing_heap heap = {0, 0, 0};
     nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
     nsvcd__surface surface = untouched;
+    nsvcd__arena arena;
     heap.fail_at = fail_at;
     allocator.user = &heap;
-    const nsvcd_result result = surface_of(&mesh, 64, &allocator, &surface);
+    const nsvcd_result result = surface_of(&mesh, 64, &allocator, &arena, &surface);
     if (result == NSVCD_OK) {
-      nsvcd__surface_free(&surface);
+      nsvcd__arena_free(&arena);
       CHECK_EQ(heap.live, 0);
       break;
     }
@@ -689,10 +647,11 @@ static void surface_allocation_fails(void) {
 static void surface_too_large(void) {
   nsvcd_mesh mesh = surface_sheet(260, 1, 0);
   nsvcd__surface surface;
+  nsvcd__arena arena;
   failing_heap heap = {0, 0, -1};
   nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
   allocator.user = &heap;
-  CHECK_EQ(surface_of(&mesh, 1, &allocator, &surface), NSVCD_ERROR_TOO_LARGE);
+  CHECK_EQ(surface_of(&mesh, 1, &allocator, &arena, &surface), NSVCD_ERROR_TOO_LARGE);
   CHECK_EQ(heap.live, 0);
   nsvcd_mesh_free(&mesh, NULL);
 }

@@ -32,8 +32,7 @@ static void tasks_ur5_formula(const double *q, double *out) {
     for (int r = 0; r < 3; r++)
       for (int k = 0; k < 4; k++) {
         next[4 * r + k] = 0;
-        for (int j = 0; j < 4; j++)
-          next[4 * r + k] += t[4 * r + j] * m[4 * j + k];
+        for (int j = 0; j < 4; j++) next[4 * r + k] += t[4 * r + j] * m[4 * j + k];
       }
     memcpy(t, next, sizeof t);
   }
@@ -50,19 +49,16 @@ static void tasks_ur5_is_where_the_formula_says(void) {
   task_begin(&scene, "", 5);
   task_add_ur5(&scene, 0);
   for (int n = 0; n < 200; n++) {
-    if (n)
-      task_random_joints(&scene, NULL, 0, q);
+    if (n) task_random_joints(&scene, NULL, 0, q);
     tasks_ur5_formula(q, expected);
     task_links(&scene, q, links);
     oracle_transform(&links[6], tool, flange);
     oracle_matrix(links[6].rotation, m);
     for (int i = 0; i < 3; i++) {
       CHECK_NEAR(flange[i], expected[4 * i + 3], 1e-12);
-      for (int k = 0; k < 3; k++)
-        CHECK_NEAR(m[3 * i + k], expected[4 * i + k], 1e-12);
+      for (int k = 0; k < 3; k++) CHECK_NEAR(m[3 * i + k], expected[4 * i + k], 1e-12);
     }
-    if (n)
-      continue;  // at zero, the numbers that every user of a UR5 knows
+    if (n) continue;  // at zero, the numbers that every user of a UR5 knows
     CHECK_NEAR(flange[0], -0.81725, 1e-9);
     CHECK_NEAR(flange[1], -0.19145, 1e-9);
     CHECK_NEAR(flange[2], -0.005491, 1e-9);
@@ -79,14 +75,12 @@ static void tasks_armada_is_symmetric(void) {
     oracle_pose links[TASK_MAX_JOINTS + 1];
     const double tool[2][3] = {{0.021, 0.07, -0.0165}, {-0.021, 0.07, -0.0165}};
     task_random_joints(&scene, NULL, 0, q);
-    for (int j = 0; j < 6; j++)
-      q[6 + j] = -q[j];
+    for (int j = 0; j < 6; j++) q[6 + j] = -q[j];
     CHECK(task_in_limits(&scene, q));
     task_links(&scene, q, links);
     oracle_transform(&links[6], tool[0], left);
     oracle_transform(&links[12], tool[1], right);
-    for (int k = 0; k < 3; k++)
-      CHECK_NEAR(left[k], k == 1 ? -right[k] : right[k], 1e-12);
+    for (int k = 0; k < 3; k++) CHECK_NEAR(left[k], k == 1 ? -right[k] : right[k], 1e-12);
   }
   task_free(&scene);
 }
@@ -104,8 +98,7 @@ static void tasks_inverse_kinematics(void) {
     task_links(&scene, truth, links);
     target = task_body_pose(&scene, 5, links);
     task_random_joints(&scene, nominal, 0.3, q);
-    if (!task_ik(&scene, q, 5, -1, &target))
-      continue;
+    if (!task_ik(&scene, q, 5, -1, &target)) continue;
     solved++;
     CHECK(task_in_limits(&scene, q));
     task_error(&scene, q, 5, -1, &target, error);
@@ -143,8 +136,7 @@ static void tasks_bodies_are_closed(void) {
           positions[k] = (double)mesh->positions[k];
         int closed =
             oracle_is_closed(positions, mesh->vertex_count, mesh->indices, mesh->triangle_count);
-        if (!closed)
-          printf("%s: not closed\n", scene.bodies[i].name);
+        if (!closed) printf("%s: not closed\n", scene.bodies[i].name);
         CHECK(closed);
         double volume = 0;  // positive: wound outwards
         for (size_t k = 0; k < scene.bodies[i].exact.triangle_count; k++) {
@@ -171,8 +163,7 @@ static void tasks_starts_and_goals_are_free(void) {
         CHECK(scene.pair_count > 0);
         for (int end = 0; end < 3; end++) {
           double q[TASK_MAX_JOINTS];
-          for (int j = 0; j < scene.joint_count; j++)
-            q[j] = (double)ends[end][j];
+          for (int j = 0; j < scene.joint_count; j++) q[j] = (double)ends[end][j];
           CHECK(task_configuration_free(&scene, q, end == 2 ? TASK_CLEAR / 2 : TASK_CLEAR));
         }
       }
@@ -186,8 +177,7 @@ static void tasks_dishes_settle(void) {
     static task_scene scene;
     CHECK(task_dish_episode(&scene, seed));
     int rack = 0;
-    while (strcmp(scene.bodies[rack].name, "rack"))
-      rack++;
+    while (strcmp(scene.bodies[rack].name, "rack")) rack++;
     for (int i = 0; i < 3; i++) {
       const oracle_mesh *dish = &scene.bodies[scene.held[i]].exact;
       oracle_pose lower = scene.settled[i];
@@ -205,8 +195,7 @@ static void tasks_dishes_settle(void) {
                               &scene.settled[k], NULL, NULL) > 0.01);
       double q[TASK_MAX_JOINTS];
       task_select(&scene, i);
-      for (int j = 0; j < scene.joint_count; j++)
-        q[j] = (double)scene.problems[i].goal[j];
+      for (int j = 0; j < scene.joint_count; j++) q[j] = (double)scene.problems[i].goal[j];
       task_links(&scene, q, links);
       oracle_pose held = task_body_pose(&scene, scene.held[i], links);
       for (int k = 0; k < 3; k++)
@@ -233,8 +222,7 @@ static void tasks_attach_and_release(void) {
         pairs += scene.pairs[k][0] == body || scene.pairs[k][1] == body;
       CHECK_EQ(pairs > 0, i <= selected);
       CHECK_EQ(memcmp(&at_start[body], &at_goal[body], sizeof at_goal[0]) != 0, i == selected);
-      if (i < selected)
-        CHECK_NEAR(at_goal[body].position[2], scene.settled[i].position[2], 1e-6);
+      if (i < selected) CHECK_NEAR(at_goal[body].position[2], scene.settled[i].position[2], 1e-6);
     }
   }
   task_free(&scene);
@@ -253,8 +241,7 @@ static void tasks_judge(void) {
     task_problem *problem = &scene.problems[0];
     memcpy(problem->start, problem->goal, sizeof problem->goal);
     for (int s = 0; s < 21; s++)
-      for (int j = 0; j < n; j++)
-        path[s * n + j] = problem->goal[j];
+      for (int j = 0; j < n; j++) path[s * n + j] = problem->goal[j];
     CHECK(task_check(&scene, path, 21, &verdict));
     CHECK(verdict.free && verdict.in_limits && verdict.at_goal);
     CHECK(task_check(&scene, path, 1, NULL));
@@ -271,8 +258,7 @@ static void tasks_judge(void) {
     // Into something for one sample between free ones: a joint turns until something is hit.
     double q[TASK_MAX_JOINTS];
     double hit = 0;
-    for (int j = 0; j < n; j++)
-      q[j] = (double)problem->goal[j];
+    for (int j = 0; j < n; j++) q[j] = (double)problem->goal[j];
     int joint = task == 2 ? 0 : task == 1 ? 5 : 1;
     for (; hit < 1.5 && task_configuration_free(&scene, q, 0); hit += 0.02)
       q[joint] += task == 1 ? -0.02 : 0.02;
@@ -303,8 +289,7 @@ static void tasks_judge_agrees_with_distances(void) {
       for (int s = 0; s <= steps && least > 0; s++) {
         double q[TASK_MAX_JOINTS];
         oracle_pose links[TASK_MAX_JOINTS + 1];
-        for (int j = 0; j < n; j++)
-          q[j] = line[j] + (line[n + j] - line[j]) * s / steps;
+        for (int j = 0; j < n; j++) q[j] = line[j] + (line[n + j] - line[j]) * s / steps;
         task_links(&scene, q, links);
         for (int p = 0; p < scene.pair_count && least > 0; p++) {
           int a = scene.pairs[p][0];
@@ -317,10 +302,8 @@ static void tasks_judge_agrees_with_distances(void) {
         }
       }
       int free_line = task_keeps(&scene, line, 2, 0, NULL);
-      if (least <= 0)
-        CHECK(!free_line);  // a collision that sampling sees, the judge sees
-      if (!free_line)
-        CHECK_LE(least, 0.02);  // and none where nothing is near
+      if (least <= 0) CHECK(!free_line);      // a collision that sampling sees, the judge sees
+      if (!free_line) CHECK_LE(least, 0.02);  // and none where nothing is near
       collisions += !free_line;
       problems++;
       task_free(&scene);

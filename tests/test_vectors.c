@@ -2,7 +2,7 @@
 // double. On the vectors that the compiler's flags allow: `make check-levels` tries each level.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/lanes/turns.h"
 
 #include "../examples/scenery/oracle.h"
 #include "check.h"
@@ -79,11 +79,9 @@ static void vectors_compare(const char *name, vectors_lanes *lanes, vectors_one 
     for (size_t l = 0; l < NSVCD__LANES; l++) {
 #if NSVCD__SLICE > 1 && defined(__aarch64__)
       // with NEON NaN wins, and -0 is less than 0
-      if (isnan(a[l]) || isnan(b[l]) || (a[l] == 0 && b[l] == 0))
-        continue;
+      if (isnan(a[l]) || isnan(b[l]) || (a[l] == 0 && b[l] == 0)) continue;
 #endif
-      if (vectors_same(out[l], one(a[l], b[l])))
-        continue;
+      if (vectors_same(out[l], one(a[l], b[l]))) continue;
       if (wrong++ == 0)
         printf("  %s(%a, %a): %a\n", name, (double)a[l], (double)b[l], (double)out[l]);
     }
@@ -172,8 +170,7 @@ static void vectors_least(void) {
     a[trial % NSVCD__LANES] = trial % 3 ? -INFINITY : INFINITY;
     NSVCD__EACH_SLICE(l) {
       float least = a[l];
-      for (size_t k = 0; k < NSVCD__SLICE; k++)
-        least = a[l + k] < least ? a[l + k] : least;
+      for (size_t k = 0; k < NSVCD__SLICE; k++) least = a[l + k] < least ? a[l + k] : least;
       CHECK_EQ(nsvcd__v_least(nsvcd__v_load(a + l)), least);
     }
   }
@@ -206,8 +203,7 @@ static void vectors_of_small_numbers(void) {
   float to[NSVCD__LANES];
   size_t wrong = 0;
   for (int32_t n = INT16_MIN; n <= INT16_MAX; n++) {
-    for (size_t l = 0; l < NSVCD__LANES; l++)
-      from[l] = (int16_t)((n + 4099 * (int32_t)l) % 32768);
+    for (size_t l = 0; l < NSVCD__LANES; l++) from[l] = (int16_t)((n + 4099 * (int32_t)l) % 32768);
     from[n & 15] = (int16_t)n;
     NSVCD__EACH_SLICE(l) {
       nsvcd__v_store(to + l, nsvcd__v_load_int16(from + l));
@@ -240,28 +236,23 @@ static void vectors_rows(void) {
     nsvcd__vmat3_store(copy, l, nsvcd__vmat3_load(lanes, l));
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) {
-    for (size_t k = 0; k < 4; k++)
-      CHECK_EQ(to[k * VECTORS_STRIDE + l], 100 * k + l);
-    for (size_t k = 0; k < 3; k++)
-      CHECK_EQ(to[(4 + k) * VECTORS_STRIDE + l], 100 * k + l);
+    for (size_t k = 0; k < 4; k++) CHECK_EQ(to[k * VECTORS_STRIDE + l], 100 * k + l);
+    for (size_t k = 0; k < 3; k++) CHECK_EQ(to[(4 + k) * VECTORS_STRIDE + l], 100 * k + l);
     const nsvcd__mat3 m = nsvcd__mat3_lane(lanes, l);
     const float *number = &m.x.x;
-    for (size_t k = 0; k < 9; k++)
-      CHECK_EQ(number[k], 100 * k + l);
+    for (size_t k = 0; k < 9; k++) CHECK_EQ(number[k], 100 * k + l);
     nsvcd__lane_set(nsvcd__f3_of(-1, -2, -3), copy, l);
     CHECK_EQ(nsvcd__lane_of(copy, l).y, -2);
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) {
-    for (size_t k = 0; k < 9; k++)
-      CHECK_EQ(copy[k][l], k < 3 ? -1 - (float)k : lanes[k][l]);
+    for (size_t k = 0; k < 9; k++) CHECK_EQ(copy[k][l], k < 3 ? -1 - (float)k : lanes[k][l]);
     CHECK_EQ(to[3 * VECTORS_STRIDE + NSVCD__LANES], 0);  // between two rows: nothing
   }
   NSVCD__EACH_SLICE(l) {
     nsvcd__v3_store(copy, l, nsvcd__v3_rows(lanes[4] + l));
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) {
-    for (size_t k = 0; k < 3; k++)
-      CHECK_EQ(copy[k][l], lanes[4 + k][l]);
+    for (size_t k = 0; k < 3; k++) CHECK_EQ(copy[k][l], lanes[4 + k][l]);
   }
 }
 
@@ -296,25 +287,20 @@ static void mat3_to(vectors_in *out, size_t l, nsvcd__vmat3 a) {
 
 // The same in double, of n numbers: a + s b; s a; the lesser, the greater; the sum of products.
 static void sum_of(const double *a, double s, const double *b, size_t n, double *out) {
-  for (size_t k = 0; k < n; k++)
-    out[k] = a[k] + s * b[k];
+  for (size_t k = 0; k < n; k++) out[k] = a[k] + s * b[k];
 }
 static void times(double s, const double *a, size_t n, double *out) {
-  for (size_t k = 0; k < n; k++)
-    out[k] = s * a[k];
+  for (size_t k = 0; k < n; k++) out[k] = s * a[k];
 }
 static void lesser(const double *a, const double *b, size_t n, double *out) {
-  for (size_t k = 0; k < n; k++)
-    out[k] = fmin(a[k], b[k]);
+  for (size_t k = 0; k < n; k++) out[k] = fmin(a[k], b[k]);
 }
 static void greater(const double *a, const double *b, size_t n, double *out) {
-  for (size_t k = 0; k < n; k++)
-    out[k] = fmax(a[k], b[k]);
+  for (size_t k = 0; k < n; k++) out[k] = fmax(a[k], b[k]);
 }
 static double product(const double *a, const double *b, size_t n) {
   double sum = 0;
-  for (size_t k = 0; k < n; k++)
-    sum += a[k] * b[k];
+  for (size_t k = 0; k < n; k++) sum += a[k] * b[k];
   return sum;
 }
 static void inverse(const double *q, double *out) {
@@ -331,16 +317,14 @@ static void matrix_of(const double *q, double *out) {
   oracle_matrix(of_length_1, out);
 }
 static void transposed(const double *m, double *out) {
-  for (size_t k = 0; k < 9; k++)
-    out[k] = m[k % 3 * 3 + k / 3];
+  for (size_t k = 0; k < 9; k++) out[k] = m[k % 3 * 3 + k / 3];
 }
 static void rotate_add(const double *m, const double *a, const double *p, double *out) {
   oracle_rotate(m, a, out);
   sum_of(p, 1, out, 3, out);
 }
 static void matrices(const double *a, const double *b, double *out) {
-  for (size_t i = 0; i < 3; i++)
-    oracle_rotate_back(b, a + 3 * i, out + 3 * i);
+  for (size_t i = 0; i < 3; i++) oracle_rotate_back(b, a + 3 * i, out + 3 * i);
 }
 
 // One transform for all lanes, and the same as numbers.
@@ -438,16 +422,14 @@ static size_t vectors_misses(const vectors_case *c, double scale, double out_sca
   static vectors_in in[VECTORS_MOST], out[9];
   size_t misses = 0;
   for (size_t i = 0; i < c->inputs; i++) {
-    for (size_t l = 0; l < NSVCD__LANES; l++)
-      in[i][l] = (float)(scale * uniform(-1, 1));
+    for (size_t l = 0; l < NSVCD__LANES; l++) in[i][l] = (float)(scale * uniform(-1, 1));
   }
   NSVCD__EACH_SLICE(l) {
     c->slice(in, l, out);
   }
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     double numbers[VECTORS_MOST], want[9];
-    for (size_t i = 0; i < c->inputs; i++)
-      numbers[i] = (double)in[i][l];
+    for (size_t i = 0; i < c->inputs; i++) numbers[i] = (double)in[i][l];
     c->lane(numbers, want);
     for (size_t i = 0; i < c->outputs; i++)
       misses += !(fabs((double)out[i][l] - want[i]) <= c->tolerance * out_scale);
@@ -459,10 +441,8 @@ static void vectors_against_double(void) {
   for (size_t n = 0; n < VECTORS_CASES; n++) {
     const vectors_case *c = &vectors_cases[n];
     size_t misses = 0;
-    for (int trial = 0; trial < 2000; trial++)
-      misses += vectors_misses(c, 1, 1);
-    if (misses > 0)
-      printf("  %s\n", c->name);
+    for (int trial = 0; trial < 2000; trial++) misses += vectors_misses(c, 1, 1);
+    if (misses > 0) printf("  %s\n", c->name);
     CHECK_EQ(misses, 0);
   }
 }
@@ -473,15 +453,13 @@ static void vectors_at_any_scale(void) {
     const vectors_case *c = &vectors_cases[n];
     const int is_length = !strcmp(c->name, "length");
     const int is_direction = !strcmp(c->name, "unit") || !strcmp(c->name, "quat_unit");
-    if (!is_length && !is_direction && strcmp(c->name, "mat3_of"))
-      continue;
+    if (!is_length && !is_direction && strcmp(c->name, "mat3_of")) continue;
     size_t misses = 0;
     for (int trial = 0; trial < 2000; trial++) {
       const double scale = pow(10, uniform(-15, 18));
       misses += vectors_misses(c, scale, is_length ? scale : 1);
     }
-    if (misses > 0)
-      printf("  %s\n", c->name);
+    if (misses > 0) printf("  %s\n", c->name);
     CHECK_EQ(misses, 0);
   }
 }

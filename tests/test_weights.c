@@ -2,7 +2,8 @@
 // numbers are worth is asked elsewhere: test_encoder.c, test_decoder.c, test_query.c.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/encoder/encoder.h"
+#include "../src/network/decoder.h"
 
 #include "check.h"
 
@@ -98,13 +99,11 @@ static void weights_padding_is_zero(void) {
     const nsvcd__layer first = nsvcd__layer_of(head, 0);
     const nsvcd__layer last = nsvcd__layer_of(head, head->layers - 1);
     for (size_t i = NSVCD__INPUTS; i < first.inputs; i++) {
-      for (size_t o = 0; o < first.outputs; o++)
-        CHECK_EQ(weights_float(&first, i, o), 0);
+      for (size_t o = 0; o < first.outputs; o++) CHECK_EQ(weights_float(&first, i, o), 0);
     }
     for (size_t o = 1; o < last.outputs; o++) {
       CHECK_EQ(nsvcd_w_decoder_bias[last.first + o], 0);
-      for (size_t i = 0; i < last.inputs; i++)
-        CHECK_EQ(weights_float(&last, i, o), 0);
+      for (size_t i = 0; i < last.inputs; i++) CHECK_EQ(weights_float(&last, i, o), 0);
     }
   }
 }
@@ -144,8 +143,7 @@ static void weights_check_numbers(const char *name, const float *numbers, size_t
     bad += !(fabsf(numbers[n]) < 100);
     zeros += numbers[n] == 0;
   }
-  if (bad > 0 || zeros == count)
-    printf("  nsvcd_w_%s\n", name);
+  if (bad > 0 || zeros == count) printf("  nsvcd_w_%s\n", name);
   CHECK_EQ(bad, 0);
   CHECK(zeros < count);
 }
@@ -180,8 +178,7 @@ static void weights_are_numbers(void) {
 // threshold.
 static void weights_thresholds_fall(void) {
   const float recalls[NSVCD_W_RECALLS] = {0, 0.99f, 0.999f, 0.9999f};
-  for (size_t k = 0; k < NSVCD_W_RECALLS; k++)
-    CHECK_EQ(nsvcd_w_recall[k], recalls[k]);
+  for (size_t k = 0; k < NSVCD_W_RECALLS; k++) CHECK_EQ(nsvcd_w_recall[k], recalls[k]);
   for (size_t h = 0; h < 3; h++) {
     for (size_t n = 0; n < NSVCD_W_SIZES; n++) {
       const float *row = nsvcd_w_threshold[h][n];

@@ -1,7 +1,7 @@
 // What is inside of what, for the network.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../neuralsvcd.h"
+#include "../src/network/winding_number.h"
 
 #include "arrays.h"
 #include "check.h"
@@ -50,23 +50,19 @@ static void containment(void) {
       int bin = in_radii < 1 ? 0 : in_radii < 1.5 ? 1 : in_radii < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, nsvcd__f3_load(at)) - want);
-      if (in_radii >= 0.75)
-        error[bin] = fmax(error[bin], off);
+      if (in_radii >= 0.75) error[bin] = fmax(error[bin], off);
       clear += in_radii >= (double)NSVCD__FAR_ENOUGH;
       rough += in_radii >= (double)NSVCD__FAR_ENOUGH && off > 0.3;
       // In the clear: exactly when it is inside. On the surface: anything. Outside: never.
-      if (distance < 1 - 0.1 - r)
-        CHECK(is_contained(inner, outer, rotation, at));
+      if (distance < 1 - 0.1 - r) CHECK(is_contained(inner, outer, rotation, at));
       if (distance < 1 - 0.1 - r) {
         float back[9], from[3];
         transpose33(rotation, back);
         mul33_vec(back, at, from);
-        for (int k = 0; k < 3; k++)
-          from[k] = -from[k];
+        for (int k = 0; k < 3; k++) from[k] = -from[k];
         CHECK(is_contained(outer, inner, back, from));
       }
-      if (distance > 1.1)
-        CHECK(!is_contained(inner, outer, rotation, at));
+      if (distance > 1.1) CHECK(!is_contained(inner, outer, rotation, at));
     }
     const float far[3] = {30, 0, 0};
     const float none[3] = {0, 0, 0};
@@ -96,8 +92,7 @@ static void containment_in_a_cavity(void) {
     centres[3 * 256 + n] = inner_centres[n];
     areas[3 * 256 + n] = -inner_areas[n];
   }
-  for (size_t n = 0; n < 256; n++)
-    radii[256 + n] = inner_radii[n];
+  for (size_t n = 0; n < 256; n++) radii[256 + n] = inner_radii[n];
   const nsvcd_body *hollow = build(512, &blob_a_memory);
   const nsvcd_body *ball = shell_body(32, 0.02, &blob_b_memory);
   const float middle[3] = {0, 0, 0};

@@ -18,12 +18,10 @@ static int name_of(const char *path, char *name, size_t size) {
   const char *slash = strrchr(path, '/');
   const char *base = slash ? slash + 1 : path;
   const size_t length = strcspn(base, ".");
-  if (length >= size)
-    return 0;
+  if (length >= size) return 0;
   for (size_t i = 0; i < length; i++) {
     name[i] = base[i];
-    if (!isalnum((unsigned char)base[i]))
-      name[i] = '_';
+    if (!isalnum((unsigned char)base[i])) name[i] = '_';
   }
   name[length] = 0;
   return 1;
@@ -67,8 +65,7 @@ static int bake(FILE *file, const char *path, const nsvcd_encode_options *option
   }
   write_body(file, path, name, body);
   const size_t points = nsvcd_body_describe(body).patches;
-  if (points > *most)
-    *most = points;
+  if (points > *most) *most = points;
   nsvcd_body_free(body, NULL);
   return 1;
 }
@@ -96,9 +93,7 @@ int main(int argc, char **argv) {
   }
   fprintf(file, "\n#define BODIES_PATCHES %lu\n", (unsigned long)most);
   good &= !ferror(file);
-  if (fclose(file) != 0)
-    good = 0;
-  if (!good)
-    remove(argv[3]);
+  if (fclose(file) != 0) good = 0;
+  if (!good) remove(argv[3]);
   return good ? 0 : 1;
 }

@@ -97,8 +97,7 @@ static void pose_question(uint32_t number, nsvcd_pose *poses, nsvcd_pose *b_pose
     case 1:  // the same while the mug turns about its axis
       poses[0] = upright(-0.3f, -0.1925f - 0.001f * step, 0.001f);
       poses[1] = upright(0.3f, -0.1925f - 0.001f * step, 0.001f);
-      if (number % 8 == 1)
-        poses[1] = pose_of(0.3f, -0.1925f - 0.001f * step, 0.001f, 0, 0, 1, 1);
+      if (number % 8 == 1) poses[1] = pose_of(0.3f, -0.1925f - 0.001f * step, 0.001f, 0, 0, 1, 1);
       break;
     case 2:  // across its highest bars, 1.5 mm too low up to 1.5 mm off
       poses[0] = upright(-0.3f, 0.11f, 0.1197f + 0.001f * step);
@@ -162,8 +161,7 @@ static int ask_all(const char *name, nsvcd_method method, const nsvcd_body *mug,
       return 0;
     }
     sum += taken;
-    if (taken > most)
-      most = taken;
+    if (taken > most) most = taken;
     print_answer(name, i, &answer);
   }
   if (measures) {
@@ -181,20 +179,17 @@ int main(void) {
   const nsvcd_body *rack;
   // What is in flash is as trustworthy as the code: only its header is looked at, nothing copied.
   nsvcd_result result = nsvcd_body_trust(mug_body, sizeof mug_body, &mug);
-  if (!result)
-    result = nsvcd_body_trust(dish_rack_body, sizeof dish_rack_body, &rack);
+  if (!result) result = nsvcd_body_trust(dish_rack_body, sizeof dish_rack_body, &rack);
   if (result) {
     board_print(nsvcd_result_string(result));
     board_print("\n");
     return 1;
   }
 #ifndef NSVCD_NO_PROOF
-  if (!ask_all("proof", NSVCD_METHOD_PROOF, mug, rack))
-    return 1;
+  if (!ask_all("proof", NSVCD_METHOD_PROOF, mug, rack)) return 1;
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (!ask_all("network", NSVCD_METHOD_NETWORK, mug, rack))
-    return 1;
+  if (!ask_all("network", NSVCD_METHOD_NETWORK, mug, rack)) return 1;
 #endif
   return 0;
 }

@@ -95,8 +95,7 @@ DRAW_DEF int draw_is_outside(const draw_view *view, const double (*corners)[3]) 
     const double a = corners[0][axis];
     const double b = corners[1][axis];
     const double c = corners[2][axis];
-    if (fmax(a, fmax(b, c)) < -1 || fmin(a, fmin(b, c)) > size[axis] + 1)
-      return 1;
+    if (fmax(a, fmax(b, c)) < -1 || fmin(a, fmin(b, c)) > size[axis] + 1) return 1;
   }
   return 0;
 }
@@ -113,8 +112,7 @@ DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangl
       edge = i;
     }
   }
-  if (draw_is_outside(list->view, (const double(*)[3])p))
-    return;
+  if (draw_is_outside(list->view, (const double(*)[3])p)) return;
   if (longest > list->view->cut) {
     double a[3][3], b[3][3];
     memcpy(a, world, sizeof a);
@@ -144,10 +142,8 @@ DRAW_DEF void draw_one(draw_list *list, const oracle_triangle *t, const oracle_p
   double world[3][3], m[9], normal[3];
   oracle_matrix(pose->rotation, m);
   oracle_rotate(m, t->normal, normal);
-  if (oracle_dot(normal, to_viewer) <= 0)
-    return;
-  for (int k = 0; k < 3; k++)
-    oracle_transform(pose, t->v[k], world[k]);
+  if (oracle_dot(normal, to_viewer) <= 0) return;
+  for (int k = 0; k < 3; k++) oracle_transform(pose, t->v[k], world[k]);
   triangle.light = 0.5 + 0.5 * oracle_dot(normal, to_light);
   draw_split(list, (const double(*)[3])world, &triangle);
 }
@@ -164,8 +160,7 @@ DRAW_DEF void draw_sheet(draw_list *list, const oracle_mesh *mesh, const oracle_
     oracle_triangle back = mesh->triangles[i];
     memcpy(back.v[1], mesh->triangles[i].v[2], sizeof back.v[1]);
     memcpy(back.v[2], mesh->triangles[i].v[1], sizeof back.v[2]);
-    for (int k = 0; k < 3; k++)
-      back.normal[k] = -back.normal[k];
+    for (int k = 0; k < 3; k++) back.normal[k] = -back.normal[k];
     draw_one(list, &mesh->triangles[i], pose, colour, opacity);
     draw_one(list, &back, pose, colour, opacity);
   }
@@ -175,8 +170,7 @@ DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale
   oracle_mesh mesh;
   list->failed |= !oracle_mesh_init(&mesh, shape->positions, shape->vertices, shape->indices,
                                     shape->triangles, scale);
-  if (list->failed)
-    return;
+  if (list->failed) return;
   draw_solid(list, &mesh, pose, colour, 1);
   oracle_mesh_free(&mesh);
 }
@@ -188,8 +182,7 @@ DRAW_DEF int draw_compare(const void *a, const void *b) {
 // Draws the list, the farthest first, and empties it.
 DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
   unsigned before = 0;  // a fill that triangles before this one have
-  if (list->count)
-    qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
+  if (list->count) qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
   for (size_t i = 0; i < list->count; i++) {
     const draw_triangle *t = &list->triangles[i];
     unsigned fill = (unsigned)(100 * t->opacity) << 24;
@@ -209,8 +202,7 @@ DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
     fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1],
             t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1]);
   }
-  if (list->count)
-    fprintf(svg, "\"/>\n");
+  if (list->count) fprintf(svg, "\"/>\n");
   free(list->triangles);
   list->triangles = NULL;
   list->count = list->capacity = 0;
@@ -230,18 +222,15 @@ DRAW_DEF int draw_may_write(const char *path) {
   char begin[4] = "";
   FILE *file = fopen(path, "rb");
   const size_t size = file ? fread(begin, 1, sizeof begin, file) : 0;
-  if (file)
-    fclose(file);
-  if (size == 0 || memcmp(begin, "<svg", 4) == 0 || memcmp(begin, "<?xm", 4) == 0)
-    return 1;
+  if (file) fclose(file);
+  if (size == 0 || memcmp(begin, "<svg", 4) == 0 || memcmp(begin, "<?xm", 4) == 0) return 1;
   return fprintf(stderr, "%s: is there already, and is no SVG\n", path), 0;
 }
 
 // Returns NULL after a message if the file cannot be written.
 DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *title,
                          const char *subtitle) {
-  if (!draw_may_write(path))
-    return NULL;
+  if (!draw_may_write(path)) return NULL;
   FILE *svg = fopen(path, "w");
   if (!svg) {
     fprintf(stderr, "%s: cannot be written\n", path);
@@ -264,8 +253,7 @@ DRAW_DEF FILE *draw_open(const char *path, int width, int height, const char *ti
 DRAW_DEF int draw_close(FILE *svg) {
   fprintf(svg, "</svg>\n");
   int good = !ferror(svg);
-  if (fclose(svg) == 0 && good)
-    return 1;
+  if (fclose(svg) == 0 && good) return 1;
   return fprintf(stderr, "the picture cannot be written\n"), 0;
 }
 // What follows is drawn in this panel, cut off at its edges, until draw_panel_end.

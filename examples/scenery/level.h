@@ -49,8 +49,7 @@ SHAPES_DEF void level_ground(shapes_mesh *mesh, double side, uint32_t cells) {
 SHAPES_DEF void level_boulder(shapes_mesh *mesh, double radius, int rings, double phase) {
   const size_t first = mesh->vertices;
   double profile[513][2];
-  if (rings > 512)
-    rings = 512;
+  if (rings > 512) rings = 512;
   for (int i = 0; i <= rings; i++) {
     const double angle = SHAPES_PI * i / rings;
     profile[i][0] = i == 0 || i == rings ? 0 : radius * sin(angle);
@@ -61,16 +60,14 @@ SHAPES_DEF void level_boulder(shapes_mesh *mesh, double radius, int rings, doubl
     double *p = mesh->positions + 3 * v;
     const double bump = 0.12 * sin(4 * p[0] / radius + phase) * sin(3 * p[1] / radius) *
                         cos(4 * p[2] / radius + phase);
-    for (size_t k = 0; k < 3; k++)
-      p[k] *= 1 + bump;
+    for (size_t k = 0; k < 3; k++) p[k] *= 1 + bump;
   }
 }
 
 // A pillar with rings about it: cells x cells.
 SHAPES_DEF void level_pillar(shapes_mesh *mesh, double radius, double height, int cells) {
   double profile[515][2];
-  if (cells > 512)
-    cells = 512;
+  if (cells > 512) cells = 512;
   for (int i = 0; i <= cells; i++) {
     const double share = (double)i / cells;
     profile[i + 1][0] = radius * (1 + 0.1 * sin(12 * share));
@@ -85,8 +82,7 @@ SHAPES_DEF void level_pillar(shapes_mesh *mesh, double radius, double height, in
 // An arch: half a ring, its ends in the ground.
 SHAPES_DEF void level_arch(shapes_mesh *mesh, double radius, double thickness, int cells) {
   double path[513][3];
-  if (cells > 512)
-    cells = 512;
+  if (cells > 512) cells = 512;
   for (int i = 0; i <= cells; i++) {
     const double angle = SHAPES_PI * (1.2 * i / cells - 0.1);
     path[i][0] = radius * cos(angle);

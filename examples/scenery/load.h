@@ -26,13 +26,11 @@ static void quote_line(const char *path, size_t line, char *out, size_t size) {
   int c = file ? getc(file) : EOF;
   size_t n = 0;
   for (size_t at = 1; c != EOF && at <= line; c = getc(file)) {
-    if (at == line && c != '\n' && c != '\r' && n + 1 < size)
-      out[n++] = (char)(c < 32 ? ' ' : c);
+    if (at == line && c != '\n' && c != '\r' && n + 1 < size) out[n++] = (char)(c < 32 ? ' ' : c);
     at += c == '\n';
   }
   out[n] = 0;
-  if (file)
-    fclose(file);
+  if (file) fclose(file);
 }
 
 // What follows the folder in a path.
@@ -44,8 +42,7 @@ static const char *file_name(const char *path) {
 #endif
   const char *name = path;
   for (; *path; path++)
-    if (strchr(ends, *path))
-      name = path + 1;
+    if (strchr(ends, *path)) name = path + 1;
   return name;
 }
 
@@ -55,8 +52,7 @@ static const char *foreign(const char *path) {
                                      ".dae", ".3ds", ".step", ".stp",  ".usd"};
   const char *dot = strrchr(path, '.');
   for (size_t i = 0; dot && i < sizeof ends / sizeof ends[0]; i++)
-    if (strcmp(dot, ends[i]) == 0)
-      return ends[i];
+    if (strcmp(dot, ends[i]) == 0) return ends[i];
   return NULL;
 }
 
@@ -65,15 +61,13 @@ static int load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
   size_t line = 0;
   char text[61];
   const nsvcd_result result = nsvcd_obj_load(path, NULL, mesh, &line);
-  if (!result)
-    return 1;
+  if (!result) return 1;
   if (result != NSVCD_ERROR_IO && foreign(path))
     return complain(
         "%s%s: svcd reads OBJ and .body files, no %s: convert it, as with Blender or "
         "'assimp export'",
         from, path, foreign(path));
-  if (!line)
-    return complain("%s%s: %s", from, path, reason_of(result));
+  if (!line) return complain("%s%s: %s", from, path, reason_of(result));
   quote_line(path, line, text, sizeof text);
   return complain("%s%s:%zu: %s: '%s'", from, path, line, reason_of(result), text);
 }
@@ -85,8 +79,7 @@ static const nsvcd_body *encode_mesh(const char *from, const char *path, const n
   const double start = seconds();
   const nsvcd_result result = nsvcd_encode(mesh, options, NULL, NULL, 0, &body);
   *taken = seconds() - start;
-  if (result)
-    complain("%s%s: %s", from, path, reason_of(result));
+  if (result) complain("%s%s: %s", from, path, reason_of(result));
   return body;
 }
 
@@ -98,8 +91,7 @@ static int take_scales(const char *text, size_t count, float *scales) {
   const char *comma = text ? strchr(text, ',') : NULL;
   const char *second = comma ? comma + 1 : text;
   scales[0] = scales[1] = 1;
-  if (!text)
-    return 1;
+  if (!text) return 1;
   snprintf(copy, sizeof copy, "%.*s", comma ? (int)(comma - text) : 63, text);
   int good =
       (!comma || count == 2) && parse_float(copy, &scales[0]) && parse_float(second, &scales[1]);
@@ -138,13 +130,10 @@ static int load_obj(const char *path, float scale, thing *t) {
   memset(t, 0, sizeof *t);
   t->path = path;
   t->scale = 1;
-  if (!load_mesh("", path, &t->mesh))
-    return 0;
-  if (!mesh_check(&t->mesh, (double)scale, &t->report))
-    return complain("out of memory");
+  if (!load_mesh("", path, &t->mesh)) return 0;
+  if (!mesh_check(&t->mesh, (double)scale, &t->report)) return complain("out of memory");
   t->fault_count = mesh_findings(&t->report, t->faults, &t->grave);
-  for (size_t i = 0; i < 3 * t->mesh.vertex_count; i++)
-    t->mesh.positions[i] *= scale;
+  for (size_t i = 0; i < 3 * t->mesh.vertex_count; i++) t->mesh.positions[i] *= scale;
   memcpy(t->low, t->report.low, sizeof t->low);
   memcpy(t->high, t->report.high, sizeof t->high);
   return 1;
@@ -158,16 +147,14 @@ static int is_solid(const thing *t) {
 // Makes the body. Returns 0 after a complaint.
 static int encode_thing(thing *t, const nsvcd_encode_options *options) {
   t->body = encode_mesh("", t->path, &t->mesh, options, &t->taken);
-  if (!t->body)
-    return 0;
+  if (!t->body) return 0;
   const nsvcd_body_facts facts = nsvcd_body_describe(t->body);
   t->fault_count += mesh_find_large(&t->mesh, &facts, t->faults[t->fault_count]);
   return 1;
 }
 
 static void warn_of(const thing *t, int count) {
-  for (int i = 0; i < count; i++)
-    complain("warning: %s: %s", t->path, t->faults[i]);
+  for (int i = 0; i < count; i++) complain("warning: %s: %s", t->path, t->faults[i]);
 }
 
 static int ends_with(const char *text, const char *end) {
@@ -180,8 +167,7 @@ static int is_body_file(const char *path) {
   char begin[4] = "";
   FILE *file = fopen(path, "rb");
   const size_t size = file ? fread(begin, 1, sizeof begin, file) : 0;
-  if (file)
-    fclose(file);
+  if (file) fclose(file);
   const int is_blob = memcmp(begin, "NSVB", 4) == 0 || memcmp(begin, "BVSN", 4) == 0;
   return ends_with(path, ".body") || (size == 4 && is_blob);
 }
@@ -213,13 +199,11 @@ static int load_body(const char *path, float scale, thing *t) {
   t->path = path;
   t->scale = scale;
   t->memory = read_file(path, &size);
-  if (!t->memory)
-    return 0;
+  if (!t->memory) return 0;
   const nsvcd_result result = nsvcd_body_load(t->memory, size, &t->body);
   if (result && has_other_byte_order(t->memory, size))
     return complain("%s: encoded on a machine of the other byte order", path);
-  if (result)
-    return complain("%s: %s", path, reason_of(result));
+  if (result) return complain("%s: %s", path, reason_of(result));
   box_of_balls(t);
   return 1;
 }
@@ -227,8 +211,7 @@ static int load_body(const char *path, float scale, thing *t) {
 // Returns 0 after a complaint.
 static int load_thing(const char *path, float scale, const nsvcd_encode_options *options,
                       thing *t) {
-  if (is_body_file(path))
-    return load_body(path, scale, t);
+  if (is_body_file(path)) return load_body(path, scale, t);
   const int good = load_obj(path, scale, t) && encode_thing(t, options);
   warn_of(t, t->grave);
   return good;

@@ -75,10 +75,8 @@ MESH_DEF int mesh_parts_init(mesh_parts *parts, const nsvcd_mesh *mesh, double s
     return 0;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     parts->positions[i] = scale * (double)mesh->positions[i];
-  if (!oracle_weld(parts->positions, mesh->vertex_count, parts->welded))
-    return 0;
-  for (size_t i = 0; i < mesh->vertex_count; i++)
-    parts->parents[i] = (uint32_t)i;
+  if (!oracle_weld(parts->positions, mesh->vertex_count, parts->welded)) return 0;
+  for (size_t i = 0; i < mesh->vertex_count; i++) parts->parents[i] = (uint32_t)i;
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
     const uint32_t a = oracle_find(parts->parents, parts->welded[mesh->indices[i]]);
     const uint32_t b = oracle_find(parts->parents, parts->welded[mesh->indices[i - i % 3]]);
@@ -92,8 +90,7 @@ MESH_DEF int mesh_parts_init(mesh_parts *parts, const nsvcd_mesh *mesh, double s
 // The welded corners of triangle t, and its component.
 MESH_DEF mesh_component *mesh_corners(mesh_parts *parts, const nsvcd_mesh *mesh, size_t t,
                                       uint32_t *corners) {
-  for (size_t k = 0; k < 3; k++)
-    corners[k] = parts->welded[mesh->indices[3 * t + k]];
+  for (size_t k = 0; k < 3; k++) corners[k] = parts->welded[mesh->indices[3 * t + k]];
   return &parts->components[oracle_find(parts->parents, corners[0])];
 }
 
@@ -146,8 +143,7 @@ MESH_DEF void mesh_list_edges(const nsvcd_mesh *mesh, mesh_parts *parts) {
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     uint32_t corners[3];
     const mesh_component *component = mesh_corners(parts, mesh, t, corners);
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-      continue;
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
     for (size_t k = 0; k < 3; k++) {
       const uint64_t from = corners[k];
       const uint64_t to = corners[(k + 1) % 3];
@@ -170,8 +166,7 @@ MESH_DEF void mesh_judge_edges(mesh_parts *parts, mesh_report *report) {
     report->open_edges += end - first == 1;
     report->crowded_edges += end - first > 2;
     report->turned_edges += end - first == 2 && sum != 0;
-    if (sum != 0)
-      parts->components[edges[first].root].open = 1;
+    if (sum != 0) parts->components[edges[first].root].open = 1;
   }
 }
 
@@ -193,8 +188,7 @@ MESH_DEF int mesh_check(const nsvcd_mesh *mesh, double scale, mesh_report *repor
   }
   for (size_t i = 0; good && i < mesh->vertex_count; i++) {
     const mesh_component *component = &parts.components[i];
-    if (!component->seen || component->open)
-      continue;
+    if (!component->seen || component->open) continue;
     report->closed++;
     report->volume += component->volume;
     report->inwards += component->volume < 0;
@@ -205,8 +199,7 @@ MESH_DEF int mesh_check(const nsvcd_mesh *mesh, double scale, mesh_report *repor
 
 MESH_DEF double mesh_extent(const mesh_report *report) {
   double most = 0;
-  for (int k = 0; k < 3; k++)
-    most = fmax(most, report->high[k] - report->low[k]);
+  for (int k = 0; k < 3; k++) most = fmax(most, report->high[k] - report->low[k]);
   return most;
 }
 
@@ -231,8 +224,7 @@ MESH_DEF int mesh_find_size(const mesh_report *report, char *line) {
 }
 MESH_DEF int mesh_find_volume(const mesh_report *report, char *line) {
   const double least = 1e-9 * pow(report->area, 1.5);  // a ball's is 0.09 of that
-  if (!report->closed || report->volume > least)
-    return 0;
+  if (!report->closed || report->volume > least) return 0;
   if (report->volume < -least)
     snprintf(line, MESH_LINE, "inside out: its volume is %.4g m3; turn its faces round",
              report->volume);
@@ -242,8 +234,7 @@ MESH_DEF int mesh_find_volume(const mesh_report *report, char *line) {
 }
 MESH_DEF int mesh_find_count(size_t count, const char *one, const char *many, const char *meaning,
                              char *line) {
-  if (count)
-    snprintf(line, MESH_LINE, "%zu %s: %s", count, count == 1 ? one : many, meaning);
+  if (count) snprintf(line, MESH_LINE, "%zu %s: %s", count, count == 1 ? one : many, meaning);
   return count > 0;
 }
 
@@ -252,16 +243,14 @@ MESH_DEF int mesh_find_count(size_t count, const char *one, const char *many, co
 MESH_DEF int mesh_find_large(const nsvcd_mesh *mesh, const nsvcd_body_facts *facts, char *line) {
   const double limit = 16 * (double)facts->mean_patch_radius;
   size_t large = 0;
-  if (facts->triangles < 16 * facts->patches)
-    return 0;
+  if (facts->triangles < 16 * facts->patches) return 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     double longest = 0;
     for (size_t i = 0; i < 3; i++) {
       const float *from = mesh->positions + 3 * (size_t)mesh->indices[3 * t + i];
       const float *to = mesh->positions + 3 * (size_t)mesh->indices[3 * t + (i + 1) % 3];
       double d[3];
-      for (int k = 0; k < 3; k++)
-        d[k] = (double)to[k] - (double)from[k];
+      for (int k = 0; k < 3; k++) d[k] = (double)to[k] - (double)from[k];
       longest = fmax(longest, oracle_length(d));
     }
     large += longest > limit;

@@ -30,10 +30,8 @@ static size_t edit_distance(const char *a, const char *b) {
   size_t row[OPTION_WORD_MOST + 1];
   const size_t n = strlen(a);
   const size_t m = strlen(b);
-  if (n > OPTION_WORD_MOST || m > OPTION_WORD_MOST)
-    return OPTION_WORD_MOST;
-  for (size_t j = 0; j <= m; j++)
-    row[j] = j;
+  if (n > OPTION_WORD_MOST || m > OPTION_WORD_MOST) return OPTION_WORD_MOST;
+  for (size_t j = 0; j <= m; j++) row[j] = j;
   for (size_t i = 1; i <= n; i++) {
     size_t corner = row[0];
     row[0] = i;
@@ -76,12 +74,9 @@ static int take_word(const option *o, const char *value, int *out) {
 static int take_value(const option *o, const char *value, void *settings) {
   char *place = (char *)settings + o->offset;
   float number;
-  if (o->kind == OPTION_FLAG)
-    *(int *)(void *)place = 1;
-  if (o->kind == OPTION_TEXT)
-    *(const char **)(void *)place = value;
-  if (o->kind == OPTION_WORD)
-    return take_word(o, value, (int *)(void *)place);
+  if (o->kind == OPTION_FLAG) *(int *)(void *)place = 1;
+  if (o->kind == OPTION_TEXT) *(const char **)(void *)place = value;
+  if (o->kind == OPTION_WORD) return take_word(o, value, (int *)(void *)place);
   if (o->kind == OPTION_COUNT)
     return parse_count(value, (size_t)o->low, (size_t)o->high, (size_t *)(void *)place);
   if (o->kind == OPTION_NUMBER) {
@@ -96,8 +91,7 @@ static int refuse_value(const option *o, const char *value) {
   char words[64];
   const char *limit = o->text ? o->text : "";
   snprintf(words, sizeof words, "%s", limit);
-  for (char *c = words; *c; c++)
-    *c = *c == '|' ? ' ' : *c;
+  for (char *c = words; *c; c++) *c = *c == '|' ? ' ' : *c;
   if (o->kind == OPTION_WORD)
     complain("%s %s: none of: %s", o->name, value, words);
   else
@@ -148,14 +142,11 @@ static int take_option(const command_line *line, int *i, void *settings) {
   const size_t length = strcspn(name, "=");
   const char *value = name[length] ? name + length + 1 : NULL;
   const option *o = find_option(line, name, length);
-  if (!o)
-    return refuse_option(line, name);
-  if (o->kind == OPTION_FLAG && value)
-    return complain("%s: takes no value", name), USAGE;
+  if (!o) return refuse_option(line, name);
+  if (o->kind == OPTION_FLAG && value) return complain("%s: takes no value", name), USAGE;
   if (o->kind != OPTION_FLAG && !value && *i + 1 == line->count)
     return complain("%s: a value is missing", name), USAGE;
-  if (o->kind != OPTION_FLAG && !value)
-    value = line->arguments[++*i];
+  if (o->kind != OPTION_FLAG && !value) value = line->arguments[++*i];
   return take_value(o, value, settings) ? DONE : refuse_value(o, value);
 }
 
@@ -168,8 +159,7 @@ static int take_options(const command_line *line, void *settings, const char **p
     const char *argument = line->arguments[i];
     if (argument[0] == '-' && argument[1]) {
       const int status = take_option(line, &i, settings);
-      if (status != DONE)
-        return status;
+      if (status != DONE) return status;
     } else if (*path_count == most) {
       complain("%s: one file too many: %s takes %zu", argument, line->name, most);
       return USAGE;

@@ -34,8 +34,7 @@ ORACLE_DEF double oracle_dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 ORACLE_DEF void oracle_sub(const double *a, const double *b, double *out) {
-  for (int i = 0; i < 3; i++)
-    out[i] = a[i] - b[i];
+  for (int i = 0; i < 3; i++) out[i] = a[i] - b[i];
 }
 ORACLE_DEF void oracle_cross(const double *a, const double *b, double *out) {
   double x = a[1] * b[2] - a[2] * b[1];
@@ -71,12 +70,10 @@ ORACLE_DEF void oracle_matrix(const double *q, double *m) {
   m[8] = 1 - 2 * (x * x + y * y);
 }
 ORACLE_DEF void oracle_rotate(const double *m, const double *v, double *out) {
-  for (int i = 0; i < 3; i++)
-    out[i] = oracle_dot(m + 3 * i, v);
+  for (int i = 0; i < 3; i++) out[i] = oracle_dot(m + 3 * i, v);
 }
 ORACLE_DEF void oracle_rotate_back(const double *m, const double *v, double *out) {
-  for (int i = 0; i < 3; i++)
-    out[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
+  for (int i = 0; i < 3; i++) out[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
 }
 ORACLE_DEF void oracle_quat_mul(const double *a, const double *b, double *out) {
   double x = a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1];
@@ -90,8 +87,7 @@ ORACLE_DEF void oracle_quat_mul(const double *a, const double *b, double *out) {
 }
 ORACLE_DEF void oracle_quat_normalize(double *q) {
   double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (int i = 0; i < 4; i++)
-    q[i] /= n;
+  for (int i = 0; i < 4; i++) q[i] /= n;
 }
 // Rotation from q0 to q1 on the shorter arc, as a world axis (unit) and an angle in [0, pi].
 ORACLE_DEF double oracle_quat_arc(const double *q0, const double *q1, double *axis) {
@@ -99,17 +95,14 @@ ORACLE_DEF double oracle_quat_arc(const double *q0, const double *q1, double *ax
   double d[4];
   oracle_quat_mul(q1, inverse, d);
   if (d[3] < 0)
-    for (int i = 0; i < 4; i++)
-      d[i] = -d[i];
+    for (int i = 0; i < 4; i++) d[i] = -d[i];
   double s = oracle_length(d);
-  for (int i = 0; i < 3; i++)
-    axis[i] = s > 0 ? d[i] / s : (i == 0);
+  for (int i = 0; i < 3; i++) axis[i] = s > 0 ? d[i] / s : (i == 0);
   return 2 * atan2(s, d[3]);
 }
 ORACLE_DEF void oracle_axis_angle(const double *axis, double angle, double *q) {
   double s = sin(angle / 2);
-  for (int i = 0; i < 3; i++)
-    q[i] = axis[i] * s;
+  for (int i = 0; i < 3; i++) q[i] = axis[i] * s;
   q[3] = cos(angle / 2);
 }
 // The pose at fraction f in [0,1] between two poses: position linear, rotation slerp on the shorter
@@ -126,20 +119,17 @@ ORACLE_DEF oracle_pose oracle_pose_between(const oracle_pose *a, const oracle_po
   return out;
 }
 ORACLE_DEF oracle_pose oracle_pose_at(const oracle_pose *poses, size_t count, double t) {
-  if (count == 1)
-    return poses[0];
+  if (count == 1) return poses[0];
   double s = t * (double)(count - 1);
   size_t i = s <= 0 ? 0 : (size_t)s;
-  if (i > count - 2)
-    i = count - 2;
+  if (i > count - 2) i = count - 2;
   return oracle_pose_between(&poses[i], &poses[i + 1], s - (double)i);
 }
 ORACLE_DEF void oracle_transform(const oracle_pose *pose, const double *v, double *out) {
   double m[9], r[3];
   oracle_matrix(pose->rotation, m);
   oracle_rotate(m, v, r);
-  for (int i = 0; i < 3; i++)
-    out[i] = r[i] + pose->position[i];
+  for (int i = 0; i < 3; i++) out[i] = r[i] + pose->position[i];
 }
 // `outer` after `inner`.
 ORACLE_DEF oracle_pose oracle_compose(const oracle_pose *outer, const oracle_pose *inner) {
@@ -161,18 +151,15 @@ ORACLE_DEF int oracle_weld_compare(const void *pa, const void *pb) {
   const oracle_weld_key *a = (const oracle_weld_key *)pa;
   const oracle_weld_key *b = (const oracle_weld_key *)pb;
   for (int i = 0; i < 3; i++)
-    if (a->v[i] < b->v[i] || a->v[i] > b->v[i])
-      return a->v[i] < b->v[i] ? -1 : 1;
+    if (a->v[i] < b->v[i] || a->v[i] > b->v[i]) return a->v[i] < b->v[i] ? -1 : 1;
   return (a->id > b->id) - (a->id < b->id);
 }
 // welded[i] = the lowest index of a vertex that is at exactly the same place as vertex i.
 ORACLE_DEF int oracle_weld(const double *positions, size_t vertices, uint32_t *welded) {
   oracle_weld_key *keys = (oracle_weld_key *)malloc((vertices + 1) * sizeof *keys);
-  if (!keys)
-    return 0;
+  if (!keys) return 0;
   for (size_t i = 0; i < vertices; i++) {
-    for (size_t k = 0; k < 3; k++)
-      keys[i].v[k] = positions[3 * i + k];
+    for (size_t k = 0; k < 3; k++) keys[i].v[k] = positions[3 * i + k];
     keys[i].id = (uint32_t)i;
   }
   qsort(keys, vertices, sizeof *keys, oracle_weld_compare);
@@ -273,13 +260,11 @@ ORACLE_DEF size_t oracle_partition(oracle_mesh *mesh, size_t begin, size_t end, 
       low[k] = fmin(low[k], c);
       high[k] = fmax(high[k], c);
     }
-    if (high[k] - low[k] > high[axis] - low[axis])
-      axis = k;
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
   }
   double split = (low[axis] + high[axis]) / 2;
   for (size_t i = begin; i < end; i++) {
-    if (oracle_centroid(&mesh->triangles[i], axis) > split)
-      continue;
+    if (oracle_centroid(&mesh->triangles[i], axis) > split) continue;
     oracle_triangle swap = mesh->triangles[i];
     mesh->triangles[i] = mesh->triangles[middle];
     mesh->triangles[middle++] = swap;
@@ -291,8 +276,7 @@ ORACLE_DEF void oracle_build(oracle_mesh *mesh, size_t index, size_t begin, size
   oracle_node_bounds(mesh, node, begin, end);
   node->child = 0;
   node->triangle = begin;
-  if (end - begin == 1)
-    return;
+  if (end - begin == 1) return;
   size_t middle = oracle_partition(mesh, begin, end, depth);
   node->child = mesh->node_count;
   mesh->node_count += 2;
@@ -306,12 +290,10 @@ ORACLE_DEF void oracle_triangle_normal(oracle_triangle *t) {
   oracle_cross(e0, e1, n);
   double area = oracle_length(n);
   double size = fmax(oracle_dot(e0, e0), oracle_dot(e1, e1));
-  for (int i = 0; i < 3; i++)
-    t->normal[i] = area > 1e-9 * size ? n[i] / area : 0;
+  for (int i = 0; i < 3; i++) t->normal[i] = area > 1e-9 * size ? n[i] / area : 0;
 }
 ORACLE_DEF uint32_t oracle_find(uint32_t *parent, uint32_t i) {
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
 }
 // One vertex of every connected component (after welding): where no surfaces touch, it speaks for
@@ -323,8 +305,7 @@ ORACLE_DEF int oracle_seeds(oracle_mesh *mesh, const double *positions, size_t v
   unsigned char *seen = (unsigned char *)calloc(vertices + 1, 1);
   mesh->seeds = (double *)malloc((3 * vertices + 1) * sizeof(double));
   int ok = parent && welded && seen && mesh->seeds && oracle_weld(positions, vertices, welded);
-  for (size_t i = 0; ok && i < vertices; i++)
-    parent[i] = (uint32_t)i;
+  for (size_t i = 0; ok && i < vertices; i++) parent[i] = (uint32_t)i;
   for (size_t i = 0; ok && i < 3 * mesh->triangle_count; i++) {
     uint32_t a = oracle_find(parent, welded[indices[i]]);
     uint32_t b = oracle_find(parent, welded[indices[i - i % 3]]);
@@ -332,8 +313,7 @@ ORACLE_DEF int oracle_seeds(oracle_mesh *mesh, const double *positions, size_t v
   }
   for (size_t i = 0; ok && i < 3 * mesh->triangle_count; i += 3) {
     uint32_t root = oracle_find(parent, welded[indices[i]]);
-    if (seen[root])
-      continue;
+    if (seen[root]) continue;
     seen[root] = 1;
     for (size_t k = 0; k < 3; k++)
       mesh->seeds[3 * mesh->seed_count + k] = scale * positions[3 * root + k];
@@ -404,8 +384,7 @@ ORACLE_DEF double oracle_segments(const double *p0, const double *p1, const doub
     double b = oracle_dot(d1, d2);
     double denominator = a * e - b * b;
     // Near parallel segments have a flat valley: any s will do, and clamping t corrects s below.
-    if (denominator > 1e-14 * a * e)
-      s = oracle_clamp01((b * f - c * e) / denominator);
+    if (denominator > 1e-14 * a * e) s = oracle_clamp01((b * f - c * e) / denominator);
     t = (b * s + f) / e;
     if (t < 0) {
       t = 0;
@@ -435,8 +414,7 @@ ORACLE_DEF int oracle_projects_inside(const oracle_triangle *t, const double *x)
     oracle_sub(t->v[(i + 1) % 3], t->v[i], edge);
     oracle_sub(x, t->v[i], to);
     oracle_cross(edge, to, c);
-    if (oracle_dot(c, t->normal) < 0)
-      return 0;
+    if (oracle_dot(c, t->normal) < 0) return 0;
   }
   return 1;
 }
@@ -459,12 +437,10 @@ ORACLE_DEF int oracle_edge_crosses(const oracle_triangle *a, const oracle_triang
   for (int k = 0; k < 3; k++) {
     double h0 = heights[k];
     double h1 = heights[(k + 1) % 3];
-    if ((h0 > 0) == (h1 > 0))
-      continue;
+    if ((h0 > 0) == (h1 > 0)) continue;
     for (int i = 0; i < 3; i++)
       x[i] = b->v[k][i] + h0 / (h0 - h1) * (b->v[(k + 1) % 3][i] - b->v[k][i]);
-    if (oracle_projects_inside(a, x))
-      return 1;
+    if (oracle_projects_inside(a, x)) return 1;
   }
   return 0;
 }
@@ -480,8 +456,7 @@ ORACLE_DEF double oracle_triangles(const oracle_triangle *a, const oracle_triang
   double gap_a = oracle_heights(a, b, over_a);
   double gap_b = oracle_heights(b, a, over_b);
   double gap = fmax(gap_a, gap_b);
-  if (gap * gap >= limit)
-    return gap * gap;
+  if (gap * gap >= limit) return gap * gap;
   int flat_a = oracle_dot(a->normal, a->normal) > 0;
   int flat_b = oracle_dot(b->normal, b->normal) > 0;
   if (gap <= 0 && ((flat_a && oracle_edge_crosses(a, b, over_a, x)) ||
@@ -509,8 +484,7 @@ ORACLE_DEF double oracle_triangles(const oracle_triangle *a, const oracle_triang
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       double d = oracle_segments(a->v[i], a->v[(i + 1) % 3], b->v[j], b->v[(j + 1) % 3], x, y);
-      if (d >= best)
-        continue;
+      if (d >= best) continue;
       best = d;
       memcpy(on_a, x, sizeof x);
       memcpy(on_b, y, sizeof y);
@@ -557,13 +531,11 @@ ORACLE_DEF void oracle_try_triangles(oracle_search *s, size_t ia, size_t ib) {
   double on_a[3], on_b[3];
   for (int k = 0; k < 3; k++) {
     oracle_rotate(s->rotation, b->v[k], moved.v[k]);
-    for (int i = 0; i < 3; i++)
-      moved.v[k][i] += s->position[i];
+    for (int i = 0; i < 3; i++) moved.v[k][i] += s->position[i];
   }
   oracle_rotate(s->rotation, b->normal, moved.normal);
   double d = oracle_triangles(&s->a->triangles[ia], &moved, s->best, on_a, on_b);
-  if (d >= s->best)
-    return;
+  if (d >= s->best) return;
   s->best = d;
   s->triangle_a = ia;
   s->triangle_b = ib;
@@ -590,15 +562,11 @@ ORACLE_DEF void oracle_descend(oracle_search *s, size_t ia, size_t ib) {
   double gap0 = oracle_box_gap(s, &s->a->nodes[a0], &s->b->nodes[b0]);
   double gap1 = oracle_box_gap(s, &s->a->nodes[a1], &s->b->nodes[b1]);
   if (gap0 <= gap1) {
-    if (gap0 < s->best)
-      oracle_descend(s, a0, b0);
-    if (gap1 < s->best)
-      oracle_descend(s, a1, b1);
+    if (gap0 < s->best) oracle_descend(s, a0, b0);
+    if (gap1 < s->best) oracle_descend(s, a1, b1);
   } else {
-    if (gap1 < s->best)
-      oracle_descend(s, a1, b1);
-    if (gap0 < s->best)
-      oracle_descend(s, a0, b0);
+    if (gap1 < s->best) oracle_descend(s, a1, b1);
+    if (gap0 < s->best) oracle_descend(s, a0, b0);
   }
 }
 ORACLE_DEF void oracle_search_pose(oracle_search *s, const oracle_pose *a, const oracle_pose *b) {
@@ -625,8 +593,7 @@ ORACLE_DEF double oracle_search_run(oracle_search *s, const oracle_pose *a, cons
   oracle_search_pose(s, a, b);
   s->best = limit < 1e150 ? limit * limit : DBL_MAX;
   oracle_try_triangles(s, s->triangle_a, s->triangle_b);
-  if (oracle_box_gap(s, &s->a->nodes[0], &s->b->nodes[0]) < s->best)
-    oracle_descend(s, 0, 0);
+  if (oracle_box_gap(s, &s->a->nodes[0], &s->b->nodes[0]) < s->best) oracle_descend(s, 0, 0);
   double found = sqrt(s->best);
   return found < limit ? found : limit;
 }
@@ -638,10 +605,8 @@ ORACLE_DEF double oracle_distance(const oracle_mesh *a, const oracle_pose *pose_
   oracle_search s;
   oracle_search_begin(&s, a, b);
   double d = oracle_search_run(&s, pose_a, pose_b, DBL_MAX);
-  if (on_a)
-    oracle_transform(pose_a, s.on_a, on_a);
-  if (on_b)
-    oracle_transform(pose_a, s.on_b, on_b);
+  if (on_a) oracle_transform(pose_a, s.on_a, on_a);
+  if (on_b) oracle_transform(pose_a, s.on_b, on_b);
   return d;
 }
 
@@ -681,8 +646,7 @@ ORACLE_DEF double oracle_inside(const oracle_mesh *inner, const oracle_pose *pos
     int outside = 0;
     for (int k = 0; k < 3; k++)
       outside = outside || local[k] < outer->low[k] || local[k] > outer->high[k];
-    if (!outside)
-      most = fmax(most, fabs(oracle_winding(outer, local)));
+    if (!outside) most = fmax(most, fabs(oracle_winding(outer, local)));
   }
   return most;
 }
@@ -716,8 +680,7 @@ ORACLE_DEF double oracle_path_bound(const oracle_mesh *mesh, const oracle_pose *
   oracle_matrix(middle.rotation, m);
   oracle_rotate(m, mesh->center, c);
   oracle_cross(axis, c, spin);
-  for (int i = 0; i < 3; i++)
-    velocity[i] = p1->position[i] - p0->position[i] + angle * spin[i];
+  for (int i = 0; i < 3; i++) velocity[i] = p1->position[i] - p0->position[i] + angle * spin[i];
   oracle_rotate_back(m, axis, body_axis);
   // the farthest corner of the bounds from the axis through c
   for (int corner = 0; corner < 8; corner++) {
@@ -745,8 +708,7 @@ ORACLE_DEF void oracle_motion_free(oracle_motion *motion) {
   motion->u = NULL;
 }
 ORACLE_DEF double oracle_motion_time(const oracle_motion *motion, double u) {
-  if (motion->count == 1)
-    return 0;
+  if (motion->count == 1) return 0;
   size_t low = 0;
   size_t high = motion->count - 1;
   while (high - low > 1) {
@@ -812,8 +774,7 @@ ORACLE_DEF double oracle_evaluate(oracle_sweep_state *s, double u, double limit)
   oracle_pose pose = oracle_pose_at(s->motion.poses, s->motion.count, time);
   double d = oracle_search_run(&s->search, s->fixed, &pose, limit);
   r->evaluations++;
-  if (d >= limit || d >= r->distance)
-    return d;
+  if (d >= limit || d >= r->distance) return d;
   r->distance = d;
   r->time = time;
   oracle_transform(s->fixed, s->search.on_a, r->on_fixed);
@@ -825,8 +786,7 @@ ORACLE_DEF int oracle_push(oracle_sweep_state *s, double u0, double u1, double d
   if (s->count == s->capacity) {
     size_t capacity = s->capacity ? 2 * s->capacity : 64;
     oracle_interval *heap = (oracle_interval *)realloc(s->heap, capacity * sizeof *heap);
-    if (!heap)
-      return 0;
+    if (!heap) return 0;
     s->heap = heap;
     s->capacity = capacity;
   }
@@ -841,10 +801,8 @@ ORACLE_DEF oracle_interval oracle_pop(oracle_sweep_state *s) {
   oracle_interval last = s->heap[--s->count];
   size_t i = 0;
   for (size_t child; (child = 2 * i + 1) < s->count; i = child) {
-    if (child + 1 < s->count && s->heap[child + 1].lower < s->heap[child].lower)
-      child++;
-    if (s->heap[child].lower >= last.lower)
-      break;
+    if (child + 1 < s->count && s->heap[child + 1].lower < s->heap[child].lower) child++;
+    if (s->heap[child].lower >= last.lower) break;
     s->heap[i] = s->heap[child];
   }
   s->heap[i] = last;
@@ -857,22 +815,18 @@ ORACLE_DEF int oracle_minimize(oracle_sweep_state *s, const oracle_options *opti
   double end = s->motion.u[s->motion.count - 1];
   double d0 = oracle_evaluate(s, 0, DBL_MAX);
   double d1 = end > 0 ? oracle_evaluate(s, end, DBL_MAX) : d0;
-  if (end > 0 && !oracle_push(s, 0, end, d0, d1))
-    return 0;
+  if (end > 0 && !oracle_push(s, 0, end, d0, d1)) return 0;
   r->lower = r->distance;
   while (s->count && r->distance > 0) {
     oracle_interval in = oracle_pop(s);
     // intervals that cannot fall below it do not matter
     double goal = r->distance - options->tolerance;
-    if (options->enough > 0)
-      goal = fmin(goal, options->enough);
+    if (options->enough > 0) goal = fmin(goal, options->enough);
     goal = fmax(goal, 0);  // this near, only a true intersection settles the matter
     r->lower = fmin(r->distance, in.lower);
-    if (in.lower > goal)
-      break;
+    if (in.lower > goal) break;
     // only where distance <= tolerance: undecided
-    if (in.u1 - in.u0 <= 0.02 * options->tolerance)
-      continue;
+    if (in.u1 - in.u0 <= 0.02 * options->tolerance) continue;
     double u =
         oracle_clamp01(0.5 + (in.d0 - in.d1) / (in.u1 - in.u0) / 2) * (in.u1 - in.u0) + in.u0;
     // Keep off the ends: there the distance is known (or bounded) already.
@@ -883,11 +837,9 @@ ORACLE_DEF int oracle_minimize(oracle_sweep_state *s, const oracle_options *opti
         fmax(fmax(2 * goal + (u - in.u0) - in.d0, 2 * goal + (in.u1 - u) - in.d1), goal) +
         1e-3 * options->tolerance;
     double d = oracle_evaluate(s, u, fmax(limit, 0.1 * options->tolerance));
-    if (!oracle_push(s, in.u0, u, in.d0, d) || !oracle_push(s, u, in.u1, d, in.d1))
-      return 0;
+    if (!oracle_push(s, in.u0, u, in.d0, d) || !oracle_push(s, u, in.u1, d, in.d1)) return 0;
   }
-  if (!s->count && !(r->lower < r->distance))
-    r->lower = r->distance;
+  if (!s->count && !(r->lower < r->distance)) r->lower = r->distance;
   return 1;
 }
 // Conservative advancement (Mirtich 1996): nothing can touch before u + d. Stops within half the
@@ -898,8 +850,7 @@ ORACLE_DEF void oracle_first_contact(oracle_sweep_state *s, double tolerance) {
   for (;;) {
     s->result->distance = DBL_MAX;  // the result follows the advance
     double d = oracle_evaluate(s, u, DBL_MAX);
-    if (d <= tolerance / 2 || u >= end)
-      break;
+    if (d <= tolerance / 2 || u >= end) break;
     u = fmin(u + d, end);
   }
   s->result->distance = 0;
@@ -912,10 +863,8 @@ ORACLE_DEF oracle_result oracle_sweep(const oracle_mesh *moving, const oracle_po
   oracle_options o = {0, 0, 0, 0};
   oracle_result r;
   oracle_sweep_state s;
-  if (options)
-    o = *options;
-  if (o.tolerance <= 0)
-    o.tolerance = 1e-4;
+  if (options) o = *options;
+  if (o.tolerance <= 0) o.tolerance = 1e-4;
   memset(&r, 0, sizeof r);
   memset(&s, 0, sizeof s);
   r.distance = DBL_MAX;
@@ -923,13 +872,11 @@ ORACLE_DEF oracle_result oracle_sweep(const oracle_mesh *moving, const oracle_po
   s.fixed = fixed_pose;
   oracle_search_begin(&s.search, fixed, moving);
   int ok = oracle_motion_init(&s.motion, moving, poses, count) && oracle_minimize(&s, &o);
-  if (ok && r.distance <= 0 && o.first_contact)
-    oracle_first_contact(&s, o.tolerance);
+  if (ok && r.distance <= 0 && o.first_contact) oracle_first_contact(&s, o.tolerance);
   oracle_motion_free(&s.motion);
   free(s.heap);
   r.status = !ok ? ORACLE_NO_MEMORY : r.distance <= 0 ? ORACLE_COLLIDES : ORACLE_FREE;
-  if (r.status != ORACLE_FREE)
-    return r;
+  if (r.status != ORACLE_FREE) return r;
   if (!o.no_inside)
     r.winding = fmax(oracle_inside(moving, &poses[0], fixed, fixed_pose),
                      oracle_inside(fixed, fixed_pose, moving, &poses[0]));

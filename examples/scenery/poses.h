@@ -10,19 +10,15 @@ static inline float pose_to_float(double x) {
 }
 static inline nsvcd_pose pose_rounded(const oracle_pose *pose) {
   nsvcd_pose out;
-  for (int k = 0; k < 3; k++)
-    out.position[k] = pose_to_float(pose->position[k]);
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] = pose_to_float(pose->rotation[k]);
+  for (int k = 0; k < 3; k++) out.position[k] = pose_to_float(pose->position[k]);
+  for (int k = 0; k < 4; k++) out.rotation[k] = pose_to_float(pose->rotation[k]);
   return out;
 }
 // The rotation is normalized, as the library's reader of it does.
 static inline oracle_pose pose_widened(const nsvcd_pose *pose) {
   oracle_pose out;
-  for (int k = 0; k < 3; k++)
-    out.position[k] = (double)pose->position[k];
-  for (int k = 0; k < 4; k++)
-    out.rotation[k] = (double)pose->rotation[k];
+  for (int k = 0; k < 3; k++) out.position[k] = (double)pose->position[k];
+  for (int k = 0; k < 4; k++) out.rotation[k] = (double)pose->rotation[k];
   oracle_quat_normalize(out.rotation);
   return out;
 }

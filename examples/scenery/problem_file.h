@@ -45,20 +45,17 @@ static int complain(const char *format, ...) {
 // tool may give up when there is none; the library never does.
 static void *allocate(size_t size) {
   void *memory = malloc(size ? size : 1);
-  if (memory)
-    return memory;
+  if (memory) return memory;
   complain("out of memory");
   exit(REFUSED);
 }
 
 // Makes room for one more item; `items` has `count`.
 static void *room_for_one(void *items, size_t count, size_t *capacity, size_t item_size) {
-  if (count < *capacity)
-    return items;
+  if (count < *capacity) return items;
   *capacity = *capacity ? 2 * *capacity : 64;
   items = *capacity > SIZE_MAX / item_size ? NULL : realloc(items, *capacity * item_size);
-  if (items)
-    return items;
+  if (items) return items;
   complain("out of memory");
   exit(REFUSED);
 }
@@ -71,20 +68,16 @@ static char *read_file(const char *path, size_t *size) {
   *size = 0;
   while (file && !ferror(file) && !feof(file)) {
     char *larger = (char *)allocate(capacity = capacity ? 2 * capacity : 65536);
-    if (text)
-      memcpy(larger, text, *size);
+    if (text) memcpy(larger, text, *size);
     free(text);
     text = larger;
     *size += fread(text + *size, 1, capacity - *size - 1, file);
     text[*size] = 0;
   }
   int good = file && !ferror(file);
-  if (!good)
-    complain("%s: %s", path, strerror(errno));
-  if (file)
-    fclose(file);
-  if (!good)
-    free(text);
+  if (!good) complain("%s: %s", path, strerror(errno));
+  if (file) fclose(file);
+  if (!good) free(text);
   return good ? text : NULL;
 }
 
@@ -98,20 +91,17 @@ static int parse_number(const char *text, double *out) {
 static int parse_float(const char *text, float *out) {
   double value;
   // no nan, nothing that overflows a float
-  if (!parse_number(text, &value) || !(fabs(value) <= 3e38))
-    return 0;
+  if (!parse_number(text, &value) || !(fabs(value) <= 3e38)) return 0;
   *out = (float)value;
   return 1;
 }
 // A whole number in [low, high].
 static int parse_count(const char *text, size_t low, size_t high, size_t *out) {
   char *end;
-  if (!isdigit((unsigned char)text[0]))
-    return 0;
+  if (!isdigit((unsigned char)text[0])) return 0;
   errno = 0;
   unsigned long long value = strtoull(text, &end, 10);
-  if (*end || errno || value < low || value > high)
-    return 0;
+  if (*end || errno || value < low || value > high) return 0;
   *out = (size_t)value;
   return 1;
 }
@@ -167,11 +157,9 @@ static int next_line(reader *r) {
     r->field_count = 0;
     for (char *field = strtok(line, " \t\r"); field;
          field = strtok(NULL, " \t\r"), r->field_count++) {
-      if (r->field_count < MOST_FIELDS)
-        r->fields[r->field_count] = field;
+      if (r->field_count < MOST_FIELDS) r->fields[r->field_count] = field;
     }
-    if (r->field_count)
-      return 1;
+    if (r->field_count) return 1;
   }
   return 0;
 }
@@ -196,24 +184,20 @@ static int read_pose(const reader *r, char *const *fields, nsvcd_pose *pose) {
     length += q[k] * q[k];
   }
   length = sqrt(length);
-  if (fabs(length - 1) > 1e-4)
-    return refuse(r, "the quaternion is not of unit length (to 1e-4)");
-  for (size_t k = 0; k < 4; k++)
-    pose->rotation[k] = (float)(q[k] / length);
+  if (fabs(length - 1) > 1e-4) return refuse(r, "the quaternion is not of unit length (to 1e-4)");
+  for (size_t k = 0; k < 4; k++) pose->rotation[k] = (float)(q[k] / length);
   return 1;
 }
 
 static int find_mesh(const problem_file *file, const char *name, size_t *index) {
   for (*index = 0; *index < file->mesh_count; ++*index)
-    if (strcmp(file->meshes[*index].name, name) == 0)
-      return 1;
+    if (strcmp(file->meshes[*index].name, name) == 0) return 1;
   return 0;
 }
 
 static int read_mesh_line(const reader *r, problem_file *file) {
   size_t found;
-  if (r->field_count != 3)
-    return refuse(r, "expected: mesh NAME PATH");
+  if (r->field_count != 3) return refuse(r, "expected: mesh NAME PATH");
   if (find_mesh(file, r->fields[1], &found))
     return refuse_field(r, "a second mesh of this name", r->fields[1]);
   file->meshes = (mesh_entry *)room_for_one(file->meshes, file->mesh_count, &file->mesh_capacity,
@@ -257,12 +241,10 @@ static int read_motions(reader *r, problem_file *file, problem *p) {
     if (!next_line(r) || strcmp(r->fields[0], "problem") == 0 || strcmp(r->fields[0], "mesh") == 0)
       return complain("%s:%zu: problem %s has %zu of its %zu poses", r->path, p->line, p->id, i,
                       count);
-    if (r->field_count != POSE_FIELDS)
-      return refuse(r, "expected a pose: x y z qx qy qz qw");
+    if (r->field_count != POSE_FIELDS) return refuse(r, "expected a pose: x y z qx qy qz qw");
     file->poses = (nsvcd_pose *)room_for_one(file->poses, file->pose_count, &file->pose_capacity,
                                              sizeof *file->poses);
-    if (!read_pose(r, r->fields, &file->poses[file->pose_count++]))
-      return 0;
+    if (!read_pose(r, r->fields, &file->poses[file->pose_count++])) return 0;
   }
   return 1;
 }
@@ -278,22 +260,17 @@ static int read_problem(reader *r, problem_file *file) {
   }
   p.id = fields[1];
   p.line = r->line;
-  if (!read_body_fields(r, file, fields + 2, &p.moving, &p.moving_scale))
-    return 0;
-  if (!read_body_fields(r, file, fields + 4, &p.fixed, &p.fixed_scale))
-    return 0;
-  if (!read_pose(r, fields + 6, &p.fixed_pose))
-    return 0;
-  if (!read_label(r, fields + 13, &p))
-    return 0;
+  if (!read_body_fields(r, file, fields + 2, &p.moving, &p.moving_scale)) return 0;
+  if (!read_body_fields(r, file, fields + 4, &p.fixed, &p.fixed_scale)) return 0;
+  if (!read_pose(r, fields + 6, &p.fixed_pose)) return 0;
+  if (!read_label(r, fields + 13, &p)) return 0;
   if (!parse_count(fields[15], 1, NSVCD_MAX_POSES, &p.count))
     return refuse_field(r, "COUNT is not in 1..65536", fields[15]);
   if (r->field_count == MOST_FIELDS &&
       !parse_count(fields[16], 1, NSVCD_MAX_POSES, &p.fixed_count)) {
     return refuse_field(r, "FIXED_COUNT is not in 1..65536", fields[16]);
   }
-  if (!read_motions(r, file, &p))
-    return 0;
+  if (!read_motions(r, file, &p)) return 0;
   file->problems = (problem *)room_for_one(file->problems, file->problem_count,
                                            &file->problem_capacity, sizeof *file->problems);
   file->problems[file->problem_count++] = p;
@@ -305,14 +282,12 @@ static int read_problems(const char *path, problem_file *file) {
   memset(file, 0, sizeof *file);
   file->path = path;
   file->text = read_file(path, &size);
-  if (!file->text)
-    return 0;
+  if (!file->text) return 0;
   reader r;
   memset(&r, 0, sizeof r);
   r.path = path;
   r.next = file->text;
-  if (strlen(file->text) != size)
-    return complain("%s: not a text file: it has a zero byte", path);
+  if (strlen(file->text) != size) return complain("%s: not a text file: it has a zero byte", path);
   if (!next_line(&r) || r.field_count != 2 || strcmp(r.fields[0], "nsvcd-problems") != 0)
     return complain("%s:%zu: the first line is not 'nsvcd-problems 1'", path, r.line ? r.line : 1);
   if (strcmp(r.fields[1], "1") != 0)
@@ -322,8 +297,7 @@ static int read_problems(const char *path, problem_file *file) {
     int is_problem = strcmp(r.fields[0], "problem") == 0;
     if (!is_mesh && !is_problem)
       return refuse_field(&r, "expected 'mesh' or 'problem'", r.fields[0]);
-    if (!(is_mesh ? read_mesh_line(&r, file) : read_problem(&r, file)))
-      return 0;
+    if (!(is_mesh ? read_mesh_line(&r, file) : read_problem(&r, file))) return 0;
   }
   return 1;
 }

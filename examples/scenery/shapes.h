@@ -49,22 +49,18 @@ SHAPES_DEF double shapes_normal(shapes_rng *rng) {  // Box-Muller
 SHAPES_DEF void shapes_direction(shapes_rng *rng, double *out) {
   double n = 0;
   while (n < 1e-6) {
-    for (int i = 0; i < 3; i++)
-      out[i] = shapes_normal(rng);
+    for (int i = 0; i < 3; i++) out[i] = shapes_normal(rng);
     n = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   }
-  for (int i = 0; i < 3; i++)
-    out[i] /= n;
+  for (int i = 0; i < 3; i++) out[i] /= n;
 }
 SHAPES_DEF void shapes_quaternion(shapes_rng *rng, double *q) {  // uniform over rotations, x y z w
   double n = 0;
   while (n < 1e-6) {
-    for (int i = 0; i < 4; i++)
-      q[i] = shapes_normal(rng);
+    for (int i = 0; i < 4; i++) q[i] = shapes_normal(rng);
     n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   }
-  for (int i = 0; i < 4; i++)
-    q[i] /= n;
+  for (int i = 0; i < 4; i++) q[i] /= n;
 }
 
 // -------------------------------------------------------------------------------------------- mesh
@@ -171,8 +167,7 @@ SHAPES_DEF void shapes_fit(shapes_mesh *mesh, double extent) {
 // stay equal.
 SHAPES_DEF int shapes_write_obj(const shapes_mesh *mesh, const char *path) {
   FILE *file = fopen(path, "w");
-  if (!file)
-    return 0;
+  if (!file) return 0;
   for (size_t i = 0; i < mesh->vertices; i++) {
     const double *p = mesh->positions + 3 * i;
     fprintf(file, "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
@@ -246,10 +241,8 @@ SHAPES_DEF void shapes_lathe(shapes_mesh *mesh, const double (*profile)[2], int 
       uint32_t b = base + (uint32_t)i * n + (s + 1) % n;
       uint32_t d = base + (uint32_t)j * n + s;
       uint32_t c = base + (uint32_t)j * n + (s + 1) % n;
-      if (!lower_pole)
-        shapes_triangle(mesh, a, b, upper_pole ? d : c);
-      if (!upper_pole)
-        shapes_triangle(mesh, a, c, d);
+      if (!lower_pole) shapes_triangle(mesh, a, b, upper_pole ? d : c);
+      if (!upper_pole) shapes_triangle(mesh, a, c, d);
     }
   }
 }
@@ -268,19 +261,15 @@ SHAPES_DEF void shapes_tube(shapes_mesh *mesh, const double (*path)[3], int coun
       const double *p = path[i % count];
       const double *q0 = path[(i + count - 1) % count];
       const double *q1 = path[(i + 1) % count];
-      if (!closed && i == 0)
-        q0 = p;
-      if (!closed && i == count - 1)
-        q1 = p;
+      if (!closed && i == 0) q0 = p;
+      if (!closed && i == count - 1) q1 = p;
       double t[3] = {q1[0] - q0[0], q1[1] - q0[1], q1[2] - q0[2]};
       double length = sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
-      for (int k = 0; k < 3; k++)
-        t[k] /= length;
+      for (int k = 0; k < 3; k++) t[k] /= length;
       if (i == 0) {
         int axis = fabs(t[0]) < fabs(t[1]) ? (fabs(t[0]) < fabs(t[2]) ? 0 : 2)
                                            : (fabs(t[1]) < fabs(t[2]) ? 1 : 2);
-        for (int k = 0; k < 3; k++)
-          side[k] = k == axis;
+        for (int k = 0; k < 3; k++) side[k] = k == axis;
       }
       double along = side[0] * t[0] + side[1] * t[1] + side[2] * t[2];
       double norm = 0;
@@ -288,12 +277,10 @@ SHAPES_DEF void shapes_tube(shapes_mesh *mesh, const double (*path)[3], int coun
         side[k] -= along * t[k];
         norm += side[k] * side[k];
       }
-      for (int k = 0; k < 3; k++)
-        side[k] /= sqrt(norm);
+      for (int k = 0; k < 3; k++) side[k] /= sqrt(norm);
       double up[3] = {t[1] * side[2] - t[2] * side[1], t[2] * side[0] - t[0] * side[2],
                       t[0] * side[1] - t[1] * side[0]};
-      if (i == 0)
-        memcpy(first_side, side, sizeof side);
+      if (i == 0) memcpy(first_side, side, sizeof side);
       if (pass == 0) {
         if (i == count)
           twist =
@@ -338,12 +325,10 @@ SHAPES_DEF int shapes_is_ear(const double (*p)[2], const int *left, int count, i
   int a = left[(at + count - 1) % count];
   int b = left[at];
   int c = left[(at + 1) % count];
-  if (shapes_area2(p[a], p[b], p[c]) <= 0)
-    return 0;
+  if (shapes_area2(p[a], p[b], p[c]) <= 0) return 0;
   for (int i = 0; i < count; i++) {
     int x = left[i];
-    if (x == a || x == b || x == c)
-      continue;
+    if (x == a || x == b || x == c) continue;
     if (shapes_area2(p[a], p[b], p[x]) >= 0 && shapes_area2(p[b], p[c], p[x]) >= 0 &&
         shapes_area2(p[c], p[a], p[x]) >= 0)
       return 0;
@@ -364,12 +349,10 @@ SHAPES_DEF void shapes_extrude(shapes_mesh *mesh, const double (*polygon)[2], in
                   i < count ? -height / 2 : height / 2);
   for (uint32_t i = 0; i < n; i++)
     shapes_quad(mesh, base + i, base + (i + 1) % n, base + n + (i + 1) % n, base + n + i);
-  for (int i = 0; i < count; i++)
-    left[i] = i;
+  for (int i = 0; i < count; i++) left[i] = i;
   while (remaining > 2) {  // ear clipping
     int at = 0;
-    while (at < remaining - 1 && !shapes_is_ear(polygon, left, remaining, at))
-      at++;
+    while (at < remaining - 1 && !shapes_is_ear(polygon, left, remaining, at)) at++;
     uint32_t a = base + (uint32_t)left[(at + remaining - 1) % remaining];
     uint32_t b = base + (uint32_t)left[at];
     uint32_t c = base + (uint32_t)left[(at + 1) % remaining];
@@ -399,13 +382,11 @@ SHAPES_DEF void shapes_capsule(shapes_mesh *mesh, double radius, double length, 
   double p[SHAPES_MAX_PROFILE][2];
   int rings = segments / 4 > 2 ? segments / 4 : 2;
   int n = 0;
-  if (rings > SHAPES_MAX_PROFILE / 2 - 1)
-    rings = SHAPES_MAX_PROFILE / 2 - 1;
+  if (rings > SHAPES_MAX_PROFILE / 2 - 1) rings = SHAPES_MAX_PROFILE / 2 - 1;
   for (int half = 0; half < 2; half++)
     for (int i = 0; i <= rings; i++) {
       double angle = SHAPES_PI / 2 * ((double)i / rings - (half ? 0 : 1));
-      if (half && i == 0 && length <= 0)
-        continue;
+      if (half && i == 0 && length <= 0) continue;
       p[n][0] = (half && i == rings) || (!half && i == 0) ? 0 : radius * cos(angle);
       p[n++][1] = radius * sin(angle) + (half ? length / 2 : -length / 2);
     }
@@ -423,8 +404,7 @@ SHAPES_DEF void shapes_ellipsoid(shapes_mesh *mesh, double rx, double ry, double
 }
 SHAPES_DEF void shapes_torus(shapes_mesh *mesh, double ring, double tube, int segments, int sides) {
   double p[SHAPES_MAX_PROFILE][2];
-  if (sides > SHAPES_MAX_PROFILE)
-    sides = SHAPES_MAX_PROFILE;
+  if (sides > SHAPES_MAX_PROFILE) sides = SHAPES_MAX_PROFILE;
   for (int i = 0; i < sides; i++) {
     p[i][0] = ring + tube * cos(2 * SHAPES_PI * i / sides);
     p[i][1] = tube * sin(2 * SHAPES_PI * i / sides);
@@ -470,8 +450,7 @@ SHAPES_DEF void shapes_peg(shapes_mesh *mesh, double radius, double length, int 
 SHAPES_DEF void shapes_gear(shapes_mesh *mesh, double radius, double tooth, double height,
                             int teeth) {
   double p[SHAPES_MAX_POLYGON][2];
-  if (teeth > SHAPES_MAX_POLYGON / 4)
-    teeth = SHAPES_MAX_POLYGON / 4;
+  if (teeth > SHAPES_MAX_POLYGON / 4) teeth = SHAPES_MAX_POLYGON / 4;
   for (int i = 0; i < 4 * teeth; i++) {
     double r = i % 4 < 2 ? radius : radius - tooth;
     double angle = 2 * SHAPES_PI * i / (4 * teeth);
@@ -496,8 +475,7 @@ SHAPES_DEF void shapes_slab(shapes_mesh *mesh, shapes_rng *rng, double radius, d
 SHAPES_DEF void shapes_knot(shapes_mesh *mesh, double radius, double tube, int segments,
                             int sides) {
   double path[256][3];
-  if (segments > 256)
-    segments = 256;
+  if (segments > 256) segments = 256;
   for (int i = 0; i < segments; i++) {
     double t = 2 * SHAPES_PI * i / segments;
     double s = radius / 3;
@@ -576,12 +554,10 @@ SHAPES_DEF void shapes_drawer(shapes_mesh *mesh, double x, double y, double z, d
 }
 SHAPES_DEF void shapes_shelf(shapes_mesh *mesh, double x, double y, double z, double wall,
                              int boards, int back) {
-  for (int s = -1; s <= 1; s += 2)
-    shapes_box_at(mesh, s * (x - wall) / 2, 0, z / 2, wall, y, z);
+  for (int s = -1; s <= 1; s += 2) shapes_box_at(mesh, s * (x - wall) / 2, 0, z / 2, wall, y, z);
   for (int i = 0; i < boards; i++)
     shapes_box_at(mesh, 0, 0, wall / 2 + (z - wall) * i / (boards - 1), x, y, wall);
-  if (back)
-    shapes_box_at(mesh, 0, (y - wall) / 2, z / 2, x, wall, z);
+  if (back) shapes_box_at(mesh, 0, (y - wall) / 2, z / 2, x, wall, z);
 }
 SHAPES_DEF void shapes_chair(shapes_mesh *mesh, double width, double height, double leg) {
   double w = width;
@@ -648,8 +624,7 @@ SHAPES_DEF void shapes_shell(shapes_mesh *mesh, double x, double y, double z, do
       shapes_ellipsoid(mesh, (x - w) / 2, (y - w) / 2, (z - w) / 2, segments);
     else
       shapes_box(mesh, x - w, y - w, z - w, 2);
-    if (inner)
-      shapes_flip(mesh, first);
+    if (inner) shapes_flip(mesh, first);
   }
 }
 
@@ -755,14 +730,12 @@ SHAPES_DEF void shapes_random_solid(shapes_mesh *mesh, shapes_rng *rng, double e
     shapes_quaternion(rng, q);
     if (upright) {  // machined look: quarter turns only
       int axis = shapes_pick(rng, 3);
-      for (int k = 0; k < 4; k++)
-        q[k] = 0;
+      for (int k = 0; k < 4; k++) q[k] = 0;
       q[axis] = q[3] = sqrt(0.5);
     }
     // Hang the part's centre on a vertex of what is there, drawn somewhat inwards so that they
     // overlap.
-    if (i)
-      memcpy(anchor, mesh->positions + 3 * (shapes_next(rng) % before), sizeof anchor);
+    if (i) memcpy(anchor, mesh->positions + 3 * (shapes_next(rng) % before), sizeof anchor);
     shapes_place(mesh, first, q, pull * anchor[0], pull * anchor[1], pull * anchor[2]);
   }
   shapes_fit(mesh, extent);

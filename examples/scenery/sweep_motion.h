@@ -26,8 +26,7 @@ static size_t take_numbers(const char *text, double *out, size_t most) {
   while (*text) {
     char *end;
     const double x = strtod(text, &end);
-    if (end == text || count == most || !(fabs(x) <= (double)NSVCD_MAX_COORDINATE))
-      return 0;
+    if (end == text || count == most || !(fabs(x) <= (double)NSVCD_MAX_COORDINATE)) return 0;
     out[count++] = x;
     text = end + strspn(end, " ");
     if (*text == ',' && text[1])
@@ -46,8 +45,7 @@ static int take_pose(const char *name, const char *text, oracle_pose *pose) {
     return complain("%s %s: not x,y,z nor x,y,z,qx,qy,qz,qw, each up to %g (NSVCD_MAX_COORDINATE)",
                     name, text, (double)NSVCD_MAX_COORDINATE);
   memcpy(pose->position, n, sizeof pose->position);
-  if (count == 3)
-    return 1;
+  if (count == 3) return 1;
   memcpy(pose->rotation, n + 3, sizeof pose->rotation);
   const double length = sqrt(oracle_dot(n + 3, n + 3) + n[6] * n[6]);
   if (fabs(length - 1) > 0.01)
@@ -73,8 +71,7 @@ static int pass_through(const thing *a, const thing *b, oracle_pose *from, oracl
   int axis = 0;
   double longest = 0;
   for (int k = 0; k < 3; k++) {
-    if (b->high[k] - b->low[k] < b->high[axis] - b->low[axis])
-      axis = k;
+    if (b->high[k] - b->low[k] < b->high[axis] - b->low[axis]) axis = k;
     longest = fmax(longest, fmax(a->high[k] - a->low[k], b->high[k] - b->low[k]));
     from->position[k] = (b->low[k] + b->high[k] - a->low[k] - a->high[k]) / 2;
     to->position[k] = from->position[k];
@@ -96,19 +93,14 @@ static int take_motion(const motion_told *told, const thing *a, const thing *b, 
   oracle_pose to = from;
   m->through = told->from || told->to ? -1 : pass_through(a, b, &from, &to);
   m->degrees = 0;
-  if (told->from && !take_pose("--from", told->from, &from))
-    return 0;
-  if (told->to)
-    memcpy(to.rotation, from.rotation, sizeof to.rotation);
-  if (told->to && !take_pose("--to", told->to, &to))
-    return 0;
+  if (told->from && !take_pose("--from", told->from, &from)) return 0;
+  if (told->to) memcpy(to.rotation, from.rotation, sizeof to.rotation);
+  if (told->to && !take_pose("--to", told->to, &to)) return 0;
   m->count = 2;
   m->poses[0] = from;
   m->poses[1] = to;
-  if (!told->rotate)
-    return 1;
-  if (!take_turn(told->rotate, m))
-    return 0;
+  if (!told->rotate) return 1;
+  if (!take_turn(told->rotate, m)) return 0;
   if (memcmp(from.rotation, to.rotation, sizeof to.rotation) != 0)
     return complain("--rotate: not together with another rotation in --to");
   const size_t steps = (size_t)fmax(1, ceil(fabs(m->degrees) / TURN_STEP));

@@ -77,8 +77,7 @@ static void sweep_widen(sweep_frame *frame, const draw_view *view, const double 
 }
 
 static void sweep_corner(const double *low, const double *high, int i, double *out) {
-  for (int k = 0; k < 3; k++)
-    out[k] = i >> k & 1 ? high[k] : low[k];
+  for (int k = 0; k < 3; k++) out[k] = i >> k & 1 ? high[k] : low[k];
 }
 
 // The box of all places that A comes to, about.
@@ -107,8 +106,7 @@ static draw_view sweep_fit(const sweep_picture *p) {
   double extent = 0;
   sweep_camera(p, &view);
   sweep_reach(p, low, high);
-  for (int k = 0; k < 3; k++)
-    extent = fmax(extent, high[k] - low[k]);
+  for (int k = 0; k < 3; k++) extent = fmax(extent, high[k] - low[k]);
   const double near_by = p->b.mesh.radius < 2 * extent ? HUGE_VAL : extent / 3;
   for (int i = 0; i < 8; i++) {
     sweep_corner(low, high, i, corner);
@@ -251,8 +249,7 @@ static void sweep_scene(FILE *svg, const draw_view *view, const sweep_picture *p
   sweep_label(svg, view, p, start, "start");
   sweep_label(svg, view, p, end, "end");
   sweep_label(svg, view, p, &shown, p->shown_as);
-  if (p->point)
-    sweep_contact(svg, view, p->point, p->normal);
+  if (p->point) sweep_contact(svg, view, p->point, p->normal);
   sweep_ruler(svg, view);
 }
 
@@ -262,8 +259,7 @@ static int sweep_draw(const char *path, const sweep_picture *p) {
   const draw_view view = sweep_fit(p);
   FILE *svg = draw_open(path, SWEEP_WIDTH + 2 * SWEEP_LEFT, SWEEP_TOP + SWEEP_HEIGHT + 64, p->title,
                         sweep_escape(p->verdict, verdict, sizeof verdict));
-  if (!svg)
-    return 0;
+  if (!svg) return 0;
   draw_panel(svg, SWEEP_LEFT, SWEEP_TOP, &view);
   sweep_scene(svg, &view, p);
   draw_panel_end(svg, &view, "");

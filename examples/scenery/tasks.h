@@ -189,10 +189,8 @@ TASK_DEF void task_links(const task_scene *scene, const double *joints, oracle_p
     const task_joint *joint = &scene->joints[i];
     oracle_pose frame = task_compose(&links[joint->parent], &scene->origins[i]);
     oracle_pose move = {{0, 0, 0}, {0, 0, 0, 1}};
-    for (int k = 0; joint->slides && k < 3; k++)
-      move.position[k] = joints[i] * joint->axis[k];
-    if (!joint->slides)
-      oracle_axis_angle(joint->axis, joints[i], move.rotation);
+    for (int k = 0; joint->slides && k < 3; k++) move.position[k] = joints[i] * joint->axis[k];
+    if (!joint->slides) oracle_axis_angle(joint->axis, joints[i], move.rotation);
     links[i + 1] = task_compose(&frame, &move);
   }
 }
@@ -206,17 +204,13 @@ TASK_DEF void task_place(void *user, const float *joints, nsvcd_pose *poses) {
   const task_scene *scene = (const task_scene *)user;
   double q[TASK_MAX_JOINTS];
   oracle_pose links[TASK_MAX_JOINTS + 1];
-  for (int i = 0; i < scene->joint_count; i++)
-    q[i] = (double)joints[i];
+  for (int i = 0; i < scene->joint_count; i++) q[i] = (double)joints[i];
   task_links(scene, q, links);
   for (int i = 0; i < scene->body_count; i++) {
     oracle_pose pose = task_body_pose(scene, i, links);
-    if (scene->bodies[i].kind == TASK_ABSENT)
-      pose = task_pose(0, 0, -10, 0, 0, 0);
-    for (int k = 0; k < 3; k++)
-      poses[i].position[k] = (float)pose.position[k];
-    for (int k = 0; k < 4; k++)
-      poses[i].rotation[k] = (float)pose.rotation[k];
+    if (scene->bodies[i].kind == TASK_ABSENT) pose = task_pose(0, 0, -10, 0, 0, 0);
+    for (int k = 0; k < 3; k++) poses[i].position[k] = (float)pose.position[k];
+    for (int k = 0; k < 4; k++) poses[i].rotation[k] = (float)pose.rotation[k];
   }
 }
 
@@ -234,8 +228,7 @@ TASK_DEF double task_reach(const task_scene *scene, const task_body *body, doubl
   reach = oracle_length(center) + body->exact.radius;
   memset(root, 0, 3 * sizeof *root);
   for (; link; link = scene->joints[link - 1].parent) {
-    if (scene->joints[link - 1].slides)
-      return HUGE_VAL;
+    if (scene->joints[link - 1].slides) return HUGE_VAL;
     if (scene->joints[link - 1].parent)
       reach += oracle_length(scene->origins[link - 1].position);
     else
@@ -265,21 +258,17 @@ TASK_DEF int task_moves(const task_body *body) {
 }
 // Is link `above` among the `near` links before `link`, or the same?
 TASK_DEF int task_is_near(const task_scene *scene, int above, int link, int near) {
-  for (; link != above && link && near; near--)
-    link = scene->joints[link - 1].parent;
+  for (; link != above && link && near; near--) link = scene->joints[link - 1].parent;
   return link == above;
 }
 TASK_DEF int task_can_meet(const task_scene *scene, const task_body *a, const task_body *b) {
   if (a->kind == TASK_ABSENT || b->kind == TASK_ABSENT || (!task_moves(a) && !task_moves(b)))
     return 0;
   if (a->kind == TASK_FLOOR || b->kind == TASK_FLOOR) {
-    if (a->link <= scene->foot && b->link <= scene->foot)
-      return 0;
+    if (a->link <= scene->foot && b->link <= scene->foot) return 0;
   }
-  if (!task_moves(a))
-    return task_reaches(scene, b, a);
-  if (!task_moves(b))
-    return task_reaches(scene, a, b);
+  if (!task_moves(a)) return task_reaches(scene, b, a);
+  if (!task_moves(b)) return task_reaches(scene, a, b);
   return !task_is_near(scene, a->link, b->link, b->near) &&
          !task_is_near(scene, b->link, a->link, a->near);
 }
@@ -287,8 +276,7 @@ TASK_DEF void task_find_pairs(task_scene *scene) {
   scene->pair_count = 0;
   for (int a = 0; a < scene->body_count; a++)
     for (int b = a + 1; b < scene->body_count; b++) {
-      if (!task_can_meet(scene, &scene->bodies[a], &scene->bodies[b]))
-        continue;
+      if (!task_can_meet(scene, &scene->bodies[a], &scene->bodies[b])) continue;
       if (scene->pair_count == TASK_MAX_PAIRS) {
         scene->failed = 1;
         return;
@@ -336,14 +324,11 @@ TASK_DEF int task_pair_free(const task_body *fixed, const task_body *moving, con
            oracle_path_bound(&moving->exact, &b[i], &b[next]);
     int near = sqrt(gap) - moving->exact.radius <= clearance + step;
     run = near || run ? run + 1 : 0;  // the pose after the last near one ends the run
-    if (!run || (near && i + 1 < count))
-      continue;
+    if (!run || (near && i + 1 < count)) continue;
     oracle_result r =
         oracle_sweep(&moving->exact, relative, (size_t)run, &fixed->exact, &origin, &options);
-    if (time)
-      *time = count > 1 ? (i + 1 - run + r.time * (run - 1)) / (count - 1) : 0;
-    if (r.status != ORACLE_FREE || r.lower < clearance)
-      return 0;
+    if (time) *time = count > 1 ? (i + 1 - run + r.time * (run - 1)) / (count - 1) : 0;
+    if (r.status != ORACLE_FREE || r.lower < clearance) return 0;
     run = 0;
   }
   return 1;
@@ -366,20 +351,17 @@ TASK_DEF int task_keeps(const task_scene *scene, const double *joints, int sampl
   oracle_pose *world =
       (oracle_pose *)malloc((size_t)count * (size_t)(scene->body_count + 1) * sizeof *world);
   oracle_pose *relative = world + (size_t)count * (size_t)scene->body_count;
-  if (!times || !world)
-    return free(times), free(world), 0;
+  if (!times || !world) return free(times), free(world), 0;
   for (int s = 0; s < samples; s++) {
     double most = 0;
     double q[TASK_MAX_JOINTS];
     oracle_pose links[TASK_MAX_JOINTS + 1];
     const double *q0 = joints + s * joint_count;
     const double *q1 = s + 1 < samples ? q0 + joint_count : q0;
-    for (int j = 0; j < joint_count; j++)
-      most = fmax(most, fabs(q1[j] - q0[j]));
+    for (int j = 0; j < joint_count; j++) most = fmax(most, fabs(q1[j] - q0[j]));
     int steps = (int)fmax(1, ceil(most / TASK_FINE));
     for (int i = 0; i < steps; i++, at++) {
-      for (int j = 0; j < joint_count; j++)
-        q[j] = q0[j] + (q1[j] - q0[j]) * i / steps;
+      for (int j = 0; j < joint_count; j++) q[j] = q0[j] + (q1[j] - q0[j]) * i / steps;
       task_links(scene, q, links);
       times[at] = s + (double)i / steps;
       for (int b = 0; b < scene->body_count; b++)
@@ -419,18 +401,15 @@ TASK_DEF int task_check(const task_scene *scene, const float *joints, int sample
   const float *goal = scene->problems[scene->selected].goal;
   const float *start = scene->problems[scene->selected].start;
   double *q = (double *)malloc((size_t)(samples * count) * sizeof *q);
-  for (int i = 0; q && i < samples * count; i++)
-    q[i] = (double)joints[i];
-  for (int s = 0; q && s < samples; s++)
-    v.in_limits &= task_in_limits(scene, q + s * count);
+  for (int i = 0; q && i < samples * count; i++) q[i] = (double)joints[i];
+  for (int s = 0; q && s < samples; s++) v.in_limits &= task_in_limits(scene, q + s * count);
   for (int j = 0; j < count; j++) {  // "reaches the goal" includes: from the start
     v.at_goal &= fabs((double)(joints[(samples - 1) * count + j] - goal[j])) <= TASK_REACHED;
     v.at_goal &= fabs((double)(joints[j] - start[j])) <= TASK_REACHED;
   }
   v.free = q && task_keeps(scene, q, samples, 0, &v);
   free(q);
-  if (verdict)
-    *verdict = v;
+  if (verdict) *verdict = v;
   return v.free && v.in_limits && v.at_goal;
 }
 
@@ -449,26 +428,22 @@ TASK_DEF void task_error(const task_scene *scene, const double *joints, int body
   }
   oracle_sub(pose.position, target->position, error);
   double angle = oracle_quat_arc(target->rotation, pose.rotation, error + 3);
-  for (int k = 0; k < 3; k++)
-    error[3 + k] *= angle;
+  for (int k = 0; k < 3; k++) error[3 + k] *= angle;
 }
 // Solves the symmetric positive definite a x = b in place: Cholesky.
 TASK_DEF void task_solve6(double a[6][6], double *b) {
   for (int i = 0; i < 6; i++)
     for (int j = 0; j <= i; j++) {
       double sum = a[i][j];
-      for (int k = 0; k < j; k++)
-        sum -= a[i][k] * a[j][k];
+      for (int k = 0; k < j; k++) sum -= a[i][k] * a[j][k];
       a[i][j] = i == j ? sqrt(sum) : sum / a[j][j];
     }
   for (int i = 0; i < 6; i++) {
-    for (int k = 0; k < i; k++)
-      b[i] -= a[i][k] * b[k];
+    for (int k = 0; k < i; k++) b[i] -= a[i][k] * b[k];
     b[i] /= a[i][i];
   }
   for (int i = 5; i >= 0; i--) {
-    for (int k = i + 1; k < 6; k++)
-      b[i] -= a[k][i] * b[k];
+    for (int k = i + 1; k < 6; k++) b[i] -= a[k][i] * b[k];
     b[i] /= a[i][i];
   }
 }
@@ -481,30 +456,25 @@ TASK_DEF int task_ik(const task_scene *scene, double *joints, int body, int base
     double norm = 0;
     double a[6][6];
     task_error(scene, joints, body, base, target, e);
-    for (int k = 0; k < 6; k++)
-      norm += e[k] * e[k];
-    if (norm < 1e-12)
-      return 1;
+    for (int k = 0; k < 6; k++) norm += e[k] * e[k];
+    if (norm < 1e-12) return 1;
     for (int j = 0; j < scene->joint_count; j++) {
       double keep = joints[j];
       joints[j] += 1e-6;
       task_error(scene, joints, body, base, target, moved);
       joints[j] = keep;
-      for (int k = 0; k < 6; k++)
-        jacobian[k][j] = (moved[k] - e[k]) / 1e-6;
+      for (int k = 0; k < 6; k++) jacobian[k][j] = (moved[k] - e[k]) / 1e-6;
     }
     for (int i = 0; i < 6; i++)
       for (int k = 0; k < 6; k++) {
         // the damping fades as the target comes near
         a[i][k] = i == k ? 1e-6 + 1e-2 * fmin(norm, 1) : 0;
-        for (int j = 0; j < scene->joint_count; j++)
-          a[i][k] += jacobian[i][j] * jacobian[k][j];
+        for (int j = 0; j < scene->joint_count; j++) a[i][k] += jacobian[i][j] * jacobian[k][j];
       }
     task_solve6(a, e);
     for (int j = 0; j < scene->joint_count; j++) {
       double step = 0;
-      for (int k = 0; k < 6; k++)
-        step -= jacobian[k][j] * e[k];
+      for (int k = 0; k < 6; k++) step -= jacobian[k][j] * e[k];
       joints[j] += fmax(-0.3, fmin(0.3, step));
       joints[j] = fmax(scene->joints[j].low, fmin(scene->joints[j].high, joints[j]));
     }
@@ -526,8 +496,7 @@ TASK_DEF void task_random_joints(task_scene *scene, const double *around, double
 }
 // As floats, and back: what is checked shall be what is handed out.
 TASK_DEF void task_round(const task_scene *scene, double *joints, float *out) {
-  for (int j = 0; j < scene->joint_count; j++)
-    joints[j] = (double)(out[j] = (float)joints[j]);
+  for (int j = 0; j < scene->joint_count; j++) joints[j] = (double)(out[j] = (float)joints[j]);
 }
 #define TASK_STEPS 12  // of an insertion
 // From joints at `target`, backs out along `direction` (in base's frame, metres) in a straight
@@ -541,11 +510,9 @@ TASK_DEF int task_back_out(const task_scene *scene, const double *joints, int bo
   memcpy(path, joints, row);
   for (int s = 1; s <= TASK_STEPS; s++) {
     oracle_pose pose = *target;
-    for (int k = 0; k < 3; k++)
-      pose.position[k] += direction[k] * s / TASK_STEPS;
+    for (int k = 0; k < 3; k++) pose.position[k] += direction[k] * s / TASK_STEPS;
     memcpy(path + s * count, path + (s - 1) * count, row);
-    if (!task_ik(scene, path + s * count, body, base, &pose))
-      return 0;
+    if (!task_ik(scene, path + s * count, body, base, &pose)) return 0;
   }
   memcpy(reached, path + TASK_STEPS * count, row);
   return task_keeps(scene, path, TASK_STEPS + 1, clearance, NULL);
@@ -567,8 +534,7 @@ TASK_DEF void task_capsule(shapes_mesh *mesh, double ax, double ay, double az, d
   oracle_cross(up, d, axis);
   double sine = oracle_length(axis) / length;
   if (sine > 0) {
-    for (int k = 0; k < 3; k++)
-      axis[k] /= sine * length;
+    for (int k = 0; k < 3; k++) axis[k] /= sine * length;
     oracle_axis_angle(axis, atan2(sine, d[2] / length), q);
   }
   shapes_capsule(mesh, radius, length, 12);
@@ -693,8 +659,7 @@ TASK_DEF int task_take_goal(task_scene *scene, int index, double *joints, int bo
   double reached[TASK_MAX_JOINTS];
   task_problem *problem = &scene->problems[index];
   task_round(scene, joints, problem->goal);
-  if (!task_configuration_free(scene, joints, TASK_CLEAR))
-    return 0;
+  if (!task_configuration_free(scene, joints, TASK_CLEAR)) return 0;
   if (!task_back_out(scene, joints, body, base, target, direction, TASK_CLEAR / 2, reached))
     return 0;
   task_round(scene, reached, problem->approach);
@@ -722,8 +687,7 @@ TASK_DEF void task_dish(shapes_mesh *mesh, int kind) {
     shapes_bowl(mesh, r, h, 0.005, 20);
   else
     shapes_plate(mesh, r, h, 0.005, 24);
-  for (size_t i = 0; kind == 5 && i < mesh->vertices; i++)
-    mesh->positions[3 * i + 1] *= 0.75;
+  for (size_t i = 0; kind == 5 && i < mesh->vertices; i++) mesh->positions[3 * i + 1] *= 0.75;
   shapes_place(mesh, 0, NULL, 0, 0, -h / 2);
 }
 // Slots along x; dishes stand on two rails along x, between upright prongs.
@@ -771,11 +735,9 @@ TASK_DEF int task_dish_start(task_scene *scene, int index, double azimuth) {
     q[0] = nominal[0];
     task_links(scene, q, links);
     double z = task_body_pose(scene, scene->held[index], links).position[2];
-    if (z < 0.16 || z > 0.40)
-      continue;
+    if (z < 0.16 || z > 0.40) continue;
     task_round(scene, q, scene->problems[index].start);
-    if (task_configuration_free(scene, q, 0.01))
-      return 1;
+    if (task_configuration_free(scene, q, 0.01)) return 1;
   }
   return 0;
 }
@@ -820,8 +782,7 @@ TASK_DEF int task_dish_draw(task_scene *scene, int rack) {
     slots[j] = i;
   }
   for (int i = 0; i < scene->problem_count; i++)
-    if (!task_dish_problem(scene, i, slots[i], rack, azimuth))
-      return 0;
+    if (!task_dish_problem(scene, i, slots[i], rack, azimuth)) return 0;
   return 1;
 }
 // A UR5 puts three of six dishes into a rack: three problems. Returns 0 without memory, or if 100
@@ -848,16 +809,14 @@ TASK_DEF int task_dish_episode(task_scene *scene, uint64_t seed) {
     // Seen from the hand, the dish's axis is x; 15 mm of its rim are between the fingers. An oval
     // one is held on its long side.
     double rim = 0;
-    for (size_t v = 0; v < mesh.vertices; v++)
-      rim = fmax(rim, mesh.positions[3 * v]);
+    for (size_t v = 0; v < mesh.vertices; v++) rim = fmax(rim, mesh.positions[3 * v]);
     scene->grasps[i] = task_pose(0, 0, TASK_TIP - 0.015 + rim, 0, TASK_PI / 2, 0);
     scene->held[i] =
         task_add(scene, task_dish_names[order[i]], TASK_ABSENT, 0, 1, task_at(0, 0, -10), &mesh);
   }
   for (int draw = 0; draw < 100 && !found && !scene->failed; draw++)
     found = task_dish_draw(scene, rack);
-  if (found && !scene->failed)
-    return task_select(scene, 0), 1;
+  if (found && !scene->failed) return task_select(scene, 0), 1;
   return task_free(scene), 0;
 }
 
@@ -890,8 +849,7 @@ TASK_DEF void task_rings(shapes_mesh *mesh, const task_section *section, int rin
   double p[TASK_MAX_CORNERS][2];
   for (int ring = 0; ring < rings; ring++) {
     task_outline(section, grow[ring], p);
-    for (uint32_t i = 0; i < n; i++)
-      shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
+    for (uint32_t i = 0; i < n; i++) shapes_vertex(mesh, p[i][0], p[i][1], z[ring]);
   }
   for (uint32_t i = 0; i < last; i++) {
     uint32_t next = i / n * n + (i + 1) % n;
@@ -948,8 +906,7 @@ TASK_DEF int task_bimanual_pose(task_scene *scene, const oracle_pose *peg, doubl
     task_random_joints(scene, NULL, 0, q);
     memcpy(q + 6, joints + 6, 6 * sizeof *q);
   }
-  if (!good)
-    return 0;
+  if (!good) return 0;
   pose = task_compose(&pose, peg);
   return task_ik(scene, joints, peg_body, -1, &pose);
 }
@@ -1005,19 +962,15 @@ TASK_DEF int task_bimanual_episode(task_scene *scene, uint64_t seed) {
     oracle_pose goal = task_pose(0, 0, -inserted, TASK_PI, 0, turn);
     oracle_pose start = task_pose(far * cos(side), far * sin(side), up, TASK_PI + tilt,
                                   shapes_uniform(rng, -0.5, 0.5), turn);
-    if (!task_bimanual_pose(scene, &goal, joints))
-      continue;
-    if (!task_take_goal(scene, 0, joints, scene->held[0], scene->held[1], &goal, out))
-      continue;
+    if (!task_bimanual_pose(scene, &goal, joints)) continue;
+    if (!task_take_goal(scene, 0, joints, scene->held[0], scene->held[1], &goal, out)) continue;
     for (int attempt = 0; attempt < 20 && !found; attempt++) {
-      if (!task_bimanual_pose(scene, &start, joints))
-        continue;
+      if (!task_bimanual_pose(scene, &start, joints)) continue;
       task_round(scene, joints, scene->problems[0].start);
       found = task_configuration_free(scene, joints, 0.01);
     }
   }
-  if (found && !scene->failed)
-    return 1;
+  if (found && !scene->failed) return 1;
   return task_free(scene), 0;
 }
 
@@ -1197,8 +1150,7 @@ TASK_DEF int task_mining_episode(task_scene *scene, uint64_t seed) {
       task_round(scene, joints, scene->problems[0].start);
       found = task_configuration_free(scene, joints, 0.02);
     }
-  if (found)
-    return 1;
+  if (found) return 1;
   return task_free(scene), 0;
 }
 

@@ -43,8 +43,7 @@ nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
   const nsvcd_body *body = NULL;
   nsvcd_result result = nsvcd_obj_parse(text, size, NULL, &mesh, &error_line);
   free(text);
-  if (result)
-    return result;
+  if (result) return result;
   result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
   if (result) {
     nsvcd_mesh_free(&mesh, NULL);

@@ -68,8 +68,7 @@ static int compare_doubles(const void *a, const void *b) {
 // times: (count), microseconds; sorted here.
 static void set_times(row *r, double *times, size_t count) {
   qsort(times, count, sizeof *times, compare_doubles);
-  for (size_t i = 0; i < count; i++)
-    r->mean += times[i] / (double)count;
+  for (size_t i = 0; i < count; i++) r->mean += times[i] / (double)count;
   r->median = times[count / 2];
   r->worst = times[count - 1];
   r->high = times[(size_t)ceil(0.99 * (double)count) - 1];
@@ -104,8 +103,7 @@ typedef struct problem_set {
 // One problem of a set, whichever file it is in. A quick run sees all files, and steps by a large
 // prime: generators go through labels and kinds in turns.
 static const problem *get_problem(const problem_set *set, size_t index, size_t *file) {
-  if (set->problems < set->total)
-    index = index * 7919 % set->total;
+  if (set->problems < set->total) index = index * 7919 % set->total;
   for (*file = 0; index >= set->files[*file].problem_count; ++*file)
     index -= set->files[*file].problem_count;
   return &set->files[*file].problems[index];
@@ -118,8 +116,7 @@ static int load_meshes(const problem_file *file, nsvcd_mesh *meshes) {
     snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - file->path) + 1 : 0, file->path,
              file->meshes[i].path);
     nsvcd_result result = nsvcd_obj_load(path, NULL, &meshes[i], NULL);
-    if (result)
-      return complain("%s: %s", path, nsvcd_result_string(result));
+    if (result) return complain("%s: %s", path, nsvcd_result_string(result));
   }
   return 1;
 }
@@ -128,8 +125,7 @@ static int is_extreme(const char *name) {
   static const char *const names[] = {"thin",   "spin", "still",  "tiny",  "huge",
                                       "inside", "far",  "cavity", "mixed", "offset"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-    if (strcmp(name, names[i]) == 0)
-      return 1;
+    if (strcmp(name, names[i]) == 0) return 1;
   return 0;
 }
 
@@ -137,8 +133,7 @@ static int is_extreme(const char *name) {
 static int load_set(char *argument, size_t limit, problem_set *set) {
   char *equals = strchr(argument, '=');
   memset(set, 0, sizeof *set);
-  if (!equals)
-    return complain("%s: expected NAME=FILE", argument);
+  if (!equals) return complain("%s: expected NAME=FILE", argument);
   *equals = 0;
   set->name = argument;
   set->extreme = is_extreme(argument);
@@ -146,29 +141,23 @@ static int load_set(char *argument, size_t limit, problem_set *set) {
   for (char *path = equals + 1, *next; path; path = next) {
     problem_file *file = &set->files[set->file_count];
     next = strchr(path, ',');
-    if (next)
-      *next++ = 0;
-    if (set->file_count == 4)
-      return complain("%s: more than four files", set->name);
-    if (!read_problems(path, file))
-      return 0;
+    if (next) *next++ = 0;
+    if (set->file_count == 4) return complain("%s: more than four files", set->name);
+    if (!read_problems(path, file)) return 0;
     nsvcd_mesh *meshes = (nsvcd_mesh *)allocate(file->mesh_count * sizeof *meshes);
     memset(meshes, 0, file->mesh_count * sizeof *meshes);
     set->meshes[set->file_count++] = meshes;
-    if (!load_meshes(file, meshes))
-      return 0;
+    if (!load_meshes(file, meshes)) return 0;
     set->problems += file->problem_count;
   }
   set->total = set->problems;
-  if (limit && limit < set->total && set->total % 7919)
-    set->problems = limit;
+  if (limit && limit < set->total && set->total % 7919) set->problems = limit;
   return set->problems > 0 || complain("%s: no problems", set->name);
 }
 
 static void free_set(problem_set *set) {
   for (size_t f = 0; f < set->file_count; f++) {
-    for (size_t i = 0; i < set->files[f].mesh_count; i++)
-      nsvcd_mesh_free(&set->meshes[f][i], NULL);
+    for (size_t i = 0; i < set->files[f].mesh_count; i++) nsvcd_mesh_free(&set->meshes[f][i], NULL);
     free(set->meshes[f]);
     free_problems(&set->files[f]);
   }
@@ -176,26 +165,23 @@ static void free_set(problem_set *set) {
 
 // The clock's verdict on one query: the least of three runs after one to warm up, fewer where they
 // are long.
-#define TIME(microseconds, query)                      \
-  do {                                                 \
-    (microseconds) = HUGE_VAL;                         \
-    for (int run_ = 0; run_ < 4; run_++) {             \
-      double start_ = seconds(), taken_;               \
-      query;                                           \
-      taken_ = 1e6 * (seconds() - start_);             \
-      if (run_ > 0 || taken_ > 2000)                   \
-        (microseconds) = fmin((microseconds), taken_); \
-      if (taken_ > (run_ ? 200 : 2000))                \
-        break;                                         \
-    }                                                  \
+#define TIME(microseconds, query)                                                   \
+  do {                                                                              \
+    (microseconds) = HUGE_VAL;                                                      \
+    for (int run_ = 0; run_ < 4; run_++) {                                          \
+      double start_ = seconds(), taken_;                                            \
+      query;                                                                        \
+      taken_ = 1e6 * (seconds() - start_);                                          \
+      if (run_ > 0 || taken_ > 2000) (microseconds) = fmin((microseconds), taken_); \
+      if (taken_ > (run_ ? 200 : 2000)) break;                                      \
+    }                                                                               \
   } while (0)
 
 // Progress on standard error: what is running, how far.
 static void progress(const char *set, const char *method, size_t done, size_t of) {
   static double last;
   double now = seconds();
-  if (done < of && now - last < 0.5)
-    return;
+  if (done < of && now - last < 0.5) return;
   last = now;
   fprintf(stderr, "\r%-12s %-28s %5zu of %-5zu%s", set, method, done, of, done == of ? "\n" : "");
 }
@@ -229,12 +215,10 @@ static void order_of_visiting(size_t count, uint16_t *order) {
     order[n++] = (uint16_t)(count - 1);
     seen[count - 1] = 1;
   }
-  while (step < count)
-    step *= 2;
+  while (step < count) step *= 2;
   for (; step > 0; step /= 2)
     for (size_t i = step; i < count; i += 2 * step)
-      if (!seen[i])
-        seen[i] = 1, order[n++] = (uint16_t)i;
+      if (!seen[i]) seen[i] = 1, order[n++] = (uint16_t)i;
 }
 
 static void start_sampler(sampler *s, const nsvcd_pose *poses, size_t pose_count,
@@ -264,8 +248,7 @@ static void sample(const sampler *s, size_t first, size_t last, placement *out) 
     float length = 0;
     const nsvcd_pose *a = &s->poses[k];
     const nsvcd_pose *b = &s->poses[next];
-    for (int j = 0; j < 4; j++)
-      dot += a->rotation[j] * b->rotation[j];
+    for (int j = 0; j < 4; j++) dot += a->rotation[j] * b->rotation[j];
     v = dot < 0 ? -u : u;
     for (int j = 0; j < 4; j++) {
       q[j] = (1 - u) * a->rotation[j] + v * b->rotation[j];
@@ -279,10 +262,8 @@ static void sample(const sampler *s, size_t first, size_t last, placement *out) 
       nsvcd__quat_store(nsvcd__quat_slerp(from, to, u), q);
       length = 1;
     }
-    for (int j = 0; j < 4; j++)
-      q[j] /= sqrtf(length);
-    for (int j = 0; j < 3; j++)
-      p[j] = (1 - u) * a->position[j] + u * b->position[j] - s->origin[j];
+    for (int j = 0; j < 4; j++) q[j] /= sqrtf(length);
+    for (int j = 0; j < 3; j++) p[j] = (1 - u) * a->position[j] + u * b->position[j] - s->origin[j];
     matrix_of_quat(q, m);
     mul33(s->to_fixed, m, out[i].rotation);
     mul33_vec(s->to_fixed, p, out[i].position);
@@ -296,8 +277,7 @@ static int sweep_discrete(const method *m, const void *moving, const void *fixed
   for (size_t done = 0, portion = 4; done < s->count; portion *= 2) {
     size_t end = done + portion < s->count ? done + portion : s->count;
     sample(s, done, end, at);
-    if (m->hits(moving, fixed, at + done, end - done, activation))
-      return 1;
+    if (m->hits(moving, fixed, at + done, end - done, activation)) return 1;
     done = end;
   }
   return 0;
@@ -311,8 +291,7 @@ static double clock_ms(double since) {
 static nsvcd_mesh scaled_mesh(const nsvcd_mesh *mesh, float scale) {
   nsvcd_mesh out = *mesh;
   out.positions = (float *)allocate(3 * mesh->vertex_count * sizeof(float));
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    out.positions[i] = mesh->positions[i] * scale;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) out.positions[i] = mesh->positions[i] * scale;
   return out;
 }
 
@@ -348,8 +327,7 @@ static void *take_body(cupboard *c, const problem_set *set, size_t file, size_t 
     c->total_bytes += body ? (double)c->m->bytes(body) : 0;
     free(own.positions);
   }
-  if (body)
-    return body;
+  if (body) return body;
   complain("%s: mesh %s cannot be prepared", c->m->name, set->files[file].meshes[index].name);
   exit(REFUSED);
 }
@@ -399,8 +377,7 @@ static void run_discrete(table *t, const problem_set *set, const method *m, cons
     r->prepare = c.total_ms / (double)c.made;
   }
   for (size_t f = 0; f < set->file_count; f++) {
-    for (size_t i = 0; i < set->files[f].mesh_count; i++)
-      m->release(c.unit[f][i]);
+    for (size_t i = 0; i < set->files[f].mesh_count; i++) m->release(c.unit[f][i]);
     free(c.unit[f]);
   }
   free(times);
@@ -416,14 +393,12 @@ static void run_baselines(table *t, const problem_set *set, int quick) {
   size_t dense_count = 0;
   size_t plain_count = 0;
   for (size_t i = 0; i < 8; i++) {
-    if (quick && (all_samples[i] < 8 || all_samples[i] > 64))
-      continue;
+    if (quick && (all_samples[i] < 8 || all_samples[i] > 64)) continue;
     plain[plain_count].samples = all_samples[i];
     plain[plain_count++].activation = 0;
     for (size_t k = 0; k < 5; k++) {
       // the far ends of the range, once
-      if ((k == 0 || k == 4) && (quick || all_samples[i] != 32))
-        continue;
+      if ((k == 0 || k == 4) && (quick || all_samples[i] != 32)) continue;
       dense[dense_count].samples = all_samples[i];
       dense[dense_count++].activation = all_activations[k];
     }
@@ -453,8 +428,7 @@ static void run_baselines(table *t, const problem_set *set, int quick) {
   for (size_t v = 0; v < 3; v++) {
     for (size_t n = 0; n < 4; n++) {
       char label[40];
-      if (quick && (v != 1 || n == 0))
-        continue;
+      if (quick && (v != 1 || n == 0)) continue;
       how.detail = voxels[v];
       how.points = points[n];
       snprintf(label, sizeof label, "voxel %.0f mm, %zu points, ", 1e3 * (double)voxels[v],
@@ -467,8 +441,7 @@ static void run_baselines(table *t, const problem_set *set, int quick) {
     how.detail = 0;
     how.points = n;
     snprintf(label, sizeof label, "%zu points, ", n);
-    if (!quick || n == 1000)
-      run_discrete(t, set, &grid_method, &how, label, dense, dense_count);
+    if (!quick || n == 1000) run_discrete(t, set, &grid_method, &how, label, dense, dense_count);
   }
 }
 
@@ -476,8 +449,7 @@ static void run_baselines(table *t, const problem_set *set, int quick) {
 
 static double *to_doubles(const nsvcd_mesh *mesh) {
   double *out = (double *)allocate(3 * mesh->vertex_count * sizeof(double));
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    out[i] = (double)mesh->positions[i];
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++) out[i] = (double)mesh->positions[i];
   return out;
 }
 
@@ -557,8 +529,7 @@ static void fill_shelf(const problem_set *set, const nsvcd_encode_options *optio
 }
 static void free_shelf(const problem_set *set, shelf *s) {
   for (size_t f = 0; f < set->file_count; f++) {
-    for (size_t i = 0; i < set->files[f].mesh_count; i++)
-      nsvcd_body_free(s->bodies[f][i], NULL);
+    for (size_t i = 0; i < set->files[f].mesh_count; i++) nsvcd_body_free(s->bodies[f][i], NULL);
     free(s->bodies[f]);
   }
 }
@@ -664,15 +635,13 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
       }
     }
     for (size_t k = 0; k < 3; k++) {
-      if (set->extreme ? k != 1 : quick)
-        continue;
+      if (set->extreme ? k != 1 : quick) continue;
       settings[count].model = (nsvcd_model)model;
       settings[count++].recall = recalls[k];
     }
   }
   for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
-    if (set->extreme && all_points[i] != 128 && all_points[i] != 512)
-      continue;
+    if (set->extreme && all_points[i] != 128 && all_points[i] != 512) continue;
     const nsvcd_encode_options encode = {.patches = all_points[i], .no_triangles = 1};
     run_ours(t, set, "NeuralSVCD", &encode, settings, count);
   }
@@ -736,8 +705,7 @@ static void run_neural_cut(table *t, const problem_set *set) {
       r->counts[p->label == 1][0]++;
       continue;
     }
-    if (!result)
-      result = nsvcd_encode(&part, &open, NULL, memory[1], size, &fixed);
+    if (!result) result = nsvcd_encode(&part, &open, NULL, memory[1], size, &fixed);
     r->prepare += clock_ms(start) / (double)set->problems;
     if (!result)
       result = nsvcd_encode(&set->meshes[f][p->moving], &whole, NULL, memory[0], size, &moving);
@@ -779,10 +747,8 @@ static const row *match(const table *t, const row *rival, int by_accuracy) {
   const row *best = NULL;
   for (size_t i = 0; i < t->count; i++) {
     const row *r = &t->rows[i];
-    if (strcmp(r->method, "NeuralSVCD") != 0 && strcmp(r->method, "proof") != 0)
-      continue;
-    if (by_accuracy ? accuracy_of(r) < accuracy_of(rival) : r->median > rival->median)
-      continue;
+    if (strcmp(r->method, "NeuralSVCD") != 0 && strcmp(r->method, "proof") != 0) continue;
+    if (by_accuracy ? accuracy_of(r) < accuracy_of(rival) : r->median > rival->median) continue;
     if (!best || (by_accuracy ? r->median < best->median : accuracy_of(r) > accuracy_of(best)))
       best = r;
   }
@@ -801,8 +767,7 @@ static void print_rows(const problem_set *set, const table *t) {
   row **shown = (row **)allocate(t->count * sizeof *shown);
   size_t count = 0;
   for (size_t i = 0; i < t->count; i++)
-    if (t->rows[i].front || set->extreme)
-      shown[count++] = &t->rows[i];
+    if (t->rows[i].front || set->extreme) shown[count++] = &t->rows[i];
   qsort(shown, count, sizeof *shown, by_method_and_time);
   printf("\n%s, %zu problems\n\n", set->name, set->problems);
   printf(
@@ -817,8 +782,7 @@ static void print_rows(const problem_set *set, const table *t) {
     double low, high;
     wilson(right, set->problems, &low, &high);
     char undecided[40] = "";
-    if (r->undecided)
-      snprintf(undecided, sizeof undecided, ", %zu undecided", r->undecided);
+    if (r->undecided) snprintf(undecided, sizeof undecided, ", %zu undecided", r->undecided);
     printf(
         "| %s, %s%s | %.2f [%.2f, %.2f] | %.2f | %.2f | %.1f / %.1f / %.0f / %.0f | %.1f | %.1f |",
         r->method, r->setting, undecided, accuracy_of(r), 100 * low, 100 * high,
@@ -873,13 +837,11 @@ int main(int argc, char **argv) {
     else
       return usage();
   }
-  if (i == argc)
-    return usage();
+  if (i == argc) return usage();
   char path[1024];
   snprintf(path, sizeof path, "%s.tsv", out);
   FILE *file = fopen(path, "w");
-  if (!file)
-    return complain("%s: %s", path, strerror(errno)), REFUSED;
+  if (!file) return complain("%s: %s", path, strerror(errno)), REFUSED;
   fprintf(
       file,
       "set\tmethod\tsetting\tfront\taccuracy\tmissed\tstopped\tmedian_us\tmean_us\tp99_us\tworst_"
@@ -889,12 +851,10 @@ int main(int argc, char **argv) {
   for (; i < argc; i++) {
     problem_set set;
     table t = {NULL, 0, 0};
-    if (!load_set(argv[i], limit, &set))
-      return REFUSED;
+    if (!load_set(argv[i], limit, &set)) return REFUSED;
     if (race) {
       run_race(&t, &set);
-      for (size_t k = 0; k < t.count; k++)
-        t.rows[k].front = 1;
+      for (size_t k = 0; k < t.count; k++) t.rows[k].front = 1;
       write_rows(file, &set, &t);
       print_rows(&set, &t);
       free(t.rows);
@@ -907,18 +867,15 @@ int main(int argc, char **argv) {
     }
     run_proof(&t, &set, proof_points, sizeof proof_points / sizeof proof_points[0]);
     run_all_neural(&t, &set, quick);
-    if (strcmp(set.name, "mixed") == 0 || strcmp(set.name, "cavity") == 0)
-      run_neural_cut(&t, &set);
+    if (strcmp(set.name, "mixed") == 0 || strcmp(set.name, "cavity") == 0) run_neural_cut(&t, &set);
     mark_fronts(&t);
     write_rows(file, &set, &t);
     print_rows(&set, &t);
-    if (!set.extreme)
-      draw_rows(c, &set, &t);
+    if (!set.extreme) draw_rows(c, &set, &t);
     free(t.rows);
     free_set(&set);
   }
-  if (fclose(file) != 0)
-    return complain("%s: cannot be written", path), REFUSED;
+  if (fclose(file) != 0) return complain("%s: cannot be written", path), REFUSED;
   snprintf(path, sizeof path, "%s.svg", out);
   int good = chart_write(c, path);
   free(c);

@@ -27,8 +27,7 @@ static int compare_doubles(const void *a, const void *b) {
 
 static void print_way(way *w, size_t count, double plain) {
   double sum = 0;
-  for (size_t i = 0; i < count; i++)
-    sum += w->microseconds[i];
+  for (size_t i = 0; i < count; i++) sum += w->microseconds[i];
   qsort(w->microseconds, count, sizeof(double), compare_doubles);
   printf(
       "  %-26s median %6.1f  mean %6.1f  99 %% %6.0f  worst %6.0f us;  x %.2f;  %4.1f %% collide, "
@@ -70,10 +69,8 @@ int main(int argc, char **argv) {
     const int folder = file.meshes[i].path[0] == '/' || !slash ? 0 : (int)(slash - argv[1]) + 1;
     snprintf(path, sizeof path, "%.*s%s", folder, argv[1], file.meshes[i].path);
     nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, NULL);
-    if (!result)
-      result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &bodies[i]);
-    if (result)
-      return complain("%s: %s", path, nsvcd_result_string(result)), REFUSED;
+    if (!result) result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &bodies[i]);
+    if (result) return complain("%s: %s", path, nsvcd_result_string(result)), REFUSED;
     nsvcd_mesh_free(&mesh, NULL);
   }
   double plain = 0;
@@ -91,8 +88,7 @@ int main(int argc, char **argv) {
         const nsvcd_result result =
             nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
         const double taken = 1e6 * (seconds() - start);
-        if (result)
-          return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
+        if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
         *least = run == 0 ? taken : fmin(*least, taken);
         ways[k].collide += run == 0 && answer.collides;
         ways[k].undecided += run == 0 && answer.status == NSVCD_STATUS_UNDECIDED;
@@ -105,8 +101,7 @@ int main(int argc, char **argv) {
     print_way(&ways[k], file.problem_count, plain);
     free(ways[k].microseconds);
   }
-  for (size_t i = 0; i < file.mesh_count; i++)
-    nsvcd_body_free(bodies[i], NULL);
+  for (size_t i = 0; i < file.mesh_count; i++) nsvcd_body_free(bodies[i], NULL);
   free(bodies);
   free(workspace);
   free_problems(&file);

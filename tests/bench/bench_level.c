@@ -41,8 +41,7 @@ static double microseconds(const nsvcd_question *question, void *workspace, size
   double best = 1e9;
   for (int run = 0; run < RUNS; run++) {
     const double start = seconds();
-    if (nsvcd_sweep(question, workspace, size, answer))
-      level_fail("a question was refused");
+    if (nsvcd_sweep(question, workspace, size, answer)) level_fail("a question was refused");
     best = fmin(best, 1e6 * (seconds() - start));
   }
   return best;
@@ -50,8 +49,7 @@ static double microseconds(const nsvcd_question *question, void *workspace, size
 
 static double print_times(const char *name, double *times, size_t count) {
   double sum = 0;
-  for (size_t i = 0; i < count; i++)
-    sum += times[i];
+  for (size_t i = 0; i < count; i++) sum += times[i];
   qsort(times, count, sizeof *times, compare_doubles);
   printf("    %-6s median %6.1f  mean %6.1f  99 %% %7.1f us\n", name, times[count / 2],
          sum / (double)count, times[count * 99 / 100]);
@@ -71,15 +69,12 @@ static size_t run_set(int set, size_t motions, const level_solid *bodies, const 
   size_t differ = 0;
   size_t close_calls = 0;
   size_t count = 0;
-  for (int k = 0; k < 2; k++)
-    times[k] = (double *)malloc((motions + 1) * sizeof(double));
-  if (!times[0] || !times[1])
-    level_fail("no memory");
+  for (int k = 0; k < 2; k++) times[k] = (double *)malloc((motions + 1) * sizeof(double));
+  if (!times[0] || !times[1]) level_fail("no memory");
   while (count < motions) {
     const level_way way = level_draw(&rng, set, bodies, level);
     const nsvcd_body *piece = level_piece(level, way.body, way.stored);
-    if (!piece)
-      continue;
+    if (!piece) continue;
     const oracle_result label = level_label(&way, level);
     nsvcd_question question;
     nsvcd_answer whole, local;
@@ -104,8 +99,7 @@ static size_t run_set(int set, size_t motions, const level_solid *bodies, const 
     const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
     hits += collides != 0;
     free_of += !collides;
-    if (whole.status != NSVCD_STATUS_UNDECIDED)
-      wrong += whole.collides != collides;
+    if (whole.status != NSVCD_STATUS_UNDECIDED) wrong += whole.collides != collides;
     // A part of a level encloses nothing.
     if (label.status != ORACLE_INSIDE)
       piece_wrong += local.status != NSVCD_STATUS_UNDECIDED && local.collides != collides;
@@ -136,10 +130,8 @@ int main(int argc, char **argv) {
   memset(&options, 0, sizeof options);
   options.no_latents = !network;
   options.latents = network;
-  if (argc > 3)
-    options.patches = strtoul(argv[3], NULL, 10);
-  if (options.patches == 0)
-    options.patch_radius = triangles > NSVCD_MANY_TRIANGLES ? 0 : RADIUS;
+  if (argc > 3) options.patches = strtoul(argv[3], NULL, 10);
+  if (options.patches == 0) options.patch_radius = triangles > NSVCD_MANY_TRIANGLES ? 0 : RADIUS;
   setvbuf(stdout, NULL, _IOLBF, 0);
   level_make_bodies(bodies);
   level_make(&shape, SIDE, triangles, 1);

@@ -36,8 +36,7 @@ static double mean_query(const level_solid *mover, const level_solid *body, int 
   for (int n = 0; n < MOTIONS;) {
     oracle_pose poses[2];
     if (is_level) {
-      if (!level_motion(&rng, LEVEL_NEAR, mover, body, poses))
-        continue;
+      if (!level_motion(&rng, LEVEL_NEAR, mover, body, poses)) continue;
     } else {
       double direction[3], axis[3], spin[4];
       shapes_direction(&rng, direction);
@@ -62,8 +61,7 @@ static double mean_query(const level_solid *mover, const level_solid *body, int 
     question.b.body = body->body;
     for (int run = 0; run < 3; run++) {
       const double start = seconds();
-      if (nsvcd_sweep(&question, workspace, size, &answer))
-        level_fail("a question was refused");
+      if (nsvcd_sweep(&question, workspace, size, &answer)) level_fail("a question was refused");
       best = fmin(best, 1e6 * (seconds() - start));
     }
     sum += best;
@@ -96,8 +94,7 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   memset(&options, 0, sizeof options);
   options.patches = points;
   options.no_latents = 1;
-  if (kind == LEVEL && triangles <= NSVCD_MANY_TRIANGLES)
-    options.patch_radius = 0.15f;
+  if (kind == LEVEL && triangles <= NSVCD_MANY_TRIANGLES) options.patch_radius = 0.15f;
   make_shape(kind, triangles, &shape);
   level_solid_init(&solid, &shape, kind == THING ? 0.3 : 0);
   const double start = seconds();
@@ -163,12 +160,10 @@ static void draw_panel_of(FILE *svg, const panel *p, double left, const row *row
           bottom + 40, p->across);
   for (int k = 0; k < KINDS; k++) {
     char letter = 'M';
-    if ((k == BY_POINTS) != p->by_points)
-      continue;
+    if ((k == BY_POINTS) != p->by_points) continue;
     fprintf(svg, "<path fill='none' stroke-width='3' stroke='%s' d='", colours[k]);
     for (size_t i = 0; i < count; i++) {
-      if ((int)rows[i].kind != k)
-        continue;
+      if ((int)rows[i].kind != k) continue;
       const double at = log10((double)(p->by_points ? rows[i].points : rows[i].triangles));
       const double y = log10(value_of(&rows[i], p->value));
       fprintf(svg, "%c%.1f %.1f", letter, left + (at - p->low) * per_x,
@@ -186,8 +181,7 @@ static int draw(const char *path, const row *rows, size_t count) {
       {"a query, microseconds", "triangles", 1, 6, 0, 2, 0, 2},
       {"a query, microseconds", "N, of the level of 200,000", 2, 5, 0, 3, 1, 2}};
   FILE *svg = fopen(path, "w");
-  if (!svg)
-    return 0;
+  if (!svg) return 0;
   fprintf(svg,
           "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1660 430' font-family='sans-serif' "
           "font-size='13'>\n"
@@ -213,12 +207,10 @@ int main(int argc, char **argv) {
          "query");
   printf("%-18s %8s %7s %10s %8s %9s %8s %8s\n", "", "", "", "", "", "", "ms", "us");
   for (int k = 0; k < 10; k++) {
-    if (sizes[k] <= most)
-      rows[count++] = measure(THING, sizes[k], 0, &bodies[2]);
+    if (sizes[k] <= most) rows[count++] = measure(THING, sizes[k], 0, &bodies[2]);
   }
   for (int k = 4; k < 10; k++) {
-    if (sizes[k] <= most)
-      rows[count++] = measure(LEVEL, sizes[k], 0, &bodies[2]);
+    if (sizes[k] <= most) rows[count++] = measure(LEVEL, sizes[k], 0, &bodies[2]);
   }
   for (int k = 0; k < 8 && most >= 200000; k++)
     rows[count++] = measure(BY_POINTS, 200000, points[k], &bodies[2]);

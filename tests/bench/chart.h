@@ -40,12 +40,9 @@ static void chart_panel(chart *c, const char *name, size_t problems) {
 static void chart_point(chart *c, const char *method, double microseconds, double accuracy,
                         int front) {
   int m = 0;
-  while (m < c->method_count && strcmp(c->methods[m], method) != 0)
-    m++;
-  if (m == CHART_METHODS || c->count == CHART_POINTS || c->panels > CHART_PANELS)
-    return;
-  if (m == c->method_count)
-    c->methods[c->method_count++] = method;
+  while (m < c->method_count && strcmp(c->methods[m], method) != 0) m++;
+  if (m == CHART_METHODS || c->count == CHART_POINTS || c->panels > CHART_PANELS) return;
+  if (m == c->method_count) c->methods[c->method_count++] = method;
   chart_mark *p = &c->marks[c->count++];
   p->panel = c->panels - 1;
   p->method = m;
@@ -61,8 +58,7 @@ static const char *chart_color(const char *method) {
   static const char *const colors[] = {"#d55e00", "#0072b2", "#000000", "#888888",
                                        "#009e73", "#cc79a7", "#e69f00"};
   for (int i = 0; i < 7; i++)
-    if (strncmp(method, names[i], strlen(names[i])) == 0)
-      return colors[i];
+    if (strncmp(method, names[i], strlen(names[i])) == 0) return colors[i];
   return "#56b4e9";
 }
 
@@ -132,8 +128,7 @@ static void chart_method(FILE *file, const chart *c, int panel, int method) {
           color, width);
   for (size_t i = 0; i < c->count; i++) {  // the front, as the marks are sorted by time
     const chart_mark *p = &c->marks[i];
-    if (p->panel != panel || p->method != method || !p->front || p->y < 50)
-      continue;
+    if (p->panel != panel || p->method != method || !p->front || p->y < 50) continue;
     fprintf(file, "%c%.1f %.1f", letter, chart_x(panel, p->x), chart_y(p->y));
     letter = 'L';
   }
@@ -151,8 +146,7 @@ static void chart_method(FILE *file, const chart *c, int panel, int method) {
 static int chart_write(chart *c, const char *path) {
   FILE *file = fopen(path, "w");
   int panels = c->panels < CHART_PANELS ? c->panels : CHART_PANELS;
-  if (!file)
-    return perror(path), 0;
+  if (!file) return perror(path), 0;
   qsort(c->marks, c->count, sizeof *c->marks, chart_by_time);
   double width = CHART_STEP * (panels ? panels : 1) + 20;
   double bottom = chart_y(50) + 76;
@@ -164,8 +158,7 @@ static int chart_write(chart *c, const char *path) {
           width, bottom + 50);
   for (int p = 0; p < panels; p++) {
     chart_axes(file, p, c->titles[p]);
-    for (int m = c->method_count - 1; m >= 0; m--)
-      chart_method(file, c, p, m);
+    for (int m = c->method_count - 1; m >= 0; m--) chart_method(file, c, p, m);
   }
   for (int m = 0; m < c->method_count; m++) {
     double x = 70 + (width - 90) / columns * (m % columns);

@@ -27,8 +27,7 @@ typedef struct track {
 static void read_track(const nsvcd_mover *mover, const oracle_mesh *mesh, track *out) {
   out->count = mover->count;
   out->reach = oracle_length(mesh->center) + mesh->radius;
-  for (size_t i = 0; i < mover->count; i++)
-    out->poses[i] = pose_widened(&mover->poses[i]);
+  for (size_t i = 0; i < mover->count; i++) out->poses[i] = pose_widened(&mover->poses[i]);
 }
 
 // How fast a point may be from t until the next pose, at *next.
@@ -36,8 +35,7 @@ static double rate_at(const track *m, double t, double *next) {
   const double arcs = (double)(m->count - 1);
   double moved[3], axis[3];
   *next = 1;
-  if (m->count < 2)
-    return 0;
+  if (m->count < 2) return 0;
   const size_t k = (size_t)(t * arcs) < m->count - 2 ? (size_t)(t * arcs) : m->count - 2;
   oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
   *next = (double)(k + 1) / arcs;
@@ -61,10 +59,8 @@ static double first_approach(const scene *s, double clearance) {
   for (double t = 0;;) {
     double next[2];
     const double room = distance_at(s, t) - clearance;
-    if (room <= HAIR)
-      return t;
-    if (t >= 1)
-      return 2;
+    if (room <= HAIR) return t;
+    if (t >= 1) return 2;
     const double rate = rate_at(&s->tracks[0], t, &next[0]) + rate_at(&s->tracks[1], t, &next[1]);
     const double until = fmin(next[0], next[1]);
     const double step = rate > 0 ? room / rate : 1;
@@ -95,16 +91,13 @@ static void check_one(const problem *p, const nsvcd_answer *answer, const scene 
   sum->free += is_free;
   sum->close += !hits && !is_free;
   sum->undecided += answer->status == NSVCD_STATUS_UNDECIDED;
-  if (is_free && answer->collides)
-    sum->stops++;
-  if (clearance > MARGIN && hits && !answer->collides)
-    sum->misses++;
+  if (is_free && answer->collides) sum->stops++;
+  if (clearance > MARGIN && hits && !answer->collides) sum->misses++;
   if (is_free && answer->collides)
     printf("%s: stopped at %g, but free\n", p->id, (double)answer->contact_time);
   if (clearance > MARGIN && hits && !answer->collides)
     printf("%s: hits at %g, missed\n", p->id, sure);
-  if (!(first > 0) || answer->status == NSVCD_STATUS_INSIDE || one_inside)
-    return;
+  if (!(first > 0) || answer->status == NSVCD_STATUS_INSIDE || one_inside) return;
   // Before free_until nothing is closer than the clearance; at contact_time something is, soon
   // after.
   const double until = (double)answer->free_until;
@@ -115,8 +108,7 @@ static void check_one(const problem *p, const nsvcd_answer *answer, const scene 
     // later than that only after surfaces that were nearer than can be told
     const int late = when - until > first * 1.0001 + 1e-6;
     sum->blurred += late;
-    if (!late)
-      sum->worst = fmax(sum->worst, (when - until) / first);
+    if (!late) sum->worst = fmax(sum->worst, (when - until) / first);
     const double high = (double)answer->clearance_high;
     wrong |= late && distance_at(s, until) > clearance + 4 * quanta + HAIR;
     wrong |= distance_at(s, when) > high + HAIR || high > clearance + 4 * quanta;
@@ -131,12 +123,10 @@ int main(int argc, char **argv) {
   problem_file file;
   tally sum;
   memset(&sum, 0, sizeof sum);
-  if (argc < 2 || argc > 4)
-    return complain("FILE [CLEARANCE [FIRST]]"), USAGE;
+  if (argc < 2 || argc > 4) return complain("FILE [CLEARANCE [FIRST]]"), USAGE;
   const double clearance = argc > 2 ? atof(argv[2]) : 0;
   const double first = argc > 3 ? atof(argv[3]) : 0;
-  if (!read_problems(argv[1], &file))
-    return REFUSED;
+  if (!read_problems(argv[1], &file)) return REFUSED;
   nsvcd_mesh *meshes = (nsvcd_mesh *)allocate(file.mesh_count * sizeof *meshes);
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
   void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
@@ -146,32 +136,27 @@ int main(int argc, char **argv) {
     const int folder = file.meshes[i].path[0] == '/' || !slash ? 0 : (int)(slash - argv[1]) + 1;
     snprintf(path, sizeof path, "%.*s%s", folder, argv[1], file.meshes[i].path);
     nsvcd_result result = nsvcd_obj_load(path, NULL, &meshes[i], NULL);
-    if (!result)
-      result = nsvcd_encode(&meshes[i], NULL, NULL, NULL, 0, &bodies[i]);
-    if (result)
-      return complain("%s: %s", path, nsvcd_result_string(result)), REFUSED;
+    if (!result) result = nsvcd_encode(&meshes[i], NULL, NULL, NULL, 0, &bodies[i]);
+    if (result) return complain("%s: %s", path, nsvcd_result_string(result)), REFUSED;
   }
   for (size_t i = 0; i < file.problem_count; i++) {
     const problem *p = &file.problems[i];
     nsvcd_question question = question_of_problem(&file, p);
     nsvcd_answer answer;
     scene s;
-    if (question.a.count > MOST_POSES || question.b.count > MOST_POSES)
-      continue;
+    if (question.a.count > MOST_POSES || question.b.count > MOST_POSES) continue;
     question.a.body = bodies[p->moving];
     question.b.body = bodies[p->fixed];
     question.options.clearance = (float)clearance;
     question.options.first = (float)first;
     const nsvcd_result result =
         nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
-    if (result)
-      return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
+    if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
     for (int side = 0; side < 2; side++) {
       const nsvcd_mesh *mesh = &meshes[side ? p->fixed : p->moving];
       const nsvcd_mover *mover = side ? &question.b : &question.a;
       double *positions = (double *)allocate(3 * mesh->vertex_count * sizeof *positions);
-      for (size_t k = 0; k < 3 * mesh->vertex_count; k++)
-        positions[k] = (double)mesh->positions[k];
+      for (size_t k = 0; k < 3 * mesh->vertex_count; k++) positions[k] = (double)mesh->positions[k];
       s.meshes[side] = (oracle_mesh *)allocate(sizeof *s.meshes[side]);
       if (!oracle_mesh_init(s.meshes[side], positions, mesh->vertex_count, mesh->indices,
                             mesh->triangle_count, (double)mover->scale)) {

@@ -191,8 +191,7 @@ static void read_shape(const char *path, shapes_mesh *m) {
 static const solid *solid_of(int n) {
   solid *s = &solids[n];
   nsvcd_mesh mesh;
-  if (s->body)
-    return s;
+  if (s->body) return s;
   if (n < FILES)
     make_shape(n, &s->shape);
   else
@@ -257,8 +256,7 @@ static int pick_body(shapes_rng *rng) {
                   : FILES + shapes_pick(rng, file_count);
 }
 static int pick_standing(shapes_rng *rng) {
-  if (file_count && shapes_pick(rng, 4) == 0)
-    return FILES + shapes_pick(rng, file_count);
+  if (file_count && shapes_pick(rng, 4) == 0) return FILES + shapes_pick(rng, file_count);
   return shapes_pick(rng, 4) ? shapes_pick(rng, BOXES) : BOXES + shapes_pick(rng, 16);
 }
 static double top_of(const scene *s, int n) {
@@ -276,21 +274,18 @@ static void move_standing(scene *s, shapes_rng *rng, travel *a) {
   const int what = shapes_pick(rng, 6);
   const double far = s->scale * shapes_uniform(rng, 0.02, 0.4);
   const double angle = shapes_uniform(rng, 0, 2 * SHAPES_PI);
-  if (what == 0)
-    a->count = 1 + (size_t)shapes_pick(rng, 2);
+  if (what == 0) a->count = 1 + (size_t)shapes_pick(rng, 2);
   if (what == 1 || what == 2) {
     a->way[0] = far * cos(angle);
     a->way[1] = far * sin(angle);
   }
-  if (what == 2 || what == 3)
-    a->way[2] = far;
+  if (what == 2 || what == 3) a->way[2] = far;
   if (what == 4) {
     a->place[2] += far;
     a->way[2] = -far;
     s->rests = s->deep = 0;
   }
-  if (what == 5)
-    a->angle = angle / 4;
+  if (what == 5) a->angle = angle / 4;
   a->axis[0] = 0;
   a->axis[2] = 1;
 }
@@ -307,8 +302,7 @@ static void scene_stands(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const int floors[5] = {SLAB, SLAB, FINE_SLAB, BLOCK, BOXES};
   a->solid = pick_standing(rng);
   b->solid = floors[shapes_pick(rng, 5)];
-  if (b->solid == BOXES)
-    b->solid += shapes_pick(rng, 16);
+  if (b->solid == BOXES) b->solid += shapes_pick(rng, 16);
   draw_pressed(s, rng);
   const double room = b->solid < STANDING ? 0.01 : b->solid == BLOCK ? 0.1 : 0.4;
   for (int k = 0; k < 2; k++)
@@ -320,21 +314,17 @@ static void scene_corner(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->solid = shapes_pick(rng, 3) ? BOXES + shapes_pick(rng, 16) : shapes_pick(rng, 2);  // boxes
   b->solid = WALLS;
   draw_pressed(s, rng);
-  for (int k = 0; k < 3; k++)
-    a->place[k] = -s->scale * solid_of(a->solid)->low[k] - s->pressed;
+  for (int k = 0; k < 3; k++) a->place[k] = -s->scale * solid_of(a->solid)->low[k] - s->pressed;
   a->way[shapes_pick(rng, 3)] = 0.2 * s->scale;
-  if (shapes_pick(rng, 3) == 0)
-    a->count = 1;
+  if (shapes_pick(rng, 3) == 0) a->count = 1;
 }
 static void scene_stacked(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const int twins[4] = {BOX, FINE_BOX, BLOCK, CYLINDER};
   a->solid = twins[shapes_pick(rng, 4)];
-  if (shapes_pick(rng, 2))
-    a->solid = BOXES + shapes_pick(rng, 16);
+  if (shapes_pick(rng, 2)) a->solid = BOXES + shapes_pick(rng, 16);
   b->solid = a->solid;
   draw_pressed(s, rng);
-  if (shapes_pick(rng, 2))
-    a->place[0] = 0.03 * s->scale;
+  if (shapes_pick(rng, 2)) a->place[0] = 0.03 * s->scale;
   a->place[2] = top_of(s, b->solid) - foot_of(s, a->solid) - s->pressed;
   move_standing(s, rng, a);
 }
@@ -369,8 +359,7 @@ static void scene_passes(scene *s, shapes_rng *rng, travel *a, travel *b) {
   }
   const double apart = oracle_distance(&meshes[0], &poses[0], &meshes[1], &poses[1], on_a, on_b);
   shapes_direction(rng, a->way);
-  for (int k = 0; k < 3 && apart > 0; k++)
-    on_a[k] = (on_a[k] - on_b[k]) / apart;
+  for (int k = 0; k < 3 && apart > 0; k++) on_a[k] = (on_a[k] - on_b[k]) / apart;
   const double along = oracle_dot(on_a, a->way);
   for (int k = 0; k < 3 && apart > 0; k++) {
     a->way[k] = 0.4 * (a->way[k] - along * on_a[k]);
@@ -390,8 +379,7 @@ static void scene_far(scene *s, shapes_rng *rng, travel *a, travel *b) {
 static void scene_crosses(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->solid = pick_body(rng);
   b->solid = shapes_pick(rng, 3) ? pick_body(rng) : a->solid;
-  if (shapes_pick(rng, 2))
-    shapes_quaternion(rng, a->q);
+  if (shapes_pick(rng, 2)) shapes_quaternion(rng, a->q);
   a->wander = s->scale * 0.001 * shapes_pick(rng, 2) * pow(8, shapes_pick(rng, 3));
   a->angle = shapes_pick(rng, 3) ? 0 : shapes_uniform(rng, 0, 3);
   if (shapes_pick(rng, 3) == 0) {  // both turn
@@ -416,11 +404,9 @@ static void scene_hollow(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->solid = CRUMB;
   b->solid = hulls[shapes_pick(rng, 4)];
   const solid *hull = solid_of(b->solid);
-  for (int k = 0; k < 3; k++)
-    a->place[k] = s->scale * (hull->low[k] + hull->high[k]) / 2;
+  for (int k = 0; k < 3; k++) a->place[k] = s->scale * (hull->low[k] + hull->high[k]) / 2;
   a->way[shapes_pick(rng, 3)] = s->scale * shapes_uniform(rng, 0, 0.2);
-  if (shapes_pick(rng, 3) == 0)
-    a->count = 1;
+  if (shapes_pick(rng, 3) == 0) a->count = 1;
 }
 static void scene_within(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const int outer[4] = {BLOCK, BALL, CYLINDER, BOX};
@@ -435,8 +421,7 @@ static void scene_needle(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->solid = NEEDLE;
   b->solid = PLATE;
   oracle_axis_angle(b->axis, 0, b->q);
-  for (int k = 0; k < 2; k++)
-    a->place[k] = s->scale * shapes_uniform(rng, -0.17, 0.17);
+  for (int k = 0; k < 2; k++) a->place[k] = s->scale * shapes_uniform(rng, -0.17, 0.17);
   a->q[1] = a->q[3] = sqrt(0.5);  // its length along z
   a->place[2] = s->scale * shapes_uniform(rng, 0.1, 1);
   a->way[2] = -10 * s->scale;
@@ -466,8 +451,7 @@ static void scene_screws(scene *s, shapes_rng *rng, travel *a, travel *b) {
   a->axis[0] = 0;
   a->axis[2] = 1;
   a->angle = shapes_uniform(rng, 0, 12);
-  if (a->count < 17)
-    a->count = 17;
+  if (a->count < 17) a->count = 17;
 }
 static void scene_wanders(scene *s, shapes_rng *rng, travel *a, travel *b) {
   static const size_t counts[4] = {2, 5, 33, 200};
@@ -518,12 +502,10 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const
     for (int k = 0; k < 3; k++)
       own.position[k] = go->place[k] + t * go->way[k] + go->wander * shapes_uniform(rng, -1, 1);
     own = oracle_compose(frame, &own);
-    for (int k = 0; k < 3; k++)
-      own.position[k] += t * along[k];
+    for (int k = 0; k < 3; k++) own.position[k] += t * along[k];
     p->raw[n] = pose_rounded(&own);
     p->poses[n] = pose_widened(&p->raw[n]);
-    if (!n)
-      continue;
+    if (!n) continue;
     double moved[3], axis[3];
     oracle_sub(p->poses[n].position, p->poses[n - 1].position, moved);
     const double angle = oracle_quat_arc(p->poses[n - 1].rotation, p->poses[n].rotation, axis);
@@ -559,8 +541,7 @@ static void draw_scene(scene *s, uint64_t seed) {
   size_t maker = 0;
   memset(s, 0, sizeof *s);
   memset(go, 0, sizeof go);
-  for (size_t k = 0; k < MAKERS; k++)
-    total += makers[k].share;
+  for (size_t k = 0; k < MAKERS; k++) total += makers[k].share;
   for (int n = shapes_pick(&rng, total); n >= makers[maker].share; maker++)
     n -= makers[maker].share;
   s->seed = seed;
@@ -584,8 +565,7 @@ static void draw_scene(scene *s, uint64_t seed) {
   }
   shapes_direction(&rng, along);
   const int carried = go[0].count > 1 && shapes_pick(&rng, 4) == 0;
-  if (carried && go[1].count == 1)
-    go[1].count = shapes_pick(&rng, 2) ? go[0].count : 2;
+  if (carried && go[1].count == 1) go[1].count = shapes_pick(&rng, 2) ? go[0].count : 2;
   for (int k = 0; k < 2; k++)
     set_part(s, &rng, &s->parts[k], &go[k], &frame, carried ? along : origin);
   s->quanta = s->scale * (s->parts[0].of->quantum + s->parts[1].of->quantum);
@@ -617,29 +597,25 @@ static oracle_pose pose_in(const scene *s, const world *w, int k, double t) {
   oracle_pose pose = oracle_pose_at(s->parts[k].poses, s->parts[k].count, t);
   const part *fixed = &s->parts[s->lifted_with];
   double m[9], seen[3], turned[3];
-  if (k == 1)
-    return pose;
+  if (k == 1) return pose;
   const oracle_pose now = oracle_pose_at(fixed->poses, fixed->count, t);
   oracle_matrix(fixed->poses[0].rotation, m);
   oracle_rotate_back(m, w->lift, seen);
   oracle_matrix(now.rotation, m);
   oracle_rotate(m, seen, turned);
-  for (int i = 0; i < 3; i++)
-    pose.position[i] += turned[i];
+  for (int i = 0; i < 3; i++) pose.position[i] += turned[i];
   return pose;
 }
 // Remembered.
 static double distance_at(const scene *s, world *w, double t) {
   for (size_t i = w->count; i-- > 0 && w->count - i < 400;) {
-    if (w->moments[i].t >= t && w->moments[i].t <= t)
-      return w->moments[i].d;
+    if (w->moments[i].t >= t && w->moments[i].t <= t) return w->moments[i].d;
   }
   const oracle_pose a = pose_in(s, w, 0, t);
   const oracle_pose b = pose_in(s, w, 1, t);
   const double d = oracle_search_run(&w->search, &a, &b, DBL_MAX);
   w->least = fmin(w->least, d);
-  if (w->count < MOST_MOMENTS)
-    w->moments[w->count++] = (moment){t, d};
+  if (w->count < MOST_MOMENTS) w->moments[w->count++] = (moment){t, d};
   return d;
 }
 // Golden section between the neighbours of the n lowest of some samples.
@@ -649,8 +625,7 @@ static void refine(const scene *s, world *w, size_t samples) {
     const double here = w->moments[i].d;
     const int lowest =
         (i == 0 || here <= w->moments[i - 1].d) && (i + 1 == samples || here < w->moments[i + 1].d);
-    if (!lowest || here > w->least + s->speed * step || !(here > 0) || w->count > 1500)
-      continue;
+    if (!lowest || here > w->least + s->speed * step || !(here > 0) || w->count > 1500) continue;
     double low = fmax(w->moments[i].t - step, 0);
     double high = fmin(w->moments[i].t + step, 1);
     for (int k = 0; k < 22; k++) {
@@ -676,23 +651,18 @@ static int is_inside(const scene *s, const world *w) {
 static world *world_of(const scene *s, const float *lift) {
   for (size_t i = 0; i < world_count; i++) {
     double off = 0;
-    for (int k = 0; k < 3; k++)
-      off += fabs(worlds[i].lift[k] - (double)lift[k]);
-    if (off < 1e-12)
-      return &worlds[i];
+    for (int k = 0; k < 3; k++) off += fabs(worlds[i].lift[k] - (double)lift[k]);
+    if (off < 1e-12) return &worlds[i];
   }
-  if (world_count == MOST_WORLDS)
-    return NULL;
+  if (world_count == MOST_WORLDS) return NULL;
   world *w = &worlds[world_count++];
   w->count = 0;
   w->least = DBL_MAX;
-  for (int k = 0; k < 3; k++)
-    w->lift[k] = (double)lift[k];
+  for (int k = 0; k < 3; k++) w->lift[k] = (double)lift[k];
   oracle_search_begin(&w->search, &s->parts[0].mesh, &s->parts[1].mesh);
   const size_t arcs = s->parts[0].count > s->parts[1].count ? s->parts[0].count : s->parts[1].count;
   const size_t samples = arcs < 2 ? 2 : arcs < 100 ? 129 : 2 * arcs - 1;
-  for (size_t i = 0; i < samples; i++)
-    distance_at(s, w, (double)i / (double)(samples - 1));
+  for (size_t i = 0; i < samples; i++) distance_at(s, w, (double)i / (double)(samples - 1));
   w->at_start = w->moments[0].d;
   refine(s, w, samples);
   w->inside = is_inside(s, w);
@@ -739,8 +709,7 @@ static const char *name_of(const solid *of) {
 static void find(const scene *s, kind what, const ask *k, const ask *other, double by) {
   char text[1400], one[500], two[500] = "";
   describe(k, one, sizeof one);
-  if (other)
-    describe(other, two, sizeof two);
+  if (other) describe(other, two, sizeof two);
   snprintf(text, sizeof text,
            "%llu %s, %s on %s: %s%s%s (%g; quanta %g, least %g, at start %g, pressed %g)",
            (unsigned long long)s->seed, s->name, name_of(s->parts[0].of), name_of(s->parts[1].of),
@@ -753,15 +722,13 @@ static void find(const scene *s, kind what, const ask *k, const ask *other, doub
     findings[what].scenes++;
   }
   findings[what].last = s->seed;
-  if (telling)
-    printf("  ! %s: %s\n", findings[what].what, text);
+  if (telling) printf("  ! %s: %s\n", findings[what].what, text);
 }
 
 static const ask *put(const scene *s, const nsvcd_sweep_options *options, int swapped, int ladder) {
   ask *k = &asks[ask_count];
   nsvcd_answer *w = &k->answer;
-  if (ask_count == MOST_ASKS)
-    exit((complain("too many questions"), REFUSED));
+  if (ask_count == MOST_ASKS) exit((complain("too many questions"), REFUSED));
   ask_count++;
   memset(k, 0, sizeof *k);
   memset(w, 0x55, sizeof *w);
@@ -820,8 +787,7 @@ static void put_all(const scene *s) {
       const ask *k = put(s, &o, 0, (int)n + 1);
       const int is_open = k->answer.status == NSVCD_STATUS_UNDECIDED;
       ends += !is_open;
-      if (n == 0 && ends == 1)
-        enough = o.work;
+      if (n == 0 && ends == 1) enough = o.work;
       if (is_open && n > 0 && enough > 0 && o.work >= 16 * enough && o.work > 500)
         find(s, n < 3 ? LOST_IN_HASTE : MEASURE_IN_HASTE, k, &asks[base], (double)enough);
     }
@@ -842,8 +808,7 @@ static oracle_triangle triangle_of(const scene *s, const world *w, int k, uint32
   for (int i = 0; i < 3; i++) {
     double v[3];
     const double *at = p->of->shape.positions + 3 * p->of->shape.indices[3 * triangle + i];
-    for (int j = 0; j < 3; j++)
-      v[j] = (double)p->scale * at[j];
+    for (int j = 0; j < 3; j++) v[j] = (double)p->scale * at[j];
     oracle_transform(&pose, v, out.v[i]);
   }
   oracle_triangle_normal(&out);
@@ -853,8 +818,7 @@ static oracle_triangle triangle_of(const scene *s, const world *w, int k, uint32
 static oracle_triangle point_of(const float *point) {
   oracle_triangle out;
   memset(&out, 0, sizeof out);
-  for (int k = 0; k < 9; k++)
-    out.v[k / 3][k % 3] = (double)point[k % 3];
+  for (int k = 0; k < 9; k++) out.v[k / 3][k % 3] = (double)point[k % 3];
   return out;
 }
 
@@ -868,12 +832,10 @@ static const char *broken(const scene *s, const ask *k) {
   if (w->status != NSVCD_STATUS_WITNESS && w->status != NSVCD_STATUS_UNDECIDED && !is_free &&
       !is_inside)
     return "status";
-  if (!is_within(w->contact_time, 0, 1) || !is_within(w->free_until, 0, 1))
-    return "time";
+  if (!is_within(w->contact_time, 0, 1) || !is_within(w->free_until, 0, 1)) return "time";
   if (!(w->clearance_low >= 0) || !(w->clearance_high >= w->clearance_low))
     return "clearance_low and high";
-  if (!is_within(w->logit, -100, 100) || w->collides != (w->logit > 0))
-    return "collides and logit";
+  if (!is_within(w->logit, -100, 100) || w->collides != (w->logit > 0)) return "collides and logit";
   for (int i = 0; i < 3; i++) {
     if (!is_within(w->point[i], -1e6, 1e6) || !is_within(w->normal[i], -1.1, 1.1) ||
         !is_within(w->lift[i], -10, 10))
@@ -885,8 +847,7 @@ static const char *broken(const scene *s, const ask *k) {
     return "WITNESS without triangles, or that does not collide";
   if (is_inside && (w->contact_time > 0 || !w->collides || w->free_until > 0))
     return "INSIDE at another time than 0";
-  if (!is_free && !(o->first > 0) && w->free_until > 0)
-    return "free_until without first";
+  if (!is_free && !(o->first > 0) && w->free_until > 0) return "free_until without first";
   if (names && (w->triangle_a >= s->parts[0].of->shape.triangles ||
                 w->triangle_b >= s->parts[1].of->shape.triangles))
     return "triangles";
@@ -929,21 +890,18 @@ static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
 static void judge_triangles(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   double x[3], y[3];
-  if (w->triangle_a == NSVCD_NO_TRIANGLE || !k->world)
-    return;
+  if (w->triangle_a == NSVCD_NO_TRIANGLE || !k->world) return;
   const double t = (double)w->contact_time;
   const double moved = 1e-7 * s->speed + 1e-7 * s->size;
   const oracle_triangle a = triangle_of(s, k->world, 0, w->triangle_a, t);
   const oracle_triangle b = triangle_of(s, k->world, 1, w->triangle_b, t);
   const double apart = sqrt(oracle_triangles(&a, &b, DBL_MAX, x, y));
-  if (apart > (double)w->clearance_high + moved)
-    find(s, HIGH_TOO_LOW, k, NULL, apart);
+  if (apart > (double)w->clearance_high + moved) find(s, HIGH_TOO_LOW, k, NULL, apart);
   if (apart < (double)w->clearance_high - 4 * s->quanta - moved)
     find(s, PART_FARTHER, k, NULL, apart);  // it is about a part of a large triangle
   else
     judge_place(s, k, &a, &b, moved);
-  if (w->status != NSVCD_STATUS_WITNESS)
-    return;
+  if (w->status != NSVCD_STATUS_WITNESS) return;
   if (apart > (double)k->options.clearance + s->quanta + moved)
     find(s, WITNESS_APART, k, NULL, apart);
   if ((double)w->clearance_high > ((double)k->options.clearance + s->quanta) * (1 + 1e-5) + 1e-9)
@@ -958,14 +916,11 @@ static void judge_distances(const scene *s, const ask *k) {
   const int all = is_free || k->options.measure > 0;
   double until = DBL_MAX;
   double low = DBL_MAX;
-  if (w->status == NSVCD_STATUS_INSIDE)
-    return;
+  if (w->status == NSVCD_STATUS_INSIDE) return;
   for (size_t i = 0; i < k->world->count; i++) {
     const moment *m = &k->world->moments[i];
-    if (m->t < (double)w->free_until)
-      until = fmin(until, m->d);
-    if (all || m->t < (double)w->free_until)
-      low = fmin(low, m->d);
+    if (m->t < (double)w->free_until) until = fmin(until, m->d);
+    if (all || m->t < (double)w->free_until) low = fmin(low, m->d);
   }
   if (clearance > 0 ? until < clearance - hair : !(until > 0))
     find(s, is_free ? FREE_BUT_NEAR : UNTIL_BUT_NEAR, k, NULL, until);
@@ -976,27 +931,22 @@ static void judge_distances(const scene *s, const ask *k) {
 }
 
 static void judge_inside(const scene *s, const ask *k) {
-  if (k->answer.status != NSVCD_STATUS_INSIDE)
-    return;
+  if (k->answer.status != NSVCD_STATUS_INSIDE) return;
   const double start = k->world->at_start;
   double most = 0;
   for (int n = 0; n < 2; n++) {
     const oracle_pose pose = pose_in(s, k->world, n, 0);
     double m[9], d[3], at[3];
-    for (int i = 0; i < 3; i++)
-      d[i] = (double)k->answer.point[i] - pose.position[i];
+    for (int i = 0; i < 3; i++) d[i] = (double)k->answer.point[i] - pose.position[i];
     oracle_matrix(pose.rotation, m);
     oracle_rotate_back(m, d, at);
     most = fmax(most, fabs(oracle_winding(&s->parts[n].mesh, at)));
   }
-  if (most < 0.4 && !(k->swapped && k->options.skin > 0))
-    find(s, INSIDE_POINT, k, NULL, most);
-  if (start > 1e-9 * s->size && !k->world->inside)
-    find(s, INSIDE_FALSE, k, NULL, start);
+  if (most < 0.4 && !(k->swapped && k->options.skin > 0)) find(s, INSIDE_POINT, k, NULL, most);
+  if (start > 1e-9 * s->size && !k->world->inside) find(s, INSIDE_FALSE, k, NULL, start);
   // who asks for yes or no alone is told what is known first; a witness is sought for some units only
   const int tells = k->options.first > 0 || k->options.measure > 0 || k->options.skin > 0;
-  if (!(start > 0) && tells && !k->ladder)
-    find(s, INSIDE_MEETS, k, NULL, start);
+  if (!(start > 0) && tells && !k->ladder) find(s, INSIDE_MEETS, k, NULL, start);
 }
 
 // What it need not have left open, and what it is late for.
@@ -1005,8 +955,7 @@ static void judge_effort(const scene *s, const ask *k) {
   const nsvcd_sweep_options *o = &k->options;
   const double allowed = (double)o->clearance + (double)o->tolerance + 4 * s->quanta +
                          4e-6 * (s->size + 10 * s->scale);
-  if (w->work > o->work + 10000)
-    find(s, OVER_WORK, k, NULL, (double)w->work);
+  if (w->work > o->work + 10000) find(s, OVER_WORK, k, NULL, (double)w->work);
   if (w->status == NSVCD_STATUS_UNDECIDED && w->work < o->work && k->world->least > allowed)
     find(s, GAVE_UP, k, NULL, k->world->least);
   if (w->status == NSVCD_STATUS_UNDECIDED && !k->ladder && !(o->measure > 0) && s->turn < 5 &&
@@ -1037,14 +986,10 @@ static void judge_skin(const scene *s, const ask *k) {
   const double clearance = (double)k->options.clearance;
   const double skin = (double)k->options.skin;
   const double start = k->world->at_start;
-  if (!(skin > 0) || k->ladder)
-    return;
-  if (oracle_length(lift) > 4.001 * skin)
-    find(s, SKIN_LONG, k, NULL, oracle_length(lift) / skin);
-  if (s->deep && w->status == NSVCD_STATUS_CERTIFIED_FREE)
-    find(s, SKIN_DEEP, k, NULL, start);
-  if (!s->rests || s->pressed + clearance > 0.9 * skin)
-    return;
+  if (!(skin > 0) || k->ladder) return;
+  if (oracle_length(lift) > 4.001 * skin) find(s, SKIN_LONG, k, NULL, oracle_length(lift) / skin);
+  if (s->deep && w->status == NSVCD_STATUS_CERTIFIED_FREE) find(s, SKIN_DEEP, k, NULL, start);
+  if (!s->rests || s->pressed + clearance > 0.9 * skin) return;
   if (!(oracle_length(lift) > 0)) {
     if (start <= clearance && w->status != NSVCD_STATUS_CERTIFIED_FREE)
       find(s, SKIN_RESTS, k, NULL, start);
@@ -1078,17 +1023,13 @@ static int differences(const ask *i, const ask *j) {
 static void judge_contradictions(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *x = &i->answer;
   const nsvcd_answer *y = &j->answer;
-  if (i->world != j->world)
-    return;
+  if (i->world != j->world) return;
   const int x_free = x->status == NSVCD_STATUS_CERTIFIED_FREE;
   const int meets =
       y->status == NSVCD_STATUS_WITNESS && j->options.clearance <= i->options.clearance;
-  if (x_free && (meets || y->status == NSVCD_STATUS_INSIDE))
-    find(s, CONTRADICTION, i, j, 0);
-  if (!x_free && meets && x->free_until > y->contact_time)
-    find(s, CONTRADICTION, i, j, 1);
-  if (x->status == NSVCD_STATUS_INSIDE || y->triangle_a == NSVCD_NO_TRIANGLE)
-    return;
+  if (x_free && (meets || y->status == NSVCD_STATUS_INSIDE)) find(s, CONTRADICTION, i, j, 0);
+  if (!x_free && meets && x->free_until > y->contact_time) find(s, CONTRADICTION, i, j, 1);
+  if (x->status == NSVCD_STATUS_INSIDE || y->triangle_a == NSVCD_NO_TRIANGLE) return;
   if ((x_free || i->options.measure > 0 || y->contact_time < x->free_until) &&
       x->clearance_low > y->clearance_high)
     find(s, CONTRADICTION, i, j, 2);
@@ -1106,21 +1047,17 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   const double margin = (double)(y->clearance + y->tolerance) + 4 * s->quanta + 4e-6 * s->size;
   kind lost = KINDS;
   // an eighth of the work is kept for that
-  if (by == BY_FIRST && !(x->first > 0) && 10 * i->answer.work < y->work)
-    lost = LOST_BY_FIRST;
+  if (by == BY_FIRST && !(x->first > 0) && 10 * i->answer.work < y->work) lost = LOST_BY_FIRST;
   if (by == BY_MEASURE && !(x->measure > 0))
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
   if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world && 10 * i->answer.work < y->work)
     lost = LOST_BY_SKIN;
-  if (by == BY_SEGMENTS && !x->segments && s->turn < 5)
-    lost = LOST_BY_SEGMENTS;
+  if (by == BY_SEGMENTS && !x->segments && s->turn < 5) lost = LOST_BY_SEGMENTS;
   if (by == BY_CLEARANCE && !(x->first > 0) && !(x->measure > 0) && i->world == j->world &&
       (is_free ? y->clearance < x->clearance : y->clearance > x->clearance))
     lost = LOST_BY_CLEARANCE;
-  if (by == BY_TOLERANCE && !(x->tolerance > 0))
-    lost = LOST_BY_TOLERANCE;
-  if (lost == KINDS || (is_free && i->world->least < margin))
-    return;
+  if (by == BY_TOLERANCE && !(x->tolerance > 0)) lost = LOST_BY_TOLERANCE;
+  if (lost == KINDS || (is_free && i->world->least < margin)) return;
   // what does not meet, or comes hardly nearer than the clearance, may be undecided
   if (was == NSVCD_STATUS_WITNESS && i->world->least > 0 &&
       i->world->least > (double)y->clearance - s->quanta)
@@ -1133,8 +1070,7 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *y = &j->answer;
   const int by = differences(i, j);
   const int open = y->status == NSVCD_STATUS_UNDECIDED;
-  if (x->status != NSVCD_STATUS_UNDECIDED && open)
-    judge_losses(s, i, j, by);
+  if (x->status != NSVCD_STATUS_UNDECIDED && open) judge_losses(s, i, j, by);
   if (by == BY_FIRST && j->options.first < i->options.first && j->options.first > 0) {
     const float to = j->options.first + 1e-6f;
     if (y->free_until < x->free_until - to && !(i->options.tolerance > 0) &&
@@ -1159,8 +1095,7 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
                !differ(x->clearance_high, y->clearance_high, 1);
     for (int k = 0; k < 3; k++)
       same = same && !differ(x->normal[k], y->normal[k], 1) && !differ(x->lift[k], y->lift[k], 1);
-    if (!same)
-      find(s, SWAP_DIFFERS, i, j, 0);
+    if (!same) find(s, SWAP_DIFFERS, i, j, 0);
   }
   if (by && !(by & (BY_CLEARANCE | BY_SKIN | BY_SWAPPING)) && i < j && i->world != j->world)
     find(s, SKIN_DIFFERS, i, j, 0);
@@ -1175,8 +1110,7 @@ static void judge_step(const scene *s, const ask *i, const ask *j) {
   const int by_chance = i->options.first > 0 && i->options.work < 500;
   if (x->status != NSVCD_STATUS_UNDECIDED && y->status == NSVCD_STATUS_UNDECIDED && !by_chance)
     find(s, LADDER_LOST, j, i, 0);
-  if (i->world != j->world)
-    return;
+  if (i->world != j->world) return;
   if (y->free_until < x->free_until - i->options.first - 1e-6f)
     find(s, LADDER_UNTIL, j, i, (double)(x->free_until - y->free_until));
   if (i->options.first > 0 && x->status == NSVCD_STATUS_WITNESS &&
@@ -1196,8 +1130,7 @@ static void gather_moments(const scene *s) {
   for (size_t i = 0; i < ask_count; i++) {
     const ask *k = &asks[i];
     const double until = (double)k->answer.free_until;
-    if (!k->world)
-      continue;
+    if (!k->world) continue;
     if (k->answer.triangle_a != NSVCD_NO_TRIANGLE)
       distance_at(s, k->world, (double)k->answer.contact_time);
     if (until > 0 && until < 1) {
@@ -1235,23 +1168,18 @@ static void judge_scene(const scene *s) {
   for (size_t i = 0; i < ask_count; i++) {
     const ask *k = &asks[i];
     const char *fault = broken(s, k);
-    if (fault && telling)
-      printf("  ! %s\n", fault);
-    if (fault)
-      find(s, BAD_ANSWER, k, NULL, 0);
-    if (!k->world || fault)
-      continue;
+    if (fault && telling) printf("  ! %s\n", fault);
+    if (fault) find(s, BAD_ANSWER, k, NULL, 0);
+    if (!k->world || fault) continue;
     judge_triangles(s, k);
     judge_distances(s, k);
     judge_inside(s, k);
     judge_effort(s, k);
     judge_skin(s, k);
     for (size_t j = 0; j < ask_count; j++) {
-      if (!asks[j].world || i == j)
-        continue;
+      if (!asks[j].world || i == j) continue;
       judge_contradictions(s, k, &asks[j]);
-      if (!k->ladder && !asks[j].ladder)
-        judge_pair(s, k, &asks[j]);
+      if (!k->ladder && !asks[j].ladder) judge_pair(s, k, &asks[j]);
     }
     if (i + 1 < ask_count && k->ladder > 0 && asks[i + 1].ladder == k->ladder && asks[i + 1].world)
       judge_step(s, k, &asks[i + 1]);
@@ -1269,8 +1197,7 @@ static void run_scene(uint64_t seed) {
   put_all(&s);
   ask_again(&s);
   judge_scene(&s);
-  for (int k = 0; k < 2; k++)
-    oracle_mesh_free(&s.parts[k].mesh);
+  for (int k = 0; k < 2; k++) oracle_mesh_free(&s.parts[k].mesh);
 }
 
 static int report(void) {
@@ -1280,8 +1207,7 @@ static int report(void) {
       printf("%s: %zu in %zu scenes\n", findings[k].what, findings[k].count, findings[k].scenes);
     for (size_t n = 0; n < EXAMPLES && n < findings[k].scenes; n++)
       printf("    %s\n", findings[k].examples[n]);
-    if (k < FAILURES)
-      unsound |= findings[k].count > 0;
+    if (k < FAILURES) unsound |= findings[k].count > 0;
   }
   printf("\n%8s %8s\n", "answers", "scenes");
   for (int k = 0; k < KINDS; k++)
@@ -1305,8 +1231,7 @@ int main(int argc, char **argv) {
   file_names = argv + 3;
   telling = count == 1;
   workspace = allocate(nsvcd_sweep_workspace_size(NULL));
-  for (long n = 0; n < count; n++)
-    run_scene((uint64_t)(seed + n));
+  for (long n = 0; n < count; n++) run_scene((uint64_t)(seed + n));
   const int unsound = report();
   for (int n = 0; n < FILES + MOST_FILES; n++) {
     nsvcd_body_free(solids[n].body, NULL);

@@ -142,8 +142,7 @@ static int convex_extreme(convex_hull *h, size_t first, size_t last, size_t *tet
     const double *p = h->points[i];
     double d[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
     double far;
-    if (known == 2)
-      convex_cross(a, b, p, d);
+    if (known == 2) convex_cross(a, b, p, d);
     if (known == 3) {
       convex_cross(a, b, c, n);
       far = convex_dot(n, d);
@@ -163,18 +162,14 @@ static int convex_start(convex_hull *h, size_t first, size_t last) {
   size_t t[4] = {first, first, first, first};
   h->slots = h->unused_count = h->fresh_count = 0;
   h->volume = 0;
-  if (first == last)
-    return 0;
-  if (!convex_extreme(h, first, last, t, 1))
-    return 0;
+  if (first == last) return 0;
+  if (!convex_extreme(h, first, last, t, 1)) return 0;
   t[0] = t[1];
   for (int known = 1; known < 4; known++)
-    if (!convex_extreme(h, first, last, t, known))
-      return 0;
+    if (!convex_extreme(h, first, last, t, known)) return 0;
   double n[3], d[3];
   convex_cross(h->points[t[0]], h->points[t[1]], h->points[t[2]], n);
-  for (int k = 0; k < 3; k++)
-    d[k] = h->points[t[3]][k] - h->points[t[0]][k];
+  for (int k = 0; k < 3; k++) d[k] = h->points[t[3]][k] - h->points[t[0]][k];
   size_t swap = t[1];
   if (convex_dot(n, d) > 0) {
     t[1] = t[2];
@@ -204,11 +199,9 @@ static int convex_insert(convex_hull *h, size_t p) {
   h->fresh_count = 0;
   for (size_t f = 0; f < slots; f++)
     h->height[f] = h->x[f] * x + h->y[f] * y + h->z[f] * z - h->offset[f];
-  for (size_t f = 0; f < slots; f++)
-    above += h->height[f] > 0;
+  for (size_t f = 0; f < slots; f++) above += h->height[f] > 0;
   // full: only wildly round hulls
-  if (!above || CONVEX_FACES - slots + h->unused_count < above + 2)
-    return 0;
+  if (!above || CONVEX_FACES - slots + h->unused_count < above + 2) return 0;
   for (size_t f = 0, n = 0; n < above; f++) {
     h->seen[n] = f;
     n += h->height[f] > 0;
@@ -219,11 +212,9 @@ static int convex_insert(convex_hull *h, size_t p) {
       size_t a = h->corner[f][k];
       size_t b = h->corner[f][(k + 1) % 3];
       size_t j = 0;
-      if (h->height[beyond] > 0)
-        continue;
+      if (h->height[beyond] > 0) continue;
       size_t g = convex_face(h, a, b, p);
-      while (h->corner[beyond][j] != b)
-        j++;
+      while (h->corner[beyond][j] != b) j++;
       h->across[beyond][j] = g;
       h->across[g][0] = beyond;
       h->fan[a] = g;
@@ -235,8 +226,7 @@ static int convex_insert(convex_hull *h, size_t p) {
     h->across[f][1] = next;
     h->across[next][2] = f;
   }
-  for (size_t i = 0; i < above; i++)
-    convex_drop(h, h->seen[i]);
+  for (size_t i = 0; i < above; i++) convex_drop(h, h->seen[i]);
   return 1;
 }
 
@@ -259,19 +249,15 @@ static double convex_highest(const convex_hull *h, const size_t *faces, size_t c
 // (quickhull: Barber et al. 1996). owner, out: (count), scratch. 0 if the points are all in one
 // plane.
 static int convex_wrap(convex_hull *h, size_t count, size_t limit, size_t *owner, double *out) {
-  if (!convex_start(h, 0, count))
-    return 0;
+  if (!convex_start(h, 0, count)) return 0;
   for (size_t i = 0; i < count; i++)
     out[i] = convex_highest(h, NULL, h->slots, h->points[i], &owner[i]);
   for (size_t n = 4; n < limit; n++) {
     size_t far = 0;
     for (size_t i = 1; i < count; i++)
-      if (out[i] > out[far])
-        far = i;
-    if (out[far] < CONVEX_STRAY)
-      break;
-    if (!convex_insert(h, far))
-      break;
+      if (out[i] > out[far]) far = i;
+    if (out[far] < CONVEX_STRAY) break;
+    if (!convex_insert(h, far)) break;
     for (size_t i = 0; i < count; i++)
       if (out[i] > 0 && h->height[owner[i]] > 0)
         out[i] = convex_highest(h, h->fresh, h->fresh_count, h->points[i], &owner[i]);
@@ -332,13 +318,11 @@ static void convex_lines(convex_work *w, size_t axis, double cell, double *value
   double planes[CONVEX_LINES];
   double *line = w->line[axis];
   for (size_t i = 0; i < w->mesh->vertex_count; i++)
-    if (w->stamps[i])
-      values[count++] = w->vertices[i][axis];
+    if (w->stamps[i]) values[count++] = w->vertices[i][axis];
   qsort(values, count, sizeof *values, convex_compare);
   planes[0] = values[0];  // the outermost planes are always there
   for (size_t i = 0, end; i < count; i = end) {
-    for (end = i; end < count && values[end] - values[i] < 2;)
-      end++;
+    for (end = i; end < count && values[end] - values[i] < 2;) end++;
     weight = end - i;
     if (weight < 4 || values[i] < planes[0] + cell / 2 || values[i] > values[count - 1] - cell / 2)
       continue;
@@ -357,8 +341,7 @@ static void convex_lines(convex_work *w, size_t axis, double cell, double *value
   for (size_t i = 0; i + 1 < chosen; i++) {
     double gap = planes[i + 1] - planes[i];
     double pieces = fmax(1, floor(gap / cell + 0.5));
-    for (double k = 0; k < pieces; k++)
-      line[n++] = floor(planes[i] + gap * k / pieces);
+    for (double k = 0; k < pieces; k++) line[n++] = floor(planes[i] + gap * k / pieces);
   }
   line[n] = planes[chosen - 1];
   line[n + 1] = ceil(planes[chosen - 1] + cell);
@@ -383,8 +366,7 @@ static void convex_mark(convex_work *w, const double *a, const double *b, const 
   convex_cross(a, b, c, n);
   double length = sqrt(convex_dot(n, n));
   double rows = floor(convex_distance(a, b) / step) + 2;
-  for (int k = 0; k < 3; k++)
-    n[k] *= length > 0 ? 1 / length : 0;
+  for (int k = 0; k < 3; k++) n[k] *= length > 0 ? 1 / length : 0;
   for (double i = 1.0 / 3; i < rows; i++) {
     double u = i / rows;
     double columns = floor((1 - u) * convex_distance(a, c) / step) + 2;
@@ -393,10 +375,8 @@ static void convex_mark(convex_work *w, const double *a, const double *b, const 
       for (size_t k = 0; k < 3; k++) {
         p[k] = a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) - 2 * n[k];
         p[k] = fmin(fmax(p[k], w->line[k][1]), w->line[k][w->size[k] - 1] - 1);
-        while (w->line[k][at[k]] > p[k])
-          at[k]--;
-        while (w->line[k][at[k] + 1] <= p[k])
-          at[k]++;
+        while (w->line[k][at[k]] > p[k]) at[k]--;
+        while (w->line[k][at[k] + 1] <= p[k]) at[k]++;
       }
       unsigned char *cell = &w->cells[convex_cell(w, at[0], at[1], at[2])];
       // itself, and a look to either side
@@ -414,8 +394,7 @@ static int convex_flood(convex_work *w) {
   size_t top = 1;
   size_t stride[3] = {w->size[1] * w->size[2], w->size[2], 1};
   size_t *stack = (size_t *)malloc(count * sizeof *stack);
-  if (!stack)
-    return 0;
+  if (!stack) return 0;
   stack[0] = 0;
   w->cells[0] = CONVEX_OUTSIDE;
   while (top) {
@@ -425,8 +404,7 @@ static int convex_flood(convex_work *w) {
       size_t next[2] = {i ? cell - stride[axis] : cell,
                         i + 1 < w->size[axis] ? cell + stride[axis] : cell};
       for (int side = 0; side < 2; side++) {
-        if (w->cells[next[side]] != CONVEX_INSIDE)
-          continue;
+        if (w->cells[next[side]] != CONVEX_INSIDE) continue;
         w->cells[next[side]] = CONVEX_OUTSIDE;
         stack[top++] = next[side];
       }
@@ -438,8 +416,7 @@ static int convex_flood(convex_work *w) {
 static int convex_is_outside(const convex_work *w, const double *p) {
   size_t at[3];
   for (size_t k = 0; k < 3; k++)
-    for (at[k] = 0; at[k] + 1 < w->size[k] && w->line[k][at[k] + 1] <= p[k];)
-      at[k]++;
+    for (at[k] = 0; at[k] + 1 < w->size[k] && w->line[k][at[k] + 1] <= p[k];) at[k]++;
   return w->cells[convex_cell(w, at[0], at[1], at[2])] == CONVEX_OUTSIDE;
 }
 // Drops surface points with the outside on neither side, a cell away: surfaces within the solid,
@@ -457,14 +434,11 @@ static int convex_voxelise(convex_work *w) {
   const nsvcd_mesh *mesh = w->mesh;
   double *values = (double *)malloc((mesh->vertex_count + 1) * sizeof *values);
   double cell = 2 * CONVEX_RANGE / CONVEX_CELLS;
-  if (!values)
-    return 0;
-  for (size_t axis = 0; axis < 3; axis++)
-    convex_lines(w, axis, cell, values);
+  if (!values) return 0;
+  for (size_t axis = 0; axis < 3; axis++) convex_lines(w, axis, cell, values);
   free(values);
   w->cells = (unsigned char *)calloc(w->size[0] * w->size[1] * w->size[2], 1);
-  if (!w->cells)
-    return 0;
+  if (!w->cells) return 0;
   for (size_t i = 0; i < mesh->triangle_count; i++) {
     const uint32_t *t = mesh->indices + 3 * i;
     const double *a = w->vertices[t[0]];
@@ -480,8 +454,7 @@ static int convex_voxelise(convex_work *w) {
     else
       convex_mark(w, c, a, b, 0.25 * cell);
   }
-  if (w->surface.failed || !convex_flood(w))
-    return 0;
+  if (w->surface.failed || !convex_flood(w)) return 0;
   convex_keep_outer(w);
   return 1;
 }
@@ -498,10 +471,8 @@ static size_t convex_clip(const double (*in)[3], size_t count, size_t axis, doub
     const double *b = in[(i + 1) % count];
     double ha = side * (a[axis] - at);
     double hb = side * (b[axis] - at);
-    if (ha >= 0)
-      memcpy(out[n++], a, sizeof out[0]);
-    if ((ha < 0) == (hb < 0))
-      continue;
+    if (ha >= 0) memcpy(out[n++], a, sizeof out[0]);
+    if ((ha < 0) == (hb < 0)) continue;
     for (size_t k = 0; k < 3; k++)
       out[n][k] = k == axis ? at : a[k] + ha / (ha - hb) * (b[k] - a[k]);
     n++;
@@ -518,12 +489,9 @@ static int convex_enters(const double *a, const double *b, const double *c, cons
     double least = fmin(a[k], fmin(b[k], c[k]));
     double most = fmax(a[k], fmax(b[k], c[k]));
     int flat = least >= most;
-    if (most < low[k] || least > high[k])
-      return 0;
-    if (most <= low[k] && !(flat && n[k] <= 0))
-      return 0;
-    if (least >= high[k] && !(flat && n[k] > 0))
-      return 0;
+    if (most < low[k] || least > high[k]) return 0;
+    if (most <= low[k] && !(flat && n[k] <= 0)) return 0;
+    if (least >= high[k] && !(flat && n[k] > 0)) return 0;
   }
   return 1;
 }
@@ -544,22 +512,17 @@ static void convex_gather(convex_work *w, const convex_box *box, const double *l
     size_t count = 3;
     size_t now = 0;
     size_t inside = 0;
-    for (size_t k = 0; k < 3; k++)
-      memcpy(polygon[0][k], w->vertices[t[k]], sizeof polygon[0][k]);
-    if (!convex_enters(polygon[0][0], polygon[0][1], polygon[0][2], low, high))
-      continue;
-    for (size_t k = 0; k < 3; k++)
-      inside += (size_t)convex_inside_box(polygon[0][k], low, high);
+    for (size_t k = 0; k < 3; k++) memcpy(polygon[0][k], w->vertices[t[k]], sizeof polygon[0][k]);
+    if (!convex_enters(polygon[0][0], polygon[0][1], polygon[0][2], low, high)) continue;
+    for (size_t k = 0; k < 3; k++) inside += (size_t)convex_inside_box(polygon[0][k], low, high);
     for (size_t side = 0; side < 6 && inside < 3; side++, now = !now)
       count =
           convex_clip((const double(*)[3])polygon[now], count, side / 2,
                       side % 2 ? high[side / 2] : low[side / 2], side % 2 ? -1 : 1, polygon[!now]);
     for (size_t k = 0; k < count; k++) {
       const double *p = polygon[now][k];
-      if (inside == 3 && w->stamps[t[k]] == w->stamp)
-        continue;  // a vertex, once
-      if (inside == 3)
-        w->stamps[t[k]] = w->stamp;
+      if (inside == 3 && w->stamps[t[k]] == w->stamp) continue;  // a vertex, once
+      if (inside == 3) w->stamps[t[k]] = w->stamp;
       convex_add(&w->points, floor(p[0] + 0.5), floor(p[1] + 0.5), floor(p[2] + 0.5));
     }
   }
@@ -573,8 +536,7 @@ static void convex_gather(convex_work *w, const convex_box *box, const double *l
     for (size_t around = 0; around < 8 && deep; around++)
       deep = w->cells[convex_cell(w, at[0] - (around & 1), at[1] - (around >> 1 & 1),
                                   at[2] - (around >> 2))] == CONVEX_INSIDE;
-    if (deep)
-      convex_add(&w->points, w->line[0][at[0]], w->line[1][at[1]], w->line[2][at[2]]);
+    if (deep) convex_add(&w->points, w->line[0][at[0]], w->line[1][at[1]], w->line[2][at[2]]);
   }
 }
 // The hull of the gathered points. Points in one plane, or on a line, are moved off it by a grid
@@ -584,22 +546,19 @@ static int convex_wrap_points(convex_work *w) {
   uint32_t noise = 1;
   for (size_t i = 0; p->count && p->count < 4; i++)
     convex_add(p, p->at[i][0], p->at[i][1], p->at[i][2]);
-  if (p->failed)
-    return 0;
+  if (p->failed) return 0;
   if (w->owner_capacity < p->count) {
     free(w->owner);
     w->owner_capacity = p->capacity;
     w->owner = (size_t *)malloc(w->owner_capacity * (2 * sizeof *w->owner + sizeof(double)));
-    if (!w->owner)
-      return 0;
+    if (!w->owner) return 0;
   }
   size_t *fan = w->owner + w->owner_capacity;
   double *out = (double *)(void *)(fan + w->owner_capacity);
   for (int attempt = 0; attempt < 8; attempt++) {
     w->hull.points = (const double(*)[3])p->at;
     w->hull.fan = fan;
-    if (convex_wrap(&w->hull, p->count, CONVEX_VERTICES, w->owner, out))
-      return 1;
+    if (convex_wrap(&w->hull, p->count, CONVEX_VERTICES, w->owner, out)) return 1;
     for (size_t i = 0; i < 3 * p->count; i++) {
       noise = noise * 1664525u + 1013904223u;
       p->at[i / 3][i % 3] += (double)(noise >> 24 & 3) - 1;
@@ -618,12 +577,9 @@ static int convex_measure(convex_work *w, convex_part *part) {
   part->count = 0;
   part->depth = 0;
   convex_gather(w, &part->box, low, high);
-  if (w->points.count == 0)
-    return 0;
-  if (!convex_wrap_points(w))
-    return -1;
-  for (size_t i = 0; i < w->points.count; i++)
-    w->owner[i] = 0;
+  if (w->points.count == 0) return 0;
+  if (!convex_wrap_points(w)) return -1;
+  for (size_t i = 0; i < w->points.count; i++) w->owner[i] = 0;
   for (size_t f = 0; f < h->slots; f++)
     for (size_t k = 0; k < 3 && h->length[f] > 0; k++)
       if (!w->owner[h->corner[f][k]]++)
@@ -656,8 +612,7 @@ static void convex_outline(convex_work *w, const convex_box *box, size_t axis, s
     double filled = 0;
     at[v] = box->first[v] + r;
     for (at[u] = box->first[u]; at[u] < box->last[u]; at[u]++) {
-      if (w->cells[convex_cell(w, at[0], at[1], at[2])] == CONVEX_OUTSIDE)
-        continue;
+      if (w->cells[convex_cell(w, at[0], at[1], at[2])] == CONVEX_OUTSIDE) continue;
       double a = w->line[u][at[u]];
       double b = w->line[u][at[u] + 1];
       for (size_t k = r; k < r + 2; k++) {
@@ -676,8 +631,7 @@ static void convex_outline(convex_work *w, const convex_box *box, size_t axis, s
     const double *x = w->line[v] + box->first[v];
     const double *y = rim[side];
     for (size_t r = 0; r <= rows; r++) {
-      if (fabs(y[r]) > 1e300)
-        continue;
+      if (fabs(y[r]) > 1e300) continue;
       while (n > 1 && sign * ((x[chain[n - 1]] - x[chain[n - 2]]) * (y[r] - y[chain[n - 2]]) -
                               (y[chain[n - 1]] - y[chain[n - 2]]) * (x[r] - x[chain[n - 2]])) <=
                           0)
@@ -702,8 +656,7 @@ static void convex_grow(convex_work *w, size_t slabs, const size_t *start, int b
     size_t s = behind ? slabs - 1 - i : i;
     if (!begun && start[s] < start[s + 1])
       begun = (size_t)convex_start(&w->hull, start[s], start[s + 1]);
-    for (size_t p = start[s]; p < start[s + 1] && begun; p++)
-      convex_insert(&w->hull, p);
+    for (size_t p = start[s]; p < start[s + 1] && begun; p++) convex_insert(&w->hull, p);
     volume[behind ? s : s + 1] = begun ? w->hull.volume : 0;
   }
 }
@@ -726,8 +679,7 @@ static double convex_try_axis(convex_work *w, const convex_part *part, size_t ax
   }
   start[slabs] = w->points.count;
   size_t *fan = (size_t *)malloc((w->points.count + 1) * sizeof *fan);
-  if (!fan || w->points.failed)
-    return free(fan), w->points.failed = 1, best;
+  if (!fan || w->points.failed) return free(fan), w->points.failed = 1, best;
   w->hull.points = (const double(*)[3])w->points.at;
   w->hull.fan = fan;
   convex_grow(w, slabs, start, 0, before);
@@ -735,12 +687,10 @@ static double convex_try_axis(convex_work *w, const convex_part *part, size_t ax
   free(fan);
   for (size_t s = 1; s < slabs; s++) {
     sum += solid[s - 1];
-    if (sum <= 0 || sum >= total)
-      continue;
+    if (sum <= 0 || sum >= total) continue;
     // A little for balance: of planes that win nothing, the middle one makes progress.
     double cost = (before[s] + behind[s]) / 6 + CONVEX_BALANCE * fabs(2 * sum - total);
-    if (cost >= best)
-      continue;
+    if (cost >= best) continue;
     best = cost;
     halves[0].box = halves[1].box = part->box;
     halves[0].box.last[axis] = halves[1].box.first[axis] = first + s;
@@ -751,8 +701,7 @@ static double convex_try_axis(convex_work *w, const convex_part *part, size_t ax
 static int convex_decompose(convex_work *w, size_t most, double detail) {
   convex_part *parts = w->parts;
   convex_part *halves = (convex_part *)calloc(2, sizeof *halves);
-  if (!halves)
-    return 0;
+  if (!halves) return 0;
   for (size_t k = 0; k < 3; k++) {
     parts[0].box.first[k] = 0;
     parts[0].box.last[k] = w->size[k];
@@ -762,10 +711,8 @@ static int convex_decompose(convex_work *w, size_t most, double detail) {
     size_t worst = 0;
     double best = DBL_MAX;
     for (size_t i = 1; i < w->part_count; i++)
-      if (parts[i].depth > parts[worst].depth)
-        worst = i;
-    if (parts[worst].depth <= detail)
-      break;
+      if (parts[i].depth > parts[worst].depth) worst = i;
+    if (parts[worst].depth <= detail) break;
     for (size_t axis = 0; axis < 3; axis++)
       best = convex_try_axis(w, &parts[worst], axis, best, halves);
     if (!(best < DBL_MAX)) {
@@ -776,8 +723,7 @@ static int convex_decompose(convex_work *w, size_t most, double detail) {
     int right = convex_measure(w, &halves[1]);
     ok = left >= 0 && right >= 0 && !w->points.failed;
     parts[worst] = halves[left > 0 ? 0 : 1];
-    if (left > 0 && right > 0)
-      parts[w->part_count++] = halves[1];
+    if (left > 0 && right > 0) parts[w->part_count++] = halves[1];
   }
   free(halves);
   return ok;
@@ -825,8 +771,7 @@ static convex_body *convex_pack(const convex_work *w) {
   size_t size = sizeof(convex_body) + 3 * total * sizeof(float);
   convex_body *body = (convex_body *)calloc(1, size);
   float low[3], high[3];
-  if (!body)
-    return NULL;
+  if (!body) return NULL;
   body->size = size;
   body->count = (uint32_t)w->part_count;
   for (size_t i = 0, first = 0; i < w->part_count; i++) {
@@ -875,13 +820,11 @@ static int convex_read(convex_work *w) {
   double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
   for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
     size_t vertex = mesh->indices[i];
-    if (vertex >= mesh->vertex_count)
-      return 0;
+    if (vertex >= mesh->vertex_count) return 0;
     w->stamps[vertex] = 1;
     for (size_t k = 0; k < 3; k++) {
       double x = (double)mesh->positions[3 * vertex + k];
-      if (!(fabs(x) < 1e30))
-        return 0;
+      if (!(fabs(x) < 1e30)) return 0;
       low[k] = fmin(low[k], x);
       high[k] = fmax(high[k], x);
     }
@@ -890,8 +833,7 @@ static int convex_read(convex_work *w) {
     w->center[k] = (low[k] + high[k]) / 2;
     w->unit = fmax(w->unit, (high[k] - low[k]) / (2 * CONVEX_RANGE));
   }
-  if (!(w->unit > 0))
-    return 0;
+  if (!(w->unit > 0)) return 0;
   for (size_t i = 0; i < mesh->vertex_count; i++)
     for (size_t k = 0; k < 3 && w->stamps[i]; k++)
       w->vertices[i][k] =
@@ -904,8 +846,7 @@ static void *convex_prepare(const nsvcd_mesh *mesh, const preparation *how) {
       (double)(how->detail > 0 ? how->detail : CONVEX_DEFAULT_DETAIL) * 2 * CONVEX_RANGE;
   convex_work *w = (convex_work *)calloc(1, sizeof *w);
   convex_body *body = NULL;
-  if (!w)
-    return NULL;
+  if (!w) return NULL;
   w->mesh = mesh;
   w->vertices = (double(*)[3])malloc((mesh->vertex_count + 1) * sizeof *w->vertices);
   w->stamps = (uint32_t *)calloc(mesh->vertex_count + 1, sizeof *w->stamps);
@@ -925,8 +866,7 @@ static void *convex_prepare(const nsvcd_mesh *mesh, const preparation *how) {
 static void *convex_scaled(const void *body, float scale) {
   const convex_body *from = (const convex_body *)body;
   convex_body *to = (convex_body *)malloc(from->size);
-  if (!to)
-    return NULL;
+  if (!to) return NULL;
   memcpy(to, from, from->size);
   to->reach *= scale;
   for (size_t k = 0; k < 3; k++) {
@@ -937,8 +877,7 @@ static void *convex_scaled(const void *body, float scale) {
       to->extent[k][i] *= scale;
     }
   }
-  for (size_t i = 0; i < (from->size - sizeof *from) / sizeof(float); i++)
-    to->vertices[i] *= scale;
+  for (size_t i = 0; i < (from->size - sizeof *from) / sizeof(float); i++) to->vertices[i] *= scale;
   return to;
 }
 static void convex_release(void *body) {
@@ -972,12 +911,10 @@ typedef struct convex_query {
 } convex_query;
 
 static void convex_turn(const float *m, const float *v, float *out) {
-  for (int i = 0; i < 3; i++)
-    out[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
+  for (int i = 0; i < 3; i++) out[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
 }
 static void convex_turn_back(const float *m, const float *v, float *out) {
-  for (int i = 0; i < 3; i++)
-    out[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
+  for (int i = 0; i < 3; i++) out[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
 }
 // The vertex farthest along d. Lanes by themselves, so that the compiler can keep them in vectors.
 static uint32_t convex_farthest(const float *v, uint32_t padded, const float *d, float *height) {
@@ -997,8 +934,7 @@ static uint32_t convex_farthest(const float *v, uint32_t padded, const float *d,
       which[k] = h > best[k] ? i + k : which[k];
       best[k] = h > best[k] ? h : best[k];
     }
-  for (uint32_t k = 1; k < CONVEX_LANES; k++)
-    far = best[k] > best[far] ? k : far;
+  for (uint32_t k = 1; k < CONVEX_LANES; k++) far = best[k] > best[far] ? k : far;
   *height = best[far];
   return which[far];
 }
@@ -1007,25 +943,19 @@ static void convex_support(const void *object, const ccd_vec3_t *direction, ccd_
   double size = fmax(fabs(direction->v[0]), fmax(fabs(direction->v[1]), fabs(direction->v[2])));
   double scale = size > 0 ? 1 / size : 0;  // libccd's directions may be too short for a float
   float d[3], local[3], height, p[3];
-  for (int k = 0; k < 3; k++)
-    local[k] = d[k] = (float)(direction->v[k] * scale);
-  if (s->axis)
-    memcpy(s->axis, d, sizeof d);
-  if (s->at)
-    convex_turn_back(s->at->rotation, d, local);
+  for (int k = 0; k < 3; k++) local[k] = d[k] = (float)(direction->v[k] * scale);
+  if (s->axis) memcpy(s->axis, d, sizeof d);
+  if (s->at) convex_turn_back(s->at->rotation, d, local);
   uint32_t i = convex_farthest(s->vertices, s->padded, local, &height);
-  for (uint32_t k = 0; k < 3; k++)
-    local[k] = p[k] = s->vertices[k * s->padded + i];
-  if (s->at)
-    convex_turn(s->at->rotation, local, p);
+  for (uint32_t k = 0; k < 3; k++) local[k] = p[k] = s->vertices[k * s->padded + i];
+  if (s->at) convex_turn(s->at->rotation, local, p);
   float grow = s->grow > 0 ? s->grow / sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + FLT_MIN) : 0;
   for (int k = 0; k < 3; k++)
     out->v[k] = (double)((p[k] + (s->at ? s->at->position[k] : 0) + grow * d[k]) * s->unit);
 }
 static void convex_center(const void *object, ccd_vec3_t *out) {
   const convex_pair *s = (const convex_pair *)object;
-  for (int k = 0; k < 3; k++)
-    out->v[k] = (double)(s->center[k] * s->unit);
+  for (int k = 0; k < 3; k++) out->v[k] = (double)(s->center[k] * s->unit);
 }
 static void convex_first(const void *a, const void *b, ccd_vec3_t *out) {
   const convex_pair *s = (const convex_pair *)a;
@@ -1060,8 +990,7 @@ static int convex_parts_hit(convex_query *q, size_t i, size_t j) {
   q->has_nearest = 1;
   if (q->has_axis[i][j]) {
     length = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-    if (convex_gap(q, i, j, axis) > slack * length)
-      return 0;
+    if (convex_gap(q, i, j, axis) > slack * length) return 0;
   }
   convex_pair s = {b->vertices + b->first[j], b->padded[j], NULL,     q->unit,
                    slack > 0 ? slack : 0,     axis,         {0, 0, 0}};
@@ -1072,17 +1001,13 @@ static int convex_parts_hit(convex_query *q, size_t i, size_t j) {
     center[k] = a->middle[k][i];
   }
   convex_turn(q->at->rotation, center, t.center);
-  for (int k = 0; k < 3; k++)
-    t.center[k] += q->at->position[k];
+  for (int k = 0; k < 3; k++) t.center[k] += q->at->position[k];
   q->has_axis[i][j] = 1;
-  if (slack >= 0)
-    return ccdGJKIntersect(&s, &t, &q->ccd);
+  if (slack >= 0) return ccdGJKIntersect(&s, &t, &q->ccd);
   ccd_real_t depth = 0;
   ccd_vec3_t direction, point;
-  if (ccdMPRPenetration(&s, &t, &q->ccd, &depth, &direction, &point) != 0)
-    return 0;
-  for (int k = 0; k < 3; k++)
-    axis[k] = (float)direction.v[k];
+  if (ccdMPRPenetration(&s, &t, &q->ccd, &depth, &direction, &point) != 0) return 0;
+  for (int k = 0; k < 3; k++) axis[k] = (float)direction.v[k];
   return (float)depth > -slack * q->unit;
 }
 static int convex_hits_at(convex_query *q) {
@@ -1100,12 +1025,9 @@ static int convex_hits_at(convex_query *q) {
     float d = center[k] + q->at->position[k] - b->center[k];
     square += d * d;
   }
-  if (reach < 0 || square > reach * reach)
-    return 0;
-  if (q->has_nearest && convex_parts_hit(q, q->nearest[0], q->nearest[1]))
-    return 1;
-  for (int k = 0; k < 9; k++)
-    magnitude[k] = fabsf(m[k]);
+  if (reach < 0 || square > reach * reach) return 0;
+  if (q->has_nearest && convex_parts_hit(q, q->nearest[0], q->nearest[1])) return 1;
+  for (int k = 0; k < 9; k++) magnitude[k] = fabsf(m[k]);
   size_t done_i = q->nearest[0];
   size_t done_j = q->nearest[1];
   size_t done = (size_t)q->has_nearest;
@@ -1114,8 +1036,7 @@ static int convex_hits_at(convex_query *q) {
     float half[3];
     float c[3];
     float e[3];
-    for (int k = 0; k < 3; k++)
-      half[k] = a->extent[k][i];
+    for (int k = 0; k < 3; k++) half[k] = a->extent[k][i];
     convex_turn(m, middle, c);
     convex_turn(magnitude, half, e);
     int apart = 0;
@@ -1124,8 +1045,7 @@ static int convex_hits_at(convex_query *q) {
       e[k] += slack;
       apart |= fabsf(c[k] - b->center[k]) > b->half[k] + e[k];
     }
-    if (apart)
-      continue;
+    if (apart) continue;
     // in b's frame
     for (size_t j = 0; j < (b->count + CONVEX_LANES - 1) / CONVEX_LANES * CONVEX_LANES; j++) {
       float x = fabsf(c[0] - b->middle[0][j]) - b->extent[0][j] - e[0];
@@ -1135,20 +1055,16 @@ static int convex_hits_at(convex_query *q) {
       gap[j] = x > z ? x : z;
     }
     for (size_t j = 0; j < b->count; j++) {
-      if (gap[j] > 0 || (done && i == done_i && j == done_j))
-        continue;
+      if (gap[j] > 0 || (done && i == done_i && j == done_j)) continue;
       float d[3] = {c[0] - b->middle[0][j], c[1] - b->middle[1][j], c[2] - b->middle[2][j]};
       float local[3];
       float f[3];
       float other[3] = {b->extent[0][j], b->extent[1][j], b->extent[2][j]};
       convex_turn_back(m, d, local);
       convex_turn_back(magnitude, other, f);  // in a's frame
-      for (int k = 0; k < 3; k++)
-        f[k] += half[k] + slack;
-      if (fabsf(local[0]) > f[0] || fabsf(local[1]) > f[1] || fabsf(local[2]) > f[2])
-        continue;
-      if (convex_parts_hit(q, i, j))
-        return 1;
+      for (int k = 0; k < 3; k++) f[k] += half[k] + slack;
+      if (fabsf(local[0]) > f[0] || fabsf(local[1]) > f[1] || fabsf(local[2]) > f[2]) continue;
+      if (convex_parts_hit(q, i, j)) return 1;
     }
   }
   return 0;
@@ -1171,8 +1087,7 @@ static int convex_hits(const void *moving, const void *fixed, const placement *a
   q.ccd.mpr_tolerance = 1e-4;
   for (size_t i = 0; i < count; i++) {
     q.at = &at[i];
-    if (convex_hits_at(&q))
-      return 1;
+    if (convex_hits_at(&q)) return 1;
   }
   return 0;
 }

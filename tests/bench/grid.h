@@ -74,8 +74,7 @@ typedef struct grid_builder {
 // Halves the points until they come in units. Cut at whole units, so that all groups but the last
 // are full.
 static void grid_cut(grid_builder *b, size_t first, size_t count, size_t unit) {
-  if (count <= unit)
-    return;
+  if (count <= unit) return;
   size_t left = ((count + unit - 1) / unit + 1) / 2 * unit;
   spheres_sort(b->shell.balls + first, count, b->keys, b->scratch);
   grid_cut(b, first, left, unit);
@@ -85,8 +84,7 @@ static void grid_group(grid_builder *b, size_t index, size_t first, size_t count
   grid_node *node = &b->body.nodes[index];
   size_t unit = 1;
   size_t below = b->body.node_count;
-  while (GRID_WIDTH * unit < count)
-    unit *= GRID_WIDTH;
+  while (GRID_WIDTH * unit < count) unit *= GRID_WIDTH;
   size_t children = (count + unit - 1) / unit;
   memset(node, 0, sizeof *node);
   node->first = (uint32_t)below;
@@ -99,30 +97,23 @@ static void grid_group(grid_builder *b, size_t index, size_t first, size_t count
     spheres_ball ball = {{0, 0, 0}, -1e30f};
     size_t at = k * unit;
     size_t n = k + 1 < children ? unit : count - at;
-    if (k < children)
-      spheres_bound(b->shell.balls + first + at, n, &ball);
-    for (int i = 0; i < 3; i++)
-      node->centre[i][k] = ball.centre[i];
+    if (k < children) spheres_bound(b->shell.balls + first + at, n, &ball);
+    for (int i = 0; i < 3; i++) node->centre[i][k] = ball.centre[i];
     node->radius[k] = ball.radius;
-    if (k < children && !node->leaf)
-      grid_group(b, below + k, first + at, n);
+    if (k < children && !node->leaf) grid_group(b, below + k, first + at, n);
   }
 }
 static int grid_make_shell(grid_builder *b, size_t points) {
   for (size_t i = 0; i < b->mesh->vertex_count && i < points; i++)
-    if (!spheres_add(&b->shell, b->mesh->positions + 3 * i, 0))
-      return 0;
-  if (!spheres_sample(&b->shell, b->mesh, points) || !b->shell.ball_count)
-    return 0;
+    if (!spheres_add(&b->shell, b->mesh->positions + 3 * i, 0)) return 0;
+  if (!spheres_sample(&b->shell, b->mesh, points) || !b->shell.ball_count) return 0;
   size_t n = b->shell.ball_count;
-  for (size_t i = 0; i < n; i++)
-    b->shell.balls[i].radius = 0;
+  for (size_t i = 0; i < n; i++) b->shell.balls[i].radius = 0;
   b->scratch = (spheres_ball *)malloc(n * sizeof *b->scratch);
   b->keys = (mesh_bvh_key *)malloc(n * sizeof *b->keys);
   // all but one per level are full
   b->body.nodes = (grid_node *)malloc((n / 4 + 16) * sizeof *b->body.nodes);
-  if (!b->scratch || !b->keys || !b->body.nodes)
-    return 0;
+  if (!b->scratch || !b->keys || !b->body.nodes) return 0;
   b->body.node_count = 1;
   grid_group(b, 0, 0, n);
   return 1;
@@ -141,8 +132,7 @@ static size_t grid_total(const grid_body *g) {
 }
 static void grid_set_size(grid_body *g, const mesh_bvh_box *box, float cells) {
   float extent = 0;
-  for (int i = 0; i < 3; i++)
-    extent = mesh_bvh_max(extent, 2 * box->half[i]);
+  for (int i = 0; i < 3; i++) extent = mesh_bvh_max(extent, 2 * box->half[i]);
   g->cell = extent / cells;
   for (int i = 0; i < 3; i++) {
     int wanted = (int)ceilf(2 * box->half[i] / g->cell - 1e-3f) + 2 * GRID_PAD;
@@ -187,8 +177,7 @@ static void grid_fill_row(grid_builder *b, int y, int z, int step) {
       *out = sqrtf(bound);
       continue;
     }
-    for (int i = 0; i < 3; i++)
-      p[i] = g->low[i] + (float)at[i] * g->cell;
+    for (int i = 0; i < 3; i++) p[i] = g->low[i] + (float)at[i] * g->cell;
     float limit = last < 0 ? FLT_MAX : 1.001f * (d + (float)(x - last) + 0.01f) * g->cell;
     d = sqrtf(spheres_nearest(b->tree, p, last < 0 ? FLT_MAX : limit * limit, 0, NULL)) / g->cell;
     *out = d, last = x;
@@ -207,10 +196,8 @@ static int grid_column(const float *const *corner, float x, float y) {
     double u1 = (double)(q[0] - x);
     double v1 = (double)(q[1] - y);
     double turn = u0 * v1 - u1 * v0;
-    if (v0 <= 0 && v1 > 0 && turn > 0)
-      winding++;
-    if (v1 <= 0 && v0 > 0 && turn < 0)
-      winding--;
+    if (v0 <= 0 && v1 > 0 && turn > 0) winding++;
+    if (v1 <= 0 && v0 > 0 && turn < 0) winding--;
   }
   return winding;
 }
@@ -242,10 +229,8 @@ static void grid_wind(grid_builder *b, size_t triangle) {
       float y = g->low[1] + (float)j * g->cell;
       float z = low[2];
       int winding = grid_column(p, x, y);
-      if (!winding)
-        continue;
-      if (n[2] < 0 || n[2] > 0)
-        z = p[0][2] - (n[0] * (x - p[0][0]) + n[1] * (y - p[0][1])) / n[2];
+      if (!winding) continue;
+      if (n[2] < 0 || n[2] > 0) z = p[0][2] - (n[0] * (x - p[0][0]) + n[1] * (y - p[0][1])) / n[2];
       z = mesh_bvh_min(mesh_bvh_max(z, low[2]), high[2]);  // steep ones round badly
       int k = grid_clamp(ceilf((z - g->low[2]) / g->cell), g->size[2] - 1);
       b->winding[grid_index(g, i, j, k)] = (int16_t)(b->winding[grid_index(g, i, j, k)] + winding);
@@ -258,14 +243,11 @@ static int grid_make_grid(grid_builder *b, float cells) {
   size_t layer = (size_t)g->size[0] * (size_t)g->size[1];
   b->distance = (float *)malloc(total * sizeof *b->distance);
   b->winding = (int16_t *)calloc(total, sizeof *b->winding);
-  if (!b->distance || !b->winding)
-    return 0;
+  if (!b->distance || !b->winding) return 0;
   for (int step = GRID_STEP; step; step /= 2)
     for (int z = 0; z < g->size[2]; z += step)
-      for (int y = 0; y < g->size[1]; y += step)
-        grid_fill_row(b, y, z, step);
-  for (size_t i = 0; i < b->mesh->triangle_count; i++)
-    grid_wind(b, i);
+      for (int y = 0; y < g->size[1]; y += step) grid_fill_row(b, y, z, step);
+  for (size_t i = 0; i < b->mesh->triangle_count; i++) grid_wind(b, i);
   for (size_t i = layer; i < total; i++)
     b->winding[i] = (int16_t)(b->winding[i] + b->winding[i - layer]);
   return 1;
@@ -283,8 +265,7 @@ static grid_body *grid_pack(const grid_builder *b) {
   size_t nodes = b->body.node_count * sizeof(grid_node);
   size_t bytes = sizeof(grid_body) + nodes + total * sizeof(int16_t);
   grid_body *to = (grid_body *)malloc(bytes);
-  if (!to)
-    return NULL;
+  if (!to) return NULL;
   *to = b->body, to->bytes = bytes;
   grid_point(to);
   memcpy(to->nodes, b->body.nodes, nodes);
@@ -323,8 +304,7 @@ static size_t grid_bytes(const void *body) {
 static void *grid_scaled(const void *body, float scale) {
   const grid_body *from = (const grid_body *)body;
   grid_body *to = (grid_body *)malloc(from->bytes);
-  if (!to)
-    return NULL;
+  if (!to) return NULL;
   memcpy(to, from, from->bytes);
   grid_point(to);
   mesh_bvh_scale_floats(to->low, 3, scale);
@@ -351,10 +331,8 @@ typedef struct grid_lanes {
 } grid_lanes;
 
 static void grid_place(grid_query *q, const placement *at) {
-  for (int i = 0; i < 9; i++)
-    q->r[i] = at->rotation[i] * q->inverse;
-  for (int i = 0; i < 3; i++)
-    q->p[i] = (at->position[i] - q->fixed->low[i]) * q->inverse;
+  for (int i = 0; i < 9; i++) q->r[i] = at->rotation[i] * q->inverse;
+  for (int i = 0; i < 3; i++) q->p[i] = (at->position[i] - q->fixed->low[i]) * q->inverse;
 }
 static inline float grid_beyond(float d, float beyond) {
   return d > 0 ? sqrtf(d * d + beyond) : d;
@@ -423,11 +401,9 @@ static int grid_collide(const grid_query *q) {
     float deepest = FLT_MAX;
     unsigned mask = grid_reach(q, node, &at, gap);
     for (uint32_t k = 0; mask; k++, mask >>= 1) {
-      if (!(mask & 1))
-        continue;
+      if (!(mask & 1)) continue;
       if (node->leaf) {
-        if (grid_interpolate(q->fixed, &at, k) < q->activation)
-          return 1;
+        if (grid_interpolate(q->fixed, &at, k) < q->activation) return 1;
         continue;
       }
       stack[count] = node->first + k;
@@ -451,8 +427,7 @@ static int grid_hits(const void *moving, const void *fixed, const placement *at,
   q.activation = activation * q.inverse;
   for (size_t i = 0; i < count; i++) {
     grid_place(&q, &at[i]);
-    if (grid_collide(&q))
-      return 1;
+    if (grid_collide(&q)) return 1;
   }
   return 0;
 }

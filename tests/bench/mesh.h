@@ -136,8 +136,7 @@ typedef struct mesh_bvh_range {
 static int mesh_bvh_compare(const void *pa, const void *pb) {
   const mesh_bvh_key *a = (const mesh_bvh_key *)pa;
   const mesh_bvh_key *b = (const mesh_bvh_key *)pb;
-  if (a->value < b->value || a->value > b->value)
-    return a->value < b->value ? -1 : 1;
+  if (a->value < b->value || a->value > b->value) return a->value < b->value ? -1 : 1;
   return (a->triangle > b->triangle) - (a->triangle < b->triangle);
 }
 static void mesh_bvh_grow(float *low, float *high, const mesh_bvh_triangle *t) {
@@ -161,8 +160,7 @@ static float mesh_bvh_area(const float *low, const float *high) {
 static void mesh_bvh_bounds(const mesh_bvh_builder *b, size_t begin, size_t end, float *low,
                             float *high) {
   mesh_bvh_empty(low, high);
-  for (size_t i = begin; i < end; i++)
-    mesh_bvh_grow(low, high, &b->triangles[b->keys[i].triangle]);
+  for (size_t i = begin; i < end; i++) mesh_bvh_grow(low, high, &b->triangles[b->keys[i].triangle]);
 }
 static mesh_bvh_range mesh_bvh_make_range(const mesh_bvh_builder *b, size_t begin, size_t end) {
   mesh_bvh_range range = {begin, end, 0};
@@ -240,8 +238,7 @@ static uint32_t mesh_bvh_add_leaf(mesh_bvh_builder *b, size_t begin, size_t end)
     double n[3];
     double length = 0;
     for (int i = 0; i < 3; i++) {
-      for (int c = 0; c < 3; c++)
-        leaf->corner[c][i][k] = t->corner[c][i];
+      for (int c = 0; c < 3; c++) leaf->corner[c][i][k] = t->corner[c][i];
       u[i] = (double)t->corner[1][i] - (double)t->corner[0][i];
       v[i] = (double)t->corner[2][i] - (double)t->corner[0][i];
     }
@@ -249,8 +246,7 @@ static uint32_t mesh_bvh_add_leaf(mesh_bvh_builder *b, size_t begin, size_t end)
       n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
       length += n[i] * n[i];
     }
-    for (int i = 0; i < 3; i++)
-      leaf->normal[i][k] = (float)(n[i] / sqrt(length));
+    for (int i = 0; i < 3; i++) leaf->normal[i][k] = (float)(n[i] / sqrt(length));
   }
   return (uint32_t)b->tree.leaf_count++ | MESH_BVH_LEAF;
 }
@@ -258,16 +254,13 @@ static uint32_t mesh_bvh_add_leaf(mesh_bvh_builder *b, size_t begin, size_t end)
 static size_t mesh_bvh_widest(const mesh_bvh_range *ranges, size_t count) {
   size_t widest = count;
   for (size_t i = 0; i < count; i++) {
-    if (ranges[i].end - ranges[i].begin <= MESH_BVH_WIDTH)
-      continue;
-    if (widest == count || ranges[i].area > ranges[widest].area)
-      widest = i;
+    if (ranges[i].end - ranges[i].begin <= MESH_BVH_WIDTH) continue;
+    if (widest == count || ranges[i].area > ranges[widest].area) widest = i;
   }
   return widest;
 }
 static uint32_t mesh_bvh_build(mesh_bvh_builder *b, size_t begin, size_t end, int depth) {
-  if (end - begin <= MESH_BVH_WIDTH)
-    return mesh_bvh_add_leaf(b, begin, end);
+  if (end - begin <= MESH_BVH_WIDTH) return mesh_bvh_add_leaf(b, begin, end);
   mesh_bvh_range ranges[MESH_BVH_WIDTH] = {{0, 0, 0}};
   size_t count = 1;
   size_t widest;
@@ -284,8 +277,7 @@ static uint32_t mesh_bvh_build(mesh_bvh_builder *b, size_t begin, size_t end, in
   mesh_bvh_set_box(b, begin, end, &node->box);
   MESH_BVH_EACH(k) {
     mesh_bvh_box box = {{0, 0, 0}, {-1e30f, -1e30f, -1e30f}};
-    if (k < count)
-      mesh_bvh_set_box(b, ranges[k].begin, ranges[k].end, &box);
+    if (k < count) mesh_bvh_set_box(b, ranges[k].begin, ranges[k].end, &box);
     for (int i = 0; i < 3; i++) {
       node->centre[i][k] = box.centre[i];
       node->half[i][k] = box.half[i];
@@ -301,8 +293,7 @@ static mesh_bvh *mesh_bvh_copy(const mesh_bvh *from) {
   size_t leaves = from->leaf_count * sizeof *from->leaves;
   size_t size = sizeof(mesh_bvh) + 64 + nodes + leaves;
   mesh_bvh *to = (mesh_bvh *)malloc(size);
-  if (!to)
-    return NULL;
+  if (!to) return NULL;
   *to = *from;
   char *start = (char *)(to + 1);
   start += (64 - (uintptr_t)start % 64) % 64;
@@ -330,8 +321,7 @@ static void mesh_bvh_take(mesh_bvh_builder *b, const nsvcd_mesh *mesh) {
     }
     mesh_bvh_cross(u, v, n);
     float size = mesh_bvh_max(mesh_bvh_dot3(u, u), mesh_bvh_dot3(v, v));
-    if (!(sqrtf(mesh_bvh_dot3(n, n)) > 1e-6f * size))
-      continue;
+    if (!(sqrtf(mesh_bvh_dot3(n, n)) > 1e-6f * size)) continue;
     b->keys[b->count].triangle = (uint32_t)b->count;
     b->count++;
   }
@@ -351,20 +341,17 @@ static void *mesh_bvh_prepare(const nsvcd_mesh *mesh, const preparation *how) {
   mesh_bvh_builder b;
   mesh_bvh *out = NULL;
   memset(&b, 0, sizeof b);
-  if (n == 0 || n >= MESH_BVH_LEAF)
-    return NULL;
+  if (n == 0 || n >= MESH_BVH_LEAF) return NULL;
   b.triangles = (mesh_bvh_triangle *)malloc(n * sizeof *b.triangles);
   b.keys = (mesh_bvh_key *)malloc(n * sizeof *b.keys);
   b.areas = (float *)malloc(n * sizeof *b.areas);
   b.tree.nodes = (mesh_bvh_node *)malloc(n * sizeof *b.tree.nodes);
   b.tree.leaves = (mesh_bvh_leaf *)malloc(n * sizeof *b.tree.leaves);
-  if (b.triangles && b.keys && b.areas && b.tree.nodes && b.tree.leaves)
-    mesh_bvh_take(&b, mesh);
+  if (b.triangles && b.keys && b.areas && b.tree.nodes && b.tree.leaves) mesh_bvh_take(&b, mesh);
   if (b.count) {
     float low[3], high[3];
     mesh_bvh_bounds(&b, 0, b.count, low, high);
-    for (int i = 0; i < 3; i++)
-      b.slack = mesh_bvh_max(b.slack, 1e-6f * (high[i] - low[i]));
+    for (int i = 0; i < 3; i++) b.slack = mesh_bvh_max(b.slack, 1e-6f * (high[i] - low[i]));
     mesh_bvh_set_box(&b, 0, b.count, &b.tree.box);
     b.tree.radius = mesh_bvh_reach(&b, b.tree.box.centre) + b.slack;
     mesh_bvh_build(&b, 0, b.count, 0);
@@ -385,13 +372,11 @@ static size_t mesh_bvh_bytes(const void *body) {
 }
 
 static void mesh_bvh_scale_floats(float *x, size_t count, float scale) {
-  for (size_t i = 0; i < count; i++)
-    x[i] *= scale;
+  for (size_t i = 0; i < count; i++) x[i] *= scale;
 }
 static void *mesh_bvh_scaled(const void *body, float scale) {
   mesh_bvh *tree = mesh_bvh_copy((const mesh_bvh *)body);
-  if (!tree)
-    return NULL;
+  if (!tree) return NULL;
   mesh_bvh_scale_floats(tree->box.centre, 6, scale);
   tree->radius *= scale;
   for (size_t i = 0; i < tree->node_count; i++) {
@@ -420,8 +405,7 @@ static inline void mesh_bvh_gaps(const mesh_bvh_frame *f, const mesh_bvh_box *on
   const float *m = f->m;
   const float *h = one->half;
   float base[3], along[3], across[9];
-  for (int i = 0; i < 3; i++)
-    base[i] = f->p[i] - one->centre[i];
+  for (int i = 0; i < 3; i++) base[i] = f->p[i] - one->centre[i];
   for (int i = 0; i < 3; i++) {
     along[i] = m[i] * h[0] + m[3 + i] * h[1] + m[6 + i] * h[2];
     for (int j = 0; j < 3; j++)
@@ -637,16 +621,12 @@ static int mesh_bvh_meets(const mesh_bvh_probe *probe, const mesh_bvh_leaf *leaf
   mesh_bvh_heights h;
   mesh_bvh_planes(probe, leaf, &h, gap, thickness);
   unsigned near = mesh_bvh_mask(gap, limit);
-  if (!near)
-    return 0;
+  if (!near) return 0;
   unsigned coplanar = near & mesh_bvh_mask(thickness, rounding);
   mesh_bvh_edges(probe, leaf, &h, value);
-  if (near & ~coplanar & mesh_bvh_mask(value, 0))
-    return 1;
-  if (!(activation > 0))
-    near = coplanar;
-  if (!near)
-    return 0;
+  if (near & ~coplanar & mesh_bvh_mask(value, 0)) return 1;
+  if (!(activation > 0)) near = coplanar;
+  if (!near) return 0;
   mesh_bvh_distances(probe, leaf, &h, value);
   return (near & mesh_bvh_mask(value, limit * limit)) != 0;
 }
@@ -660,8 +640,7 @@ typedef struct mesh_bvh_query {
 } mesh_bvh_query;
 
 static void mesh_bvh_set_frame(mesh_bvh_frame *f) {
-  for (int i = 0; i < 9; i++)
-    f->m[i] = fabsf(f->r[i]) + 1e-6f;
+  for (int i = 0; i < 9; i++) f->m[i] = fabsf(f->r[i]) + 1e-6f;
 }
 static void mesh_bvh_place(mesh_bvh_query *q, const placement *at) {
   mesh_bvh_frame *f = &q->moving_in_fixed;
@@ -669,8 +648,7 @@ static void mesh_bvh_place(mesh_bvh_query *q, const placement *at) {
   memcpy(f->r, at->rotation, sizeof f->r);
   memcpy(f->p, at->position, sizeof f->p);
   for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++)
-      g->r[3 * i + j] = f->r[3 * j + i];
+    for (int j = 0; j < 3; j++) g->r[3 * i + j] = f->r[3 * j + i];
     g->p[i] = -(f->r[i] * f->p[0] + f->r[3 + i] * f->p[1] + f->r[6 + i] * f->p[2]);
   }
   mesh_bvh_set_frame(f);
@@ -727,15 +705,12 @@ static int mesh_bvh_leaf_pair(const mesh_bvh_query *q, const mesh_bvh_leaf *fixe
   unsigned mask = mesh_bvh_mask(gap, q->activation) & ((1u << wide->count) - 1);
   for (size_t k = 0; mask; k++, mask >>= 1) {
     mesh_bvh_probe probe;
-    if (!(mask & 1))
-      continue;
+    if (!(mask & 1)) continue;
     for (int i = 0; i < 3; i++) {
       probe.normal[i] = moved.normal[i][k];
-      for (int c = 0; c < 3; c++)
-        probe.corner[c][i] = moved.corner[c][i][k];
+      for (int c = 0; c < 3; c++) probe.corner[c][i] = moved.corner[c][i][k];
     }
-    if (mesh_bvh_meets(&probe, other, q->activation, q->rounding))
-      return 1;
+    if (mesh_bvh_meets(&probe, other, q->activation, q->rounding)) return 1;
   }
   return 0;
 }
@@ -758,13 +733,11 @@ static size_t mesh_bvh_open(const mesh_bvh_query *q, mesh_bvh_pair pair, mesh_bv
   mesh_bvh_box grown = open_fixed ? *m : *f;
   float gap[MESH_BVH_WIDTH];
   float deepest = FLT_MAX;
-  for (int i = 0; i < 3; i++)
-    grown.half[i] += q->activation;
+  for (int i = 0; i < 3; i++) grown.half[i] += q->activation;
   mesh_bvh_gaps(open_fixed ? &q->fixed_in_moving : &q->moving_in_fixed, &grown, node, gap);
   unsigned mask = mesh_bvh_mask(gap, 0);
   for (size_t k = 0; mask; k++, mask >>= 1) {
-    if (!(mask & 1))
-      continue;
+    if (!(mask & 1)) continue;
     mesh_bvh_pair next = pair;
     *(open_fixed ? &next.fixed : &next.moving) = node->child[k];
     stack[count] = next;
@@ -816,11 +789,9 @@ static int mesh_bvh_hits(const void *moving, const void *fixed, const placement 
   q.activation = mesh_bvh_max(activation, 0);
   q.rounding = 2e-7f * (q.moving->radius + q.fixed->radius);
   for (size_t i = 0; i < count; i++) {
-    if (mesh_bvh_far(q.moving, q.fixed, &at[i], q.activation))
-      continue;
+    if (mesh_bvh_far(q.moving, q.fixed, &at[i], q.activation)) continue;
     mesh_bvh_place(&q, &at[i]);
-    if (mesh_bvh_collide(&q))
-      return 1;
+    if (mesh_bvh_collide(&q)) return 1;
   }
   return 0;
 }
@@ -835,16 +806,14 @@ typedef struct mesh_bvh_cell {
 static int mesh_bvh_compare_cells(const void *pa, const void *pb) {
   const mesh_bvh_cell *a = (const mesh_bvh_cell *)pa;
   const mesh_bvh_cell *b = (const mesh_bvh_cell *)pb;
-  if (a->cell != b->cell)
-    return a->cell < b->cell ? -1 : 1;
+  if (a->cell != b->cell) return a->cell < b->cell ? -1 : 1;
   return (a->vertex > b->vertex) - (a->vertex < b->vertex);
 }
 static int mesh_bvh_compare_corners(const void *pa, const void *pb) {
   const uint32_t *a = (const uint32_t *)pa;
   const uint32_t *b = (const uint32_t *)pb;
   for (int i = 0; i < 3; i++)
-    if (a[i] != b[i])
-      return a[i] < b[i] ? -1 : 1;
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
   return 0;
 }
 static void mesh_bvh_mesh_bounds(const nsvcd_mesh *mesh, float *low, float *high) {
@@ -863,8 +832,7 @@ static void mesh_bvh_set_cells(const nsvcd_mesh *mesh, float factor, mesh_bvh_ce
   float high[3];
   float extent = 0;
   mesh_bvh_mesh_bounds(mesh, low, high);
-  for (int k = 0; k < 3; k++)
-    extent = mesh_bvh_max(extent, high[k] - low[k]);
+  for (int k = 0; k < 3; k++) extent = mesh_bvh_max(extent, high[k] - low[k]);
   double size = (double)extent / (double)factor;
   for (size_t i = 0; i < mesh->vertex_count; i++) {
     cells[i].cell = 0;
@@ -902,8 +870,7 @@ static void mesh_bvh_reduce(const nsvcd_mesh *mesh, const uint32_t *renamed, nsv
     uint32_t b = renamed[mesh->indices[3 * i + 1]];
     uint32_t c = renamed[mesh->indices[3 * i + 2]];
     uint32_t *t = out->indices + 3 * out->triangle_count;
-    if (a == b || b == c || c == a)
-      continue;
+    if (a == b || b == c || c == a) continue;
     uint32_t low = a < b ? (a < c ? a : c) : (b < c ? b : c);
     uint32_t high = a > b ? (a > c ? a : c) : (b > c ? b : c);
     t[0] = low;
@@ -914,8 +881,7 @@ static void mesh_bvh_reduce(const nsvcd_mesh *mesh, const uint32_t *renamed, nsv
   qsort(out->indices, out->triangle_count, 3 * sizeof(uint32_t), mesh_bvh_compare_corners);
   for (size_t i = 0; i < out->triangle_count; i++) {
     uint32_t *t = out->indices + 3 * i;
-    if (i && memcmp(t, t - 3, 3 * sizeof *t) == 0)
-      continue;
+    if (i && memcmp(t, t - 3, 3 * sizeof *t) == 0) continue;
     memmove(out->indices + 3 * kept++, t, 3 * sizeof *t);
   }
   out->triangle_count = kept;
@@ -928,8 +894,7 @@ static void *mesh_bvh_prepare_box(const nsvcd_mesh *mesh) {
   uint32_t indices[36];
   nsvcd_mesh box;
   mesh_bvh_mesh_bounds(mesh, low, high);
-  for (int i = 0; i < 24; i++)
-    positions[i] = (i / 3 >> i % 3) & 1 ? high[i % 3] : low[i % 3];
+  for (int i = 0; i < 24; i++) positions[i] = (i / 3 >> i % 3) & 1 ? high[i % 3] : low[i % 3];
   memcpy(indices, faces, sizeof indices);
   memset(&box, 0, sizeof box);
   box.positions = positions;
@@ -940,8 +905,7 @@ static void *mesh_bvh_prepare_box(const nsvcd_mesh *mesh) {
 }
 static void *mesh_bvh_prepare_simplified(const nsvcd_mesh *mesh, const preparation *how) {
   size_t n = mesh->vertex_count;
-  if (n == 0 || mesh->triangle_count == 0)
-    return NULL;
+  if (n == 0 || mesh->triangle_count == 0) return NULL;
   nsvcd_mesh out;
   memset(&out, 0, sizeof out);
   mesh_bvh_cell *cells = (mesh_bvh_cell *)malloc(n * sizeof *cells);
@@ -954,8 +918,7 @@ static void *mesh_bvh_prepare_simplified(const nsvcd_mesh *mesh, const preparati
     mesh_bvh_average(mesh, cells, renamed, &out);
     mesh_bvh_reduce(mesh, renamed, &out);
     body = out.triangle_count ? mesh_bvh_prepare(&out, NULL) : NULL;
-    if (!body)
-      body = mesh_bvh_prepare_box(mesh);
+    if (!body) body = mesh_bvh_prepare_box(mesh);
   }
   free(cells);
   free(renamed);

@@ -16,8 +16,7 @@ typedef struct heap {
 static void *heap_alloc(size_t size, void *user) {
   heap *h = (heap *)user;
   size_t *memory = (size_t *)malloc(size + 16);
-  if (!memory)
-    return NULL;
+  if (!memory) return NULL;
   memory[0] = size;
   h->now += size;
   h->most = h->now > h->most ? h->now : h->most;
@@ -25,8 +24,7 @@ static void *heap_alloc(size_t size, void *user) {
 }
 static void heap_free(void *memory, void *user) {
   heap *h = (heap *)user;
-  if (!memory)
-    return;
+  if (!memory) return;
   h->now -= ((size_t *)memory)[-2];
   free((size_t *)memory - 2);
 }

@@ -90,8 +90,7 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed, 
   memset(&o, 0, sizeof o);
   o.seed = seed;
   o.check = check;
-  if (p == &planners[DEFAULTS])
-    return o;
+  if (p == &planners[DEFAULTS]) return o;
   o.velocity = s->velocity;
   o.acceleration = s->acceleration;
   o.jerk = s->jerk;
@@ -113,8 +112,7 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed, 
       o.sweep.recall = task == BIMANUAL ? 0 : 0.999f;
     }
   }
-  if (!check)
-    o.check = 4 * s->interpolation * (s->refined_points + 1);  // the same for all
+  if (!check) o.check = 4 * s->interpolation * (s->refined_points + 1);  // the same for all
   return o;
 }
 
@@ -303,8 +301,7 @@ static void run_episode(int task, uint64_t seed, int only, float weight, size_t 
     const int few = planners[p].kind == SPHERES_FEW;
     const int many = planners[p].kind == SPHERES_MANY;
     const task_settings *s = &settings[task];
-    if (only >= 0 && p != only)
-      continue;
+    if (only >= 0 && p != only) continue;
     task_select(&scene, 0);
     if ((few || many) &&
         !plan_spheres_init(&spheres, &scene, s->robot_spheres, few ? s->held_few : s->held_many,
@@ -320,11 +317,9 @@ static void run_episode(int task, uint64_t seed, int only, float weight, size_t 
       }
       run_motion(task, &planners[p], seed, check, &scene, bodies, &spheres, &outcomes[p * stride]);
     }
-    if (few || many)
-      plan_spheres_free(&spheres);
+    if (few || many) plan_spheres_free(&spheres);
   }
-  for (int b = 0; b < scene.body_count; b++)
-    nsvcd_body_free(bodies[b], NULL);
+  for (int b = 0; b < scene.body_count; b++) nsvcd_body_free(bodies[b], NULL);
   task_free(&scene);
 }
 
@@ -401,8 +396,7 @@ static int draw_chart(const char *from, const char *to) {
       continue;
     for (int t = 0; t < TASKS; t++) {
       for (int p = 0; p < PLANNERS; p++) {
-        if (strcmp(task, task_names[t]) != 0 || strcmp(name, planners[p].name) != 0)
-          continue;
+        if (strcmp(task, task_names[t]) != 0 || strcmp(name, planners[p].name) != 0) continue;
         const double x = t * PANEL + x_of(median);
         fprintf(svg,
                 "<path d=\"M%.1f %.1f V%.1f\" stroke=\"%s\" stroke-width=\"2\"/><circle "
@@ -438,43 +432,35 @@ int main(int argc, char **argv) {
   float weight = 0;
   size_t check = 0;
   FILE *tsv = NULL;
-  if (argc == 4 && strcmp(argv[1], "chart") == 0)
-    return draw_chart(argv[2], argv[3]);
+  if (argc == 4 && strcmp(argv[1], "chart") == 0) return draw_chart(argv[2], argv[3]);
   for (int i = 1; i + 1 < argc; i += 2) {
     const char *key = argv[i];
     const char *value = argv[i + 1];
     if (strcmp(key, "--episodes") == 0) {
       count = atoi(value);
-      if (count < 1 || count > 100000)
-        return usage("--episodes: out of range");
+      if (count < 1 || count > 100000) return usage("--episodes: out of range");
     } else if (strcmp(key, "--first") == 0) {
       first = strtoul(value, NULL, 10);
     } else if (strcmp(key, "--task") == 0) {
-      for (int t = 0; t < TASKS; t++)
-        only_task = strcmp(value, task_names[t]) == 0 ? t : only_task;
-      if (only_task < 0)
-        return usage("--task: no such task");
+      for (int t = 0; t < TASKS; t++) only_task = strcmp(value, task_names[t]) == 0 ? t : only_task;
+      if (only_task < 0) return usage("--task: no such task");
     } else if (strcmp(key, "--planner") == 0) {
       for (int p = 0; p < PLANNERS; p++)
         only_planner = strcmp(value, planners[p].name) == 0 ? p : only_planner;
-      if (only_planner < 0)
-        return usage("--planner: no such planner");
+      if (only_planner < 0) return usage("--planner: no such planner");
     } else if (strcmp(key, "--weight") == 0) {
       weight = (float)atof(value);
-      if (!(weight > 0 && weight < 1e6f))
-        return usage("--weight: out of range");
+      if (!(weight > 0 && weight < 1e6f)) return usage("--weight: out of range");
     } else if (strcmp(key, "--check") == 0) {
       check = strtoul(value, NULL, 10);
     } else if (strcmp(key, "--tsv") == 0) {
       tsv = fopen(value, "w");
-      if (!tsv)
-        return usage("--tsv: cannot be written");
+      if (!tsv) return usage("--tsv: cannot be written");
     } else {
       return usage(key);
     }
   }
-  if (argc % 2 == 0)
-    return usage("an option without a value");
+  if (argc % 2 == 0) return usage("an option without a value");
   if (tsv) {
     fprintf(tsv,
             "task\tplanner\tsuccess\tlow\thigh\tmotions\tsolved\tlimit\twrong\tstart\tgoal\tmedian_"
@@ -491,8 +477,7 @@ int main(int argc, char **argv) {
   printf("|---|---|---|---|---|---|---|---|---|---|\n");
   for (int t = 0; t < TASKS; t++) {
     outcome *outcomes;
-    if (only_task >= 0 && t != only_task)
-      continue;
+    if (only_task >= 0 && t != only_task) continue;
     outcomes = (outcome *)allocate((size_t)(PLANNERS * count) * sizeof *outcomes);
     memset(outcomes, 0, (size_t)(PLANNERS * count) * sizeof *outcomes);
     for (int e = 0; e < count; e++) {
@@ -501,14 +486,12 @@ int main(int argc, char **argv) {
     }
     fprintf(stderr, "\r");
     for (int p = 0; p < PLANNERS; p++) {
-      if (only_planner >= 0 && p != only_planner)
-        continue;
+      if (only_planner >= 0 && p != only_planner) continue;
       print_row(tsv, t, &planners[p], outcomes + p * count, count);
     }
     fflush(stdout);
     free(outcomes);
   }
-  if (tsv && fclose(tsv))
-    return usage("--tsv: cannot be written");
+  if (tsv && fclose(tsv)) return usage("--tsv: cannot be written");
   return 0;
 }

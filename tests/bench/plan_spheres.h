@@ -108,8 +108,7 @@ static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const 
   int over = 1;
   for (int i = 0; i < 3; i++) {
     n[i] = leaf->normal[i][k];
-    for (int c = 0; c < 3; c++)
-      p[c][i] = leaf->corner[c][i][k];
+    for (int c = 0; c < 3; c++) p[c][i] = leaf->corner[c][i][k];
     height += n[i] * (x[i] - p[0][i]);
   }
   for (int c = 0; c < 3; c++) {
@@ -126,15 +125,13 @@ static void plan_spheres_on_triangle(const mesh_bvh_leaf *leaf, size_t k, const 
       at[i] = p[c][i] + t * u[i];
       square += (x[i] - at[i]) * (x[i] - at[i]);
     }
-    if (mesh_bvh_side(x, p[c], u, n) < 0)
-      over = 0;
+    if (mesh_bvh_side(x, p[c], u, n) < 0) over = 0;
     if (square < best) {
       best = square;
       memcpy(out, at, sizeof at);
     }
   }
-  for (int i = 0; over && i < 3; i++)
-    out[i] = x[i] - height * n[i];
+  for (int i = 0; over && i < 3; i++) out[i] = x[i] - height * n[i];
 }
 // As spheres_nearest, and where that is: the squared distance if below `limit`, else `limit`;
 // `point` and `normal` of the nearest triangle are written only if below.
@@ -142,11 +139,9 @@ static float plan_spheres_nearest(const mesh_bvh *tree, const float *x, float li
                                   float *normal) {
   spheres_triangle found;
   const float best = spheres_nearest(tree, x, limit, 0, &found);
-  if (!(best < limit))
-    return limit;
+  if (!(best < limit)) return limit;
   plan_spheres_on_triangle(found.leaf, found.lane, x, point);
-  for (int i = 0; i < 3; i++)
-    normal[i] = found.leaf->normal[i][found.lane];
+  for (int i = 0; i < 3; i++) normal[i] = found.leaf->normal[i][found.lane];
   return best;
 }
 // The exact signed distance if below `reach`, else `reach`, and its gradient. `sign`: 1, -1, or 0:
@@ -157,13 +152,10 @@ static float plan_spheres_measure(const plan_spheres_body *b, const float *x, fl
   float normal[3] = {0, 0, 1};
   float limit = reach > 0 && sign > 0 ? reach * reach : FLT_MAX;
   float square = plan_spheres_nearest(b->fit->tree, x, limit, point, normal);
-  if (!(square < limit))
-    return reach;
-  if (sign >= 0 && sign <= 0)
-    sign = spheres_inside(b->fit->tree, x) ? -1.0f : 1.0f;
+  if (!(square < limit)) return reach;
+  if (sign >= 0 && sign <= 0) sign = spheres_inside(b->fit->tree, x) ? -1.0f : 1.0f;
   float distance = sqrtf(square);
-  if (sign > 0 && distance >= reach)
-    return reach;
+  if (sign > 0 && distance >= reach) return reach;
   // At the surface the direction would be rounding: the normal is right unless the body is open.
   for (int i = 0; i < 3; i++)
     gradient[i] = distance > 1e-6f ? sign * (x[i] - point[i]) / distance : normal[i];
@@ -223,8 +215,7 @@ static inline void plan_spheres_look(const plan_spheres_grid *g, const float (*x
     float b0 = a0 + fy * (a1 - a0);
     float b1 = a2 + fy * (a3 - a2);
     value[k] = b0 + fz * (b1 - b0);
-    if (!gradient)
-      continue;
+    if (!gradient) continue;
     float e0 = d0 + fy * (d1 - d0);
     float e1 = d2 + fy * (d3 - d2);
     gradient[0][k] = (e0 + fz * (e1 - e0)) * g->inverse[0];
@@ -242,8 +233,7 @@ static void plan_spheres_node(const plan_spheres_grid *g, size_t i, float shift,
   at[0] = i % nx;
   at[1] = i / nx % ny;
   at[2] = i / (nx * ny);
-  for (int k = 0; k < 3; k++)
-    x[k] = g->low[k] + ((float)at[k] + shift) * g->cell[k];
+  for (int k = 0; k < 3; k++) x[k] = g->low[k] + ((float)at[k] + shift) * g->cell[k];
 }
 // Signed distances out to `reach`. Each node begins with what is known from the one before it.
 static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
@@ -255,16 +245,13 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
   float point[3];
   float normal[3];
   size_t total;
-  for (int i = 0; i < 3; i++)
-    extent = fmaxf(extent, 2 * tree->box.half[i]);
+  for (int i = 0; i < 3; i++) extent = fmaxf(extent, 2 * tree->box.half[i]);
   // 1/64 of the body, but 1/16 of its thickness, and 2 mm at least.
-  for (int i = 0; i < 3; i++)
-    g->cell[i] = fmaxf(0.002f, fminf(extent / 64, tree->box.half[i] / 8));
+  for (int i = 0; i < 3; i++) g->cell[i] = fmaxf(0.002f, fminf(extent / 64, tree->box.half[i] / 8));
   for (;;) {
     total = 1;
     g->bound = 0;
-    for (int i = 0; i < 3; i++)
-      g->bound += 0.25f * g->cell[i] * g->cell[i];
+    for (int i = 0; i < 3; i++) g->bound += 0.25f * g->cell[i] * g->cell[i];
     g->bound = sqrtf(g->bound);  // half a diagonal: a distance changes by no more than the way
     for (int i = 0; i < 3; i++) {
       float pad = reach + g->cell[i];
@@ -274,15 +261,12 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
       g->last[i] = (float)(g->size[i] - 1) * 0.999999f;
       total *= (size_t)g->size[i];
     }
-    if (total <= PLAN_SPHERES_NODES)
-      break;
-    for (int i = 0; i < 3; i++)
-      g->cell[i] *= 1.05f;
+    if (total <= PLAN_SPHERES_NODES) break;
+    for (int i = 0; i < 3; i++) g->cell[i] *= 1.05f;
   }
   g->value = (float *)malloc(total * sizeof(float));
   g->rough = (unsigned char *)calloc(total / 8 + 1, 1);
-  if (!g->value || !g->rough)
-    return 0;
+  if (!g->value || !g->rough) return 0;
   const float far = reach + 2 * g->bound;
   for (size_t i = 0; i < total; i++) {
     int follows = i % (size_t)g->size[0] > 0;
@@ -308,8 +292,7 @@ static int plan_spheres_make_grid(plan_spheres_body *b, float reach) {
       mean += g->value[i + corners[k]] / 8;
       least = fminf(least, g->value[i + corners[k]]);
     }
-    if (least > reach)
-      continue;
+    if (least > reach) continue;
     plan_spheres_node(g, i, 0.5f, x);
     // Nearer than what would do, farther than that, or of the other sign?
     float most = fabsf(mean) + PLAN_SPHERES_ERROR;
@@ -339,8 +322,7 @@ static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates
                                  size_t n, float *gaps) {
   size_t done = 0;
   size_t farthest;
-  for (size_t i = 0; i < count; i++)
-    gaps[i] = FLT_MAX;
+  for (size_t i = 0; i < count; i++) gaps[i] = FLT_MAX;
   for (;;) {
     for (; done < b->ball_count; done++) {
       const spheres_ball ball = b->balls[done];
@@ -354,8 +336,7 @@ static float plan_spheres_spread(spheres_body *b, const spheres_ball *candidates
     }
     farthest = 0;
     for (size_t i = 1; i < count; i++)
-      if (gaps[i] > gaps[farthest])
-        farthest = i;
+      if (gaps[i] > gaps[farthest]) farthest = i;
     if (b->ball_count >= n || !spheres_add(b, candidates[farthest].centre, SPHERES_SURFACE_RADIUS))
       break;
   }
@@ -383,16 +364,12 @@ static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
     ok = spheres_fill(b, voxel);
     spheres_drop_contained(b, 0.1f * voxel);
     for (size_t i = 0; i < b->ball_count; i++)  // smaller than half a surface point: that does more
-      if (b->balls[i].radius >= SPHERES_SURFACE_RADIUS / 2)
-        b->balls[kept++] = b->balls[i];
+      if (b->balls[i].radius >= SPHERES_SURFACE_RADIUS / 2) b->balls[kept++] = b->balls[i];
     b->ball_count = kept;
-    if (kept > 2 * n)
-      break;
-    if (4 * kept > 3 * n)
-      continue;
+    if (kept > 2 * n) break;
+    if (4 * kept > 3 * n) continue;
     float gap = plan_spheres_spread(b, points.balls, count, n, gaps);
-    if (gap >= least)
-      continue;
+    if (gap >= least) continue;
     spheres_body other = best;
     least = gap;
     best = *b;
@@ -411,12 +388,10 @@ static int plan_spheres_fit(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
 // Sorts balls so that eights, and eights of eights, are near each other.
 static void plan_spheres_order(spheres_ball *balls, size_t count, mesh_bvh_key *keys,
                                spheres_ball *scratch) {
-  if (count <= 8)
-    return;
+  if (count <= 8) return;
   spheres_sort(balls, count, keys, scratch);
   size_t part = 8;
-  while (2 * part < count)
-    part *= 2;  // full eights of eights of ... on the left
+  while (2 * part < count) part *= 2;  // full eights of eights of ... on the left
   plan_spheres_order(balls, part, keys, scratch);
   plan_spheres_order(balls + part, count - part, keys, scratch);
 }
@@ -424,15 +399,13 @@ static plan_spheres_eight *plan_spheres_pack(const spheres_ball *balls, size_t c
   plan_spheres_eight *out = (plan_spheres_eight *)malloc((count + 7) / 8 * sizeof *out);
   for (size_t i = 0; out && i < (count + 7) / 8 * 8; i++) {
     const spheres_ball *ball = &balls[i < count ? i : count - 1];
-    for (int k = 0; k < 3; k++)
-      out[i / 8].centre[k][i % 8] = ball->centre[k];
+    for (int k = 0; k < 3; k++) out[i / 8].centre[k][i % 8] = ball->centre[k];
     out[i / 8].radius[i % 8] = i < count ? ball->radius : -1e6f;
   }
   return out;
 }
 static int plan_spheres_make_body(plan_spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
-  if (!plan_spheres_fit(b->fit, mesh, n))
-    return 0;
+  if (!plan_spheres_fit(b->fit, mesh, n)) return 0;
   mesh_bvh_key *keys = (mesh_bvh_key *)malloc(n * sizeof *keys);
   spheres_ball *scratch = (spheres_ball *)malloc(n * sizeof *scratch);
   spheres_ball all;
@@ -478,16 +451,13 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
   s->exact = exact;
   s->body_count = scene->body_count;
   s->placed = (float *)malloc((size_t)s->body_count * PLAN_SPHERES_CHUNK * 15 * sizeof(float));
-  for (int k = 0; k < scene->pair_count; k++)
-    measured[scene->pairs[k][1]] = 1;
-  for (int i = 0; i < scene->body_count; i++)
-    held[i] = scene->bodies[i].kind == TASK_HELD;
+  for (int k = 0; k < scene->pair_count; k++) measured[scene->pairs[k][1]] = 1;
+  for (int i = 0; i < scene->body_count; i++) held[i] = scene->bodies[i].kind == TASK_HELD;
   for (int k = 0; scene->problem_count > 1 && k < scene->problem_count; k++)
     held[scene->held[k]] = 1;
   for (int i = 0; i < scene->body_count; i++) {
     s->bodies[i].area = plan_spheres_area(&scene->bodies[i].mesh);
-    if (scene->bodies[i].kind == TASK_ROBOT && measured[i])
-      area += s->bodies[i].area;
+    if (scene->bodies[i].kind == TASK_ROBOT && measured[i]) area += s->bodies[i].area;
   }
   // What is left over by rounding goes to the next one.
   float passed = 0;
@@ -497,8 +467,7 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
     plan_spheres_body *b = &s->bodies[i];
     size_t n = held[i] ? held_spheres : 0;
     b->fit = (spheres_body *)calloc(1, sizeof *b->fit);
-    if (b->fit)
-      b->fit->tree = (mesh_bvh *)mesh_bvh_prepare(&from->mesh, NULL);
+    if (b->fit) b->fit->tree = (mesh_bvh *)mesh_bvh_prepare(&from->mesh, NULL);
     ok = b->fit && b->fit->tree && s->placed;
     if (from->kind == TASK_ROBOT && measured[i]) {
       passed += b->area;
@@ -506,22 +475,19 @@ PLAN_SPHERES_DEF int plan_spheres_init(plan_spheres *s, const task_scene *scene,
       given += n;
       n = n ? n : 1;
     }
-    if (!ok || !n)
-      continue;
+    if (!ok || !n) continue;
     ok = spheres_make_grid(b->fit) && plan_spheres_make_body(b, &from->mesh, n);
     for (size_t k = 0; ok && k < b->fit->ball_count; k++)
       s->most_radius = fmaxf(s->most_radius, b->fit->balls[k].radius);
   }
-  if (!ok)
-    plan_spheres_free(s);
+  if (!ok) plan_spheres_free(s);
   return ok;
 }
 // The pairs of the selected problem, and the grids that they need. 0 without memory, or if a body
 // that was in no pair when the spheres were made now needs some.
 PLAN_SPHERES_DEF int plan_spheres_select(plan_spheres *s, const task_scene *scene) {
   s->pair_count = scene->pair_count;
-  for (int i = 0; i < scene->body_count; i++)
-    s->bodies[i].moves = task_moves(&scene->bodies[i]);
+  for (int i = 0; i < scene->body_count; i++) s->bodies[i].moves = task_moves(&scene->bodies[i]);
   for (int k = 0; k < scene->pair_count; k++) {
     int a = scene->pairs[k][1];
     int b = scene->pairs[k][0];
@@ -532,8 +498,7 @@ PLAN_SPHERES_DEF int plan_spheres_select(plan_spheres *s, const task_scene *scen
     s->pairs[k][0] = swap ? b : a;
     s->pairs[k][1] = swap ? a : b;
     // a robot's body that was in no pair at first
-    if (!s->bodies[s->pairs[k][0]].eight_count)
-      return 0;
+    if (!s->bodies[s->pairs[k][0]].eight_count) return 0;
     plan_spheres_body *fixed = &s->bodies[s->pairs[k][1]];
     if (!fixed->grid.value && !plan_spheres_make_grid(fixed, s->activation + s->most_radius))
       return 0;
@@ -590,18 +555,15 @@ static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
   s->tests += 8;
   unsigned left = near;
   for (int k = 0; left; k++, left >>= 1) {
-    if (!(left & 1) || (!s->exact && !plan_spheres_is_rough(g, node[k])))
-      continue;
+    if (!(left & 1) || (!s->exact && !plan_spheres_is_rough(g, node[k]))) continue;
     float p[3] = {x[0][k], x[1][k], x[2][k]};
     float n[3] = {0, 0, 0};
     float sign = value[k] > g->bound ? 1.0f : value[k] < -g->bound ? -1.0f : 0.0f;
     value[k] = plan_spheres_measure(b, p, e + eight->radius[k], sign, n);
-    for (int i = 0; i < 3; i++)
-      gradient[i][k] = n[i];
+    for (int i = 0; i < 3; i++) gradient[i][k] = n[i];
     s->asked++;
   }
-  if (!near)
-    return;
+  if (!near) return;
   float slope[8];
   float inverse = 1 / e;
   int collides = 0;
@@ -616,8 +578,7 @@ static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
   }
   sum->cost += cost;
   sum->collides |= collides;
-  if (!derive)
-    return;
+  if (!derive) return;
   float t[6] = {0, 0, 0, 0, 0, 0};
   PLAN_SPHERES_EACH(k) {
     float fx = -slope[k] * gradient[0][k];
@@ -665,8 +626,7 @@ static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a,
     for (int k = 0; near; k++, near >>= 1) {
       // Where interpolation is good, it need not be doubted by as much.
       float most = bound->radius[k] + s->activation + 4 * PLAN_SPHERES_ERROR;
-      if (!(near & 1) || (value[k] > most && !plan_spheres_is_rough(g, node[k])))
-        continue;
+      if (!(near & 1) || (value[k] > most && !plan_spheres_is_rough(g, node[k]))) continue;
       plan_spheres_add(s, b, at, &a->eights[i + (size_t)k], derive, sum);
     }
   }
@@ -722,8 +682,7 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
     const float *m = plan_spheres_placed(s, ib, 0);
     for (int i = 0; i < 3; i++) {
       float half = reach;
-      for (int k = 0; k < 3; k++)
-        half += fabsf(m[3 * i + k]) * box->half[k];
+      for (int k = 0; k < 3; k++) half += fabsf(m[3 * i + k]) * box->half[k];
       low[i] = m[12 + i] - half;
       high[i] = m[12 + i] + half;
     }
@@ -738,17 +697,14 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
     if ((p[12] < low[0]) | (p[12] > high[0]) | (p[13] < low[1]) | (p[13] > high[1]) |
         (p[14] < low[2]) | (p[14] > high[2]))
       continue;
-    for (int i = 0; i < 3; i++)
-      d[i] = p[12 + i] - q[9 + i];
+    for (int i = 0; i < 3; i++) d[i] = p[12 + i] - q[9 + i];
     for (int i = 0; i < 3; i++) {
       float gap =
           fabsf(q[i] * d[0] + q[3 + i] * d[1] + q[6 + i] * d[2] - box->centre[i]) - box->half[i];
       outside += gap > 0 ? gap * gap : 0;
     }
-    if (outside >= reach * reach)
-      continue;
-    for (int i = 0; i < 3; i++)
-      d[i] = p[9 + i] - q[9 + i];
+    if (outside >= reach * reach) continue;
+    for (int i = 0; i < 3; i++) d[i] = p[9 + i] - q[9 + i];
     for (int i = 0; i < 3; i++) {
       at.position[i] = q[i] * d[0] + q[3 + i] * d[1] + q[6 + i] * d[2];
       for (int k = 0; k < 3; k++)
@@ -757,8 +713,7 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
     plan_spheres_meet(s, a, b, &at, gradient != NULL, &sum);
     cost += sum.cost;
     *collides |= sum.collides;
-    if (!gradient || !(sum.cost > 0))
-      continue;
+    if (!gradient || !(sum.cost > 0)) continue;
     float *row = gradient + 6 * n * (size_t)s->body_count;
     plan_spheres_push(&sum, p, q, s->weight, row + 6 * ia, row + 6 * ib);
   }

@@ -203,16 +203,14 @@ static source *pool_add(pool *p) {
   if (p->count == p->capacity) {
     p->capacity = p->capacity ? 2 * p->capacity : 64;
     p->items = (source *)realloc(p->items, p->capacity * sizeof *p->items);
-    if (!p->items)
-      exit(1);
+    if (!p->items) exit(1);
   }
   memset(&p->items[p->count], 0, sizeof *p->items);
   return &p->items[p->count++];
 }
 
 static void pool_free(pool *p) {
-  for (size_t i = 0; i < p->count; i++)
-    shapes_free(&p->items[i].mesh);
+  for (size_t i = 0; i < p->count; i++) shapes_free(&p->items[i].mesh);
   free(p->items);
 }
 
@@ -220,14 +218,12 @@ static void pool_free(pool *p) {
 static int read_obj(const char *path, shapes_mesh *mesh) {
   FILE *file = fopen(path, "r");
   char line[4096];
-  if (!file)
-    return 0;
+  if (!file) return 0;
   while (fgets(line, sizeof line, file)) {
     double x, y, z;
     if (line[0] == 'v' && line[1] == ' ' && sscanf(line + 1, "%lf %lf %lf", &x, &y, &z) == 3)
       shapes_vertex(mesh, x, y, z);
-    if (line[0] != 'f' || line[1] != ' ')
-      continue;
+    if (line[0] != 'f' || line[1] != ' ') continue;
     uint32_t corner[3] = {0, 0, 0};
     int n = 0;
     for (char *at = strtok(line + 1, " \t\r\n"); at; at = strtok(NULL, " \t\r\n"), n++) {
@@ -238,10 +234,8 @@ static int read_obj(const char *path, shapes_mesh *mesh) {
         break;
       }
       corner[n < 2 ? n : 2] = (uint32_t)index;
-      if (n >= 2)
-        shapes_triangle(mesh, corner[0], corner[1], corner[2]);
-      if (n >= 2)
-        corner[1] = corner[2];
+      if (n >= 2) shapes_triangle(mesh, corner[0], corner[1], corner[2]);
+      if (n >= 2) corner[1] = corner[2];
     }
   }
   fclose(file);
@@ -264,15 +258,12 @@ static void relative_path(const char *from, const char *target, char *out, size_
   size_t same = 0;
   size_t i = 0;
   for (; a[i] && a[i] == b[i]; i++)
-    if (a[i] == '/')
-      same = i;
-  if (!a[i] && b[i] == '/')
-    same = i;
+    if (a[i] == '/') same = i;
+  if (!a[i] && b[i] == '/') same = i;
   size_t used = 0;
   out[0] = 0;
   for (const char *rest = a + same; *rest; rest++)
-    if (*rest == '/' && rest[1] && used + 4 < size)
-      memcpy(out + used, "../", 4), used += 3;
+    if (*rest == '/' && rest[1] && used + 4 < size) memcpy(out + used, "../", 4), used += 3;
   snprintf(out + used, size - used, "%s", b + same + 1);
 }
 
@@ -291,23 +282,19 @@ static size_t list_names(const char *folder, const char *list, char ***names) {
   for (;;) {
     if (directory) {
       struct dirent *entry = readdir(directory);
-      if (!entry)
-        break;
+      if (!entry) break;
       snprintf(line, sizeof line, "%s", entry->d_name);
     } else if (!file || !fgets(line, sizeof line, file)) {
       break;
     }
     line[strcspn(line, "\r\n")] = 0;
     size_t n = strlen(line);
-    if (n < 5 || strcmp(line + n - 4, ".obj") != 0 || count == capacity)
-      continue;
+    if (n < 5 || strcmp(line + n - 4, ".obj") != 0 || count == capacity) continue;
     (*names)[count] = (char *)malloc(n + 1);
     memcpy((*names)[count++], line, n + 1);
   }
-  if (directory)
-    closedir(directory);
-  if (file)
-    fclose(file);
+  if (directory) closedir(directory);
+  if (file) fclose(file);
   qsort(*names, count, sizeof **names, compare_names);
   return count;
 }
@@ -325,8 +312,7 @@ static void load_folder(pool *p, const char *folder, const char *list, open_poli
     memset(&s, 0, sizeof s);
     snprintf(path, sizeof path, "%s/%s", folder, names[i]);
     int good = read_obj(path, &s.mesh);
-    if (good)
-      measure(&s);
+    if (good) measure(&s);
     int closed = good && oracle_is_closed(s.mesh.positions, s.mesh.vertices, s.mesh.indices,
                                           s.mesh.triangles);
     if (!good || s.extent <= 0 || (policy == CLOSED_ONLY && !closed) ||
@@ -380,11 +366,9 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
   snprintf(base, sizeof base, "%s", out_path);
   char *dot = strrchr(base, '.');
   char *slash = strrchr(base, '/');
-  if (dot && dot > slash)
-    *dot = 0;
+  if (dot && dot > slash) *dot = 0;
   snprintf(folder, sizeof folder, "%s_meshes", base);
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    exit(1);
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) exit(1);
   for (size_t i = 0; i < count; i++) {
     source *s = pool_add(p);
     if (kind >= RESTING)
@@ -412,8 +396,7 @@ static void make_procedural(pool *p, shapes_rng *rng, family kind, size_t count,
     measure(s);
     snprintf(s->name, sizeof s->name, "%s%03zu", prefix, i);
     snprintf(path, sizeof path, "%s/%s.obj", folder, s->name);
-    if (!shapes_write_obj(&s->mesh, path))
-      exit(1);
+    if (!shapes_write_obj(&s->mesh, path)) exit(1);
     snprintf(s->path, sizeof s->path, "%s_meshes/%s.obj", slash ? base + (slash - base) + 1 : base,
              s->name);
   }
@@ -442,8 +425,7 @@ static void random_path(shapes_rng *rng, double length, double (*path)[3], size_
   double bend = shapes_uniform(rng, 0, 0.5);
   shapes_direction(rng, along);
   for (int i = 1; i < 4; i++)
-    for (int k = 0; k < 3; k++)
-      control[i][k] = along[k] * i / 3 + bend * shapes_normal(rng);
+    for (int k = 0; k < 3; k++) control[i][k] = along[k] * i / 3 + bend * shapes_normal(rng);
   for (size_t s = 0; s < samples; s++) {
     double t = samples > 1 ? (double)s / (double)(samples - 1) : 0;
     double u = 1 - t;
@@ -457,8 +439,7 @@ static void random_path(shapes_rng *rng, double length, double (*path)[3], size_
     }
   }
   for (size_t s = 0; s < samples && total > 0; s++)
-    for (int k = 0; k < 3; k++)
-      path[s][k] *= length / total;
+    for (int k = 0; k < 3; k++) path[s][k] *= length / total;
 }
 static void set_pose(oracle_pose *pose, const double *center, const double *q,
                      const double *mesh_center) {
@@ -486,8 +467,7 @@ static void random_motion(shapes_rng *rng, problem *p, const double *start, doub
     }
     if (s) {
       n = oracle_length(now);
-      for (int k = 0; k < 3; k++)
-        now[k] /= n;
+      for (int k = 0; k < 3; k++) now[k] /= n;
       oracle_axis_angle(now, turn / (double)(p->samples - 1), step);
       oracle_quat_mul(step, q, next);
       oracle_quat_normalize(next);
@@ -503,10 +483,8 @@ static double round_to_float(double x) {
   return (double)rounded;
 }
 static void round_pose(oracle_pose *pose) {
-  for (int k = 0; k < 3; k++)
-    pose->position[k] = round_to_float(pose->position[k]);
-  for (int k = 0; k < 4; k++)
-    pose->rotation[k] = round_to_float(pose->rotation[k]);
+  for (int k = 0; k < 3; k++) pose->position[k] = round_to_float(pose->position[k]);
+  for (int k = 0; k < 4; k++) pose->rotation[k] = round_to_float(pose->rotation[k]);
 }
 static double draw(shapes_rng *rng, const double *range) {
   return shapes_uniform(rng, range[0], range[1]);
@@ -531,8 +509,7 @@ typedef struct counts {
 
 static oracle_pose offset_pose(const oracle_pose *pose, const double *direction, double s) {
   oracle_pose out = *pose;
-  for (int k = 0; k < 3; k++)
-    out.position[k] += s * direction[k];
+  for (int k = 0; k < 3; k++) out.position[k] += s * direction[k];
   return out;
 }
 // Counts why an attempt came to nothing.
@@ -555,8 +532,7 @@ static int march_out(shapes_rng *rng, problem *p, double step) {
   shapes_direction(rng, direction);
   for (int i = 0; i < 60; i++) {
     oracle_pose here = offset_pose(&p->fixed_pose, direction, i * step);
-    if (!is_free(p, &here))
-      continue;
+    if (!is_free(p, &here)) continue;
     p->fixed_pose = here;
     return 1;
   }
@@ -566,14 +542,11 @@ static int march_out(shapes_rng *rng, problem *p, double step) {
 static int touch(problem *p, double *direction) {
   double unit = p->set->unit;
   oracle_result r = ask(p, &p->fixed_pose, 0);
-  if (r.status != ORACLE_FREE)
-    return 0;
+  if (r.status != ORACLE_FREE) return 0;
   oracle_sub(r.on_moving, r.on_fixed, direction);
   double length = oracle_length(direction);
-  if (length < 1e-9 * unit)
-    return 0;
-  for (int k = 0; k < 3; k++)
-    direction[k] /= length;
+  if (length < 1e-9 * unit) return 0;
+  for (int k = 0; k < 3; k++) direction[k] /= length;
   oracle_pose just_short = offset_pose(&p->fixed_pose, direction, r.distance - UNDECIDED * unit);
   oracle_result check = ask(p, &just_short, TOUCHING * unit);
   if ((check.status != ORACLE_FREE && check.status != ORACLE_UNDECIDED) ||
@@ -686,15 +659,13 @@ static void place_across(shapes_rng *rng, problem *p) {
   double origin[3] = {0, 0, 0};
   if (p->set->special == FAR_FROM_ORIGIN) {
     shapes_direction(rng, origin);
-    for (int k = 0; k < 3; k++)
-      origin[k] *= ORIGIN_DISTANCE;
+    for (int k = 0; k < 3; k++) origin[k] *= ORIGIN_DISTANCE;
   }
   double turn = draw_turn(rng, p);
   double length = draw_path(rng, p);
   random_motion(rng, p, origin, length, turn);
   if (p->set->special == FAR_FROM_ORIGIN)
-    for (size_t s = 0; s < p->samples; s++)
-      round_pose(&p->motion[s]);
+    for (size_t s = 0; s < p->samples; s++) round_pose(&p->motion[s]);
   for (int k = 0; k < 3; k++) {
     low[k] = HUGE_VAL;
     high[k] = -HUGE_VAL;
@@ -707,16 +678,14 @@ static void place_across(shapes_rng *rng, problem *p) {
     }
   }
   double reach = 0.6 * (p->moving.radius + p->fixed.radius);
-  for (int k = 0; k < 3; k++)
-    center[k] = shapes_uniform(rng, low[k] - reach, high[k] + reach);
+  for (int k = 0; k < 3; k++) center[k] = shapes_uniform(rng, low[k] - reach, high[k] + reach);
   shapes_quaternion(rng, q);
   set_pose(&p->fixed_pose, center, q, p->fixed.center);
 }
 // A random place within the bounds of a posed mesh, in the world.
 static void within(shapes_rng *rng, const oracle_mesh *mesh, const oracle_pose *pose, double *out) {
   double local[3];
-  for (int k = 0; k < 3; k++)
-    local[k] = shapes_uniform(rng, mesh->low[k], mesh->high[k]);
+  for (int k = 0; k < 3; k++) local[k] = shapes_uniform(rng, mesh->low[k], mesh->high[k]);
   oracle_transform(pose, local, out);
 }
 // Step 1, IN_BOUNDS and IN_CAVITY: the moving body starts within the bounds of the fixed one, free
@@ -753,11 +722,9 @@ static void on_surface(shapes_rng *rng, const oracle_mesh *mesh, const oracle_po
   double v = shapes_uniform(rng, 0, 1);
   const oracle_triangle *t = mesh->triangles;
   const oracle_triangle *end = t + mesh->triangle_count;
-  for (; t < end; t++)
-    area += triangle_area(t);
+  for (; t < end; t++) area += triangle_area(t);
   area = shapes_uniform(rng, 0, area);
-  for (t = mesh->triangles; t + 1 < end && area > triangle_area(t); t++)
-    area -= triangle_area(t);
+  for (t = mesh->triangles; t + 1 < end && area > triangle_area(t); t++) area -= triangle_area(t);
   if (u + v > 1) {
     u = 1 - u;
     v = 1 - v;
@@ -783,8 +750,7 @@ static void place_on_surface(shapes_rng *rng, problem *p) {
   on_surface(rng, &p->fixed, &p->fixed_pose, place);
   motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
   double reach = shapes_uniform(rng, 0, p->moving.radius);
-  for (int k = 0; k < 3; k++)
-    p->fixed_pose.position[k] += center[k] + reach * away[k] - place[k];
+  for (int k = 0; k < 3; k++) p->fixed_pose.position[k] += center[k] + reach * away[k] - place[k];
 }
 // Does the moving body's centre pass through the bounds of the fixed one, grown by a tenth?
 static int passes_through(const problem *p) {
@@ -799,8 +765,7 @@ static int passes_through(const problem *p) {
     for (int k = 0; k < 3; k++)
       within_bounds = within_bounds && fabs(local[k] - p->fixed.center[k]) <
                                            0.6 * (p->fixed.high[k] - p->fixed.low[k]);
-    if (within_bounds)
-      return 1;
+    if (within_bounds) return 1;
   }
   return 0;
 }
@@ -816,16 +781,11 @@ static int attempt(shapes_rng *rng, problem *p, double sigma, counts *c) {
     place_on_surface(rng, p);
   else
     place_across(rng, p);
-  if (!free_start || (placing == IN_CAVITY && !in_cavity(p)))
-    return c->no_free_place++, 0;
-  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march)))
-    return c->no_free_place++, 0;
-  if (placing == IN_BOUNDS && !passes_through(p))
-    return c->other++, 0;
-  if (placing == IN_CAVITY && !in_cavity(p))
-    return c->other++, 0;
-  if (!touch(p, direction))
-    return c->not_touching++, 0;
+  if (!free_start || (placing == IN_CAVITY && !in_cavity(p))) return c->no_free_place++, 0;
+  if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march))) return c->no_free_place++, 0;
+  if (placing == IN_BOUNDS && !passes_through(p)) return c->other++, 0;
+  if (placing == IN_CAVITY && !in_cavity(p)) return c->other++, 0;
+  if (!touch(p, direction)) return c->not_touching++, 0;
   return perturb(rng, p, direction, sigma, c);
 }
 // One attempt at `far`: the fixed body is put somewhere beyond the gap, as seen from some place of
@@ -844,12 +804,10 @@ static int attempt_far(shapes_rng *rng, problem *p, counts *c) {
   shapes_direction(rng, away);
   motion_center(p, (size_t)shapes_pick(rng, (int)p->samples), center);
   double distance = p->moving.radius + p->fixed.radius + gap * shapes_uniform(rng, 0.5, 3);
-  for (int k = 0; k < 3; k++)
-    center[k] += distance * away[k];
+  for (int k = 0; k < 3; k++) center[k] += distance * away[k];
   set_pose(&p->fixed_pose, center, q, p->fixed.center);
   oracle_result r = ask(p, &p->fixed_pose, 0);
-  if (r.status != ORACLE_FREE || r.lower < gap)
-    return c->other++, 0;
+  if (r.status != ORACLE_FREE || r.lower < gap) return c->other++, 0;
   p->label = 0;
   p->margin = r.distance;
   return 1;
@@ -907,8 +865,7 @@ static rest_plan plan_rest(size_t id) {
   plan.whole = plan.label && slot == 0;
   plan.gap = plan.label ? -gap : gap;
   plan.move = (rest_move)((turn + round) % 4);
-  if (plan.whole && plan.move > SLIDE)
-    plan.move = SLIDE;  // neither comes in nor leaves
+  if (plan.whole && plan.move > SLIDE) plan.move = SLIDE;  // neither comes in nor leaves
   plan.single = plan.move == STAND && turn / 4 % 2;
   return plan;
 }
@@ -934,8 +891,7 @@ static size_t lowest_corner(const oracle_mesh *mesh, const double *q) {
   for (size_t i = 1; i < 3 * mesh->triangle_count; i++) {
     double d[3];
     corner_to_corner(mesh, lowest, i, m, d);
-    if (d[2] < 0)
-      lowest = i;
+    if (d[2] < 0) lowest = i;
   }
   return lowest;
 }
@@ -949,15 +905,13 @@ static int tilt_to_edge(const oracle_mesh *mesh, size_t lowest, double *q, doubl
     double d[3];
     corner_to_corner(mesh, lowest, i, m, d);
     const double run = hypot(d[0], d[1]);
-    if (run < 1e-6 * mesh->radius || d[2] / run >= slope)
-      continue;
+    if (run < 1e-6 * mesh->radius || d[2] / run >= slope) continue;
     slope = d[2] / run;
     along[0] = d[0] / run;
     along[1] = d[1] / run;
     along[2] = 0;
   }
-  if (slope > 1e150)
-    return 0;
+  if (slope > 1e150) return 0;
   const double axis[3] = {-along[1], along[0], 0};
   turn_by(q, axis, atan(slope));
   return 1;
@@ -974,11 +928,9 @@ static void tilt_to_face(const oracle_mesh *mesh, size_t lowest, double *q, cons
     double d[3];
     corner_to_corner(mesh, lowest, i, m, d);
     const double run = oracle_dot(d, side);
-    if (run > 1e-6 * mesh->radius)
-      slope = fmin(slope, d[2] / run);
+    if (run > 1e-6 * mesh->radius) slope = fmin(slope, d[2] / run);
   }
-  if (slope < 1e150)
-    turn_by(q, axis, atan(slope));
+  if (slope < 1e150) turn_by(q, axis, atan(slope));
 }
 // How the body stands: as in its file, after quarter turns, or on a face of its convex hull; then
 // turned about the vertical, or not.
@@ -987,18 +939,15 @@ static void rest_rotation(shapes_rng *rng, const oracle_mesh *mesh, double *q) {
   const double still[4] = {0, 0, 0, 1};
   const int way = shapes_pick(rng, 3);
   memcpy(q, still, sizeof still);
-  for (int k = 0; k < 3 && way == 1; k++)
-    turn_by(q, axes[k], shapes_pick(rng, 4) * SHAPES_PI / 2);
+  for (int k = 0; k < 3 && way == 1; k++) turn_by(q, axes[k], shapes_pick(rng, 4) * SHAPES_PI / 2);
   if (way == 2) {
     double along[3] = {0, 0, 0};
     shapes_quaternion(rng, q);
     const int sign = shapes_pick(rng, 2) ? 1 : -1;
     const size_t lowest = lowest_corner(mesh, q);
-    if (tilt_to_edge(mesh, lowest, q, along))
-      tilt_to_face(mesh, lowest, q, along, sign);
+    if (tilt_to_edge(mesh, lowest, q, along)) tilt_to_face(mesh, lowest, q, along, sign);
   }
-  if (shapes_pick(rng, 2))
-    turn_by(q, axes[2], shapes_uniform(rng, 0, 2 * SHAPES_PI));
+  if (shapes_pick(rng, 2)) turn_by(q, axes[2], shapes_uniform(rng, 0, 2 * SHAPES_PI));
 }
 
 typedef struct box {
@@ -1070,17 +1019,14 @@ static void rest_motion(shapes_rng *rng, problem *p, rest_move move, const oracl
       by[0] = (t - 0.5) * length * cos(heading);
       by[1] = (t - 0.5) * length * sin(heading);
     }
-    if (move == SET_DOWN)
-      by[2] = (1 - t) * rise;
-    if (move == LIFT)
-      by[2] = t * rise;
+    if (move == SET_DOWN) by[2] = (1 - t) * rise;
+    if (move == LIFT) by[2] = t * rise;
     p->motion[s] = turned_pose(*rest, about, (t - 0.5) * turn, by);
   }
 }
 static void move_scene(problem *p, const oracle_pose *scene) {
   p->fixed_pose = oracle_compose(scene, &p->fixed_pose);
-  for (size_t s = 0; s < p->samples; s++)
-    p->motion[s] = oracle_compose(scene, &p->motion[s]);
+  for (size_t s = 0; s < p->samples; s++) p->motion[s] = oracle_compose(scene, &p->motion[s]);
 }
 // Does the oracle agree with the plan? Sets label and margin. Walls that are nearer than the floor,
 // or the edge of a floor that ends under the body, make another problem of it: rejected.
@@ -1093,17 +1039,14 @@ static int is_as_planned(problem *p, const rest_plan *plan) {
   oracle_rotate(m, up, normal);
   const oracle_result r = ask(p, &p->fixed_pose, 0);
   p->label = plan->label;
-  if (r.winding > 0.25 && r.winding < 0.75)
-    return 0;  // an open mesh
+  if (r.winding > 0.25 && r.winding < 0.75) return 0;  // an open mesh
   if (!plan->label) {
     p->margin = r.distance;
     return r.status == ORACLE_FREE && fabs(r.distance - plan->gap * p->set->unit) < undecided;
   }
   p->margin = (double)NAN;
-  if (r.status == ORACLE_INSIDE)
-    return r.distance > undecided;
-  if (plan->whole || r.status != ORACLE_COLLIDES)
-    return 0;
+  if (r.status == ORACLE_INSIDE) return r.distance > undecided;
+  if (plan->whole || r.status != ORACLE_COLLIDES) return 0;
   const double depth = -plan->gap * p->set->unit;
   const oracle_pose less = offset_pose(&p->fixed_pose, normal, undecided - depth);
   const oracle_pose more = offset_pose(&p->fixed_pose, normal, -2 * undecided - depth);
@@ -1119,8 +1062,7 @@ static int attempt_rest(shapes_rng *rng, problem *p, counts *c) {
   rest_motion(rng, p, plan.move, &rest);
   if (shapes_pick(rng, 2)) {  // else axis-aligned, z up
     oracle_pose scene;
-    for (int k = 0; k < 3; k++)
-      scene.position[k] = shapes_uniform(rng, -1, 1) * p->set->unit;
+    for (int k = 0; k < 3; k++) scene.position[k] = shapes_uniform(rng, -1, 1) * p->set->unit;
     shapes_quaternion(rng, scene.rotation);
     move_scene(p, &scene);
   }
@@ -1145,8 +1087,7 @@ static size_t parts_inside(const oracle_mesh *group, const oracle_pose *pose,
 static void pin(oracle_pose *pose, const double *local, const double *world) {
   double now[3];
   oracle_transform(pose, local, now);
-  for (int k = 0; k < 3; k++)
-    pose->position[k] += world[k] - now[k];
+  for (int k = 0; k < 3; k++) pose->position[k] += world[k] - now[k];
 }
 // A part of the group somewhere in the bounds of the host. Where the group moves, it turns about
 // that part.
@@ -1169,8 +1110,7 @@ static void place_part(shapes_rng *rng, problem *p, const double *part) {
   for (size_t s = 0; s < p->samples; s++) {
     double place[3];
     motion_center(p, s, place);
-    for (int k = 0; k < 3; k++)
-      place[k] += start[k];
+    for (int k = 0; k < 3; k++) place[k] += start[k];
     pin(&p->motion[s], part, place);
   }
 }
@@ -1190,10 +1130,8 @@ static int attempt_nested(shapes_rng *rng, problem *p, counts *c) {
   place_part(rng, p, part);
   oracle_transform(group_pose, part, place);
   int good = parts_inside(group, group_pose, host, host_pose) == (size_t)p->label;
-  if (!p->label && shell)
-    good = good && surrounds(host, host_pose, place);
-  if (!good)
-    return rejected(&c->no_free_place);
+  if (!p->label && shell) good = good && surrounds(host, host_pose, place);
+  if (!good) return rejected(&c->no_free_place);
   const oracle_result r = ask(p, &p->fixed_pose, p->label ? clearance : 0);
   good = r.status == (p->label ? ORACLE_INSIDE : ORACLE_FREE) && r.distance >= clearance;
   p->margin = p->label ? (double)NAN : r.distance;
@@ -1211,8 +1149,7 @@ static void place_alike(shapes_rng *rng, problem *p) {
   shapes_direction(rng, axis);
   shapes_direction(rng, away);
   oracle_transform(there, p->moving.center, center);
-  for (int k = 0; k < 3; k++)
-    center[k] += offset * away[k];
+  for (int k = 0; k < 3; k++) center[k] += offset * away[k];
   memcpy(q, there->rotation, sizeof q);
   turn_by(q, axis, angle);
   set_pose(&p->fixed_pose, center, q, p->fixed.center);
@@ -1233,19 +1170,16 @@ static int attempt_same(shapes_rng *rng, problem *p, double sigma, counts *c) {
   random_motion(rng, p, origin, length, turn);
   place_alike(rng, p);
   const oracle_pose crossing = p->fixed_pose;
-  if (ask(p, &crossing, 0).status != ORACLE_COLLIDES)
-    return rejected(&c->undecided);
+  if (ask(p, &crossing, 0).status != ORACLE_COLLIDES) return rejected(&c->undecided);
   if (!march_out(rng, p, p->set->unit * draw(rng, p->set->march)))
     return rejected(&c->no_free_place);
   if (p->id % 2 == 0) {
-    if (!touch(p, direction))
-      return rejected(&c->not_touching);
+    if (!touch(p, direction)) return rejected(&c->not_touching);
     return perturb(rng, p, direction, sigma, c);
   }
   oracle_sub(crossing.position, p->fixed_pose.position, direction);
   const double way = oracle_length(direction);
-  for (int k = 0; k < 3; k++)
-    direction[k] /= way;
+  for (int k = 0; k < 3; k++) direction[k] /= way;
   p->label = 1;
   p->margin = -depth(p, direction, way);
   p->fixed_pose = crossing;
@@ -1272,25 +1206,21 @@ static int uses_sigma(const set_info *set) {
   return how != CONTAINED && how != APART && how != ON_FLOOR && how != PARTLY_IN;
 }
 static int is_single_pose(const set_info *set, size_t id) {
-  if (set->placing == ON_FLOOR)
-    return plan_rest(id).single;
+  if (set->placing == ON_FLOOR) return plan_rest(id).single;
   return set->special == HALF_SINGLE && id % 2;
 }
 // Of ten problems, in how many the body of the second pool moves.
 static int swapped_of_ten(const set_info *set) {
-  if (set->placing == CONTAINED)
-    return 3;
+  if (set->placing == CONTAINED) return 3;
   return set->placing == PARTLY_IN || set->fixed_family == TRIANGLES ? 5 : 0;
 }
 // On a plate lies another plate, every other time. What is to be inside the floor needs a thick
 // one, and is small enough to fit however it is turned.
 static choice choose_for_rest(shapes_rng *rng, pools *from, const problem *p, choice chosen) {
   const rest_plan plan = plan_rest(p->id);
-  while (plan.whole && chosen.large->floor.thickness < 0.01)
-    chosen.large = any(rng, &from->large);
+  while (plan.whole && chosen.large->floor.thickness < 0.01) chosen.large = any(rng, &from->large);
   if (chosen.large->floor.plate && shapes_pick(rng, 2)) {
-    do
-      chosen.small = any(rng, &from->large);
+    do chosen.small = any(rng, &from->large);
     while (!chosen.small->floor.plate);
   }
   if (plan.whole) {
@@ -1310,8 +1240,7 @@ static void choose_bodies(shapes_rng *rng, pools *from, problem *p) {
   chosen.large = any(rng, cavity ? &from->shells : set->fixed_family ? &from->large : &from->small);
   chosen.small_extent = set->unit * draw(rng, set->moving);
   chosen.large_extent = set->unit * draw(rng, set->fixed);
-  if (set->placing == ON_FLOOR)
-    chosen = choose_for_rest(rng, from, p, chosen);
+  if (set->placing == ON_FLOOR) chosen = choose_for_rest(rng, from, p, chosen);
   if (set->fixed_family == TRIANGLES && shapes_pick(rng, 3) == 0)
     chosen.small = any(rng, &from->large);
   if (set->placing == ALIKE) {
@@ -1352,8 +1281,7 @@ static void write_problem(FILE *file, const problem *p, size_t id) {
   sources[0] = p->moving_source;
   sources[1] = p->fixed_source;
   for (int i = 0; i < 2; i++) {
-    if (!sources[i]->used)
-      fprintf(file, "mesh %s %s\n", sources[i]->name, sources[i]->path);
+    if (!sources[i]->used) fprintf(file, "mesh %s %s\n", sources[i]->name, sources[i]->path);
     sources[i]->used = 1;
   }
   fprintf(file, "problem %zu %s %.9g %s %.9g ", id, sources[0]->name, p->moving_scale,
@@ -1368,11 +1296,9 @@ static void write_problem(FILE *file, const problem *p, size_t id) {
 static void tally(counts *c, const problem *p) {
   static const double edges[5] = {1e-3, 2.5e-3, 5e-3, 10e-3, 20e-3};
   int bin = 0;
-  while (bin < 5 && fabs(p->margin) > edges[bin] * p->set->unit)
-    bin++;
+  while (bin < 5 && fabs(p->margin) > edges[bin] * p->set->unit) bin++;
   c->accepted[p->label]++;
-  if (p->margin < 0 || p->margin > 0)
-    c->histogram[p->label][bin]++;
+  if (p->margin < 0 || p->margin > 0) c->histogram[p->label][bin]++;
 }
 static void print_summary(const set_info *set, const counts *c, double seconds) {
   printf("%zu problems: %zu collide, %zu free; %.1f s, %.1f ms each\n",
@@ -1387,8 +1313,7 @@ static void print_summary(const set_info *set, const counts *c, double seconds) 
   printf("|margin| mm     0-1   1-2.5   2.5-5    5-10   10-20     >20\n");
   for (int label = 1; label >= 0; label--) {
     printf("%-9s", label ? "collide" : "free");
-    for (int i = 0; i < 6; i++)
-      printf(" %7zu", c->histogram[label][i]);
+    for (int i = 0; i < 6; i++) printf(" %7zu", c->histogram[label][i]);
     printf("\n");
   }
 }
@@ -1411,8 +1336,7 @@ static int usage(void) {
           "alike; not for nested, slivers and soup):\n");
   for (size_t i = 0; i < SETS; i++) {
     fprintf(stderr, "  %-9s %s [%zu", sets[i].name, sets[i].what, sets[i].samples);
-    if (uses_sigma(&sets[i]))
-      fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
+    if (uses_sigma(&sets[i])) fprintf(stderr, ", %g", sets[i].sigma * sets[i].unit);
     fprintf(stderr, "]\n");
   }
   return 2;
@@ -1457,17 +1381,12 @@ int main(int argc, char **argv) {
   }
   static problem p;
   for (size_t i = 0; set && i < SETS; i++)
-    if (!strcmp(set, sets[i].name))
-      p.set = &sets[i];
-  if (!samples && p.set)
-    samples = p.set->samples;
+    if (!strcmp(set, sets[i].name)) p.set = &sets[i];
+  if (!samples && p.set) samples = p.set->samples;
   const int folder_given = meshes && strcmp(meshes, "procedural") != 0;
-  if (folder_given && p.set && is_procedural_only(p.set))
-    return usage();
-  if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES)
-    return usage();
-  if (sigma <= 0)
-    sigma = p.set->sigma * p.set->unit;
+  if (folder_given && p.set && is_procedural_only(p.set)) return usage();
+  if (argc % 2 == 0 || !p.set || !meshes || !out || !count || samples > MAX_SAMPLES) return usage();
+  if (sigma <= 0) sigma = p.set->sigma * p.set->unit;
   int inside = p.set->placing == CONTAINED;
 
   clock_t begin = clock();
@@ -1478,25 +1397,20 @@ int main(int argc, char **argv) {
   snprintf(folder, sizeof folder, "%s", strrchr(out, '/') ? out : "./");
   *(strrchr(folder, '/') + 1) = 0;
   FILE *file = fopen(out, "w");
-  if (!file)
-    return fprintf(stderr, "%s: cannot be written\n", out), 1;
-  if (!pool_size)
-    pool_size = count / 10 < 40 ? 40 : count / 10 > 400 ? 400 : count / 10;
+  if (!file) return fprintf(stderr, "%s: cannot be written\n", out), 1;
+  if (!pool_size) pool_size = count / 10 < 40 ? 40 : count / 10 > 400 ? 400 : count / 10;
   if (strcmp(meshes, "procedural") != 0)
     load_folder(&from.small, meshes, list, policy, folder);
   else
     make_procedural(&from.small, &rng, p.set->moving_family, pool_size,
                     family_names[p.set->moving_family], out);
   size_t fixed_meshes = p.set->fixed_meshes;
-  if (p.set->fixed_family == HOLLOWS && fixed_meshes > pool_size)
-    fixed_meshes = pool_size;
+  if (p.set->fixed_family == HOLLOWS && fixed_meshes > pool_size) fixed_meshes = pool_size;
   if (p.set->fixed_family)
     make_procedural(&from.large, &rng, p.set->fixed_family, fixed_meshes,
                     inside ? "large" : family_names[p.set->fixed_family], out);
-  if (inside)
-    make_procedural(&from.shells, &rng, SHELLS, 30, "shell", out);
-  if (!from.small.count)
-    return fprintf(stderr, "%s: no meshes\n", meshes), 1;
+  if (inside) make_procedural(&from.shells, &rng, SHELLS, 30, "shell", out);
+  if (!from.small.count) return fprintf(stderr, "%s: no meshes\n", meshes), 1;
 
   fprintf(file,
           "nsvcd-problems 1\n# problems --set %s --meshes %s --count %zu --seed %llu "
@@ -1509,12 +1423,9 @@ int main(int argc, char **argv) {
     p.id = id;
     p.samples = is_single_pose(p.set, id) ? 1 : samples;
     choose_bodies(&rng, &from, &p);
-    if (!load_body(&p.moving, p.moving_source, p.moving_extent, &p.moving_scale))
-      return 1;
-    if (!load_body(&p.fixed, p.fixed_source, p.fixed_extent, &p.fixed_scale))
-      return 1;
-    for (int i = 0; i < p.set->tries && !done; i++)
-      done = attempt_any(&rng, &p, sigma, &c);
+    if (!load_body(&p.moving, p.moving_source, p.moving_extent, &p.moving_scale)) return 1;
+    if (!load_body(&p.fixed, p.fixed_source, p.fixed_extent, &p.fixed_scale)) return 1;
+    for (int i = 0; i < p.set->tries && !done; i++) done = attempt_any(&rng, &p, sigma, &c);
     if (done) {
       tally(&c, &p);
       write_problem(file, &p, id++);
@@ -1523,8 +1434,7 @@ int main(int argc, char **argv) {
     oracle_mesh_free(&p.fixed);
   }
   int ok = !ferror(file);
-  if (fclose(file) != 0 || !ok)
-    return fprintf(stderr, "%s: write error\n", out), 1;
+  if (fclose(file) != 0 || !ok) return fprintf(stderr, "%s: write error\n", out), 1;
   print_summary(p.set, &c, (double)(clock() - begin) / CLOCKS_PER_SEC);
   pool_free(&from.small);
   pool_free(&from.large);

@@ -68,17 +68,14 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   keep_least(times, BEGIN, start);
   nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
-  while (more)
-    more = nsvcd__search_step(&work->broad_phase, &kept);
+  while (more) more = nsvcd__search_step(&work->broad_phase, &kept);
   keep_least(times, STEPS, start);
   start = seconds();
   const nsvcd__transform pose = nsvcd__motion_pose(&motion, 0);
   (void)nsvcd__is_contained(q->moving, q->fixed, 1, &pose);
   keep_least(times, INSIDE, start);
-  if (!kept.count)
-    return;
-  for (size_t k = 0; k < NSVCD__BATCH; k++)
-    batch[k] = &kept.items[k % kept.count];
+  if (!kept.count) return;
+  for (size_t k = 0; k < NSVCD__BATCH; k++) batch[k] = &kept.items[k % kept.count];
   start = seconds();
   NSVCD__EACH_SLICE(l) {
     nsvcd__pairs_of(q->moving, q->fixed, &motion, batch + l, NSVCD__SLICE,
@@ -115,8 +112,7 @@ static const nsvcd_body *encode(const char *from, const char *path, size_t point
   const nsvcd_body *body = NULL;
   snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash - from) + 1 : 0, from, path);
   nsvcd_result result = nsvcd_obj_load(full, NULL, &mesh, NULL);
-  if (!result)
-    result = nsvcd_encode(&mesh, &options, NULL, memory, nsvcd_body_size(points), &body);
+  if (!result) result = nsvcd_encode(&mesh, &options, NULL, memory, nsvcd_body_size(points), &body);
   if (result) {
     complain("%s: %s", full, nsvcd_result_string(result));
     exit(REFUSED);
@@ -136,8 +132,7 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
   static nsvcd_question questions[ROLLOUTS];
   const float radius = 0.1f * nsvcd_body_describe(q->moving).radius;
   double least[2] = {1e9, 1e9};
-  if (q->count > 64)
-    return;
+  if (q->count > 64) return;
   for (size_t m = 0; m < ROLLOUTS; m++) {
     float bump[3];
     for (size_t k = 0; k < 3; k++) {
@@ -169,8 +164,7 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
     nsvcd_sweep_batch(questions, ROLLOUTS, work, sizeof *work, many);
     least[1] = fmin(least[1], seconds() - start);
   }
-  for (size_t m = 0; m < ROLLOUTS; m++)
-    *alike += one[m].collides == many[m].collides;
+  for (size_t m = 0; m < ROLLOUTS; m++) *alike += one[m].collides == many[m].collides;
   *single += 1e6 * least[0] / ROLLOUTS, *batch += 1e6 * least[1] / ROLLOUTS;
 }
 
@@ -182,8 +176,7 @@ static double peak_gflops(void) {
   const size_t turns = 1000000;
   double best = 0;
   for (int run = 0; run < 5; run++) {
-    for (size_t k = 0; k < 12; k++)
-      sum[k] = nsvcd__v_set((float)k);
+    for (size_t k = 0; k < 12; k++) sum[k] = nsvcd__v_set((float)k);
     const double start = seconds();
     for (size_t n = 0; n < turns; n++) {
       NSVCD__UNROLL
@@ -195,8 +188,7 @@ static double peak_gflops(void) {
     const double gflops = 12.0 * 2 * NSVCD__LANES * (double)turns / (seconds() - start) * 1e-9;
     volatile float sink;
     float lanes[NSVCD__LANES];
-    for (size_t k = 1; k < 12; k++)
-      sum[0] = nsvcd__v_add(sum[0], sum[k]);
+    for (size_t k = 1; k < 12; k++) sum[0] = nsvcd__v_add(sum[0], sum[k]);
     nsvcd__v_store(lanes, sum[0]);
     sink = lanes[0];
     (void)sink;
@@ -211,14 +203,11 @@ static double head_gflops(size_t model, size_t rows, int int8) {
   const nsvcd__decoder *head = &nsvcd_w_decoders[model];
   double flops = 0;
   double best = 0;
-  for (size_t k = 0; k < NSVCD__BATCH * NSVCD__DECODER_IN; k++)
-    x[k] = (float)(k % 7) / 7 - 0.5f;
-  for (size_t l = 0; l < head->layers; l++)
-    flops += 2.0 * head->sizes[l] * head->sizes[l + 1];
+  for (size_t k = 0; k < NSVCD__BATCH * NSVCD__DECODER_IN; k++) x[k] = (float)(k % 7) / 7 - 0.5f;
+  for (size_t l = 0; l < head->layers; l++) flops += 2.0 * head->sizes[l] * head->sizes[l + 1];
   for (int run = 0; run < 5; run++) {
     const double start = seconds();
-    for (int n = 0; n < 5000; n++)
-      logits_of(head, x, rows, int8, logits);
+    for (int n = 0; n < 5000; n++) logits_of(head, x, rows, int8, logits);
     best = fmax(best, 5000 * flops * (double)rows / (seconds() - start) * 1e-9);
   }
   return best;
@@ -248,10 +237,8 @@ static void profile(const problem_file *file, size_t points) {
                      moving_memory, size, &q.moving);
     nsvcd_body_scale((const nsvcd_body *)(bodies + p->fixed * size), p->fixed_scale, fixed_memory,
                      size, &q.fixed);
-    for (size_t s = 0; s < STAGES; s++)
-      one[s] = 1e9;
-    for (int run = 0; run < 5; run++)
-      run_stages(&q, work, one);
+    for (size_t s = 0; s < STAGES; s++) one[s] = 1e9;
+    for (int run = 0; run < 5; run++) run_stages(&q, work, one);
     for (int run = 0; run < 5; run++) {
       double start = seconds();
       ask(q.moving, q.poses, q.count, q.fixed, q.fixed_pose, NULL, work,
@@ -262,14 +249,12 @@ static void profile(const problem_file *file, size_t points) {
       time_rollouts(&q, work, &random, &single, &batch, &alike);
       rolled++;
     }
-    for (size_t s = 0; s < STAGES; s++)
-      times[s * count + i] = one[s] < 1e9 ? one[s] : 0;
+    for (size_t s = 0; s < STAGES; s++) times[s * count + i] = one[s] < 1e9 ? one[s] : 0;
   }
   printf("N = %zu, %zu problems\n", points, count);
   for (size_t s = 0; s < STAGES; s++) {
     double mean = 0;
-    for (size_t i = 0; i < count; i++)
-      mean += times[s * count + i] / (double)count;
+    for (size_t i = 0; i < count; i++) mean += times[s * count + i] / (double)count;
     qsort(times + s * count, count, sizeof *times, compare_doubles);
     printf("  %-32s median %6.2f  mean %6.2f us\n", names[s], times[s * count + count / 2], mean);
   }
@@ -327,8 +312,7 @@ static void profile_proof(const problem_file *file, size_t points) {
     snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - file->path) + 1 : 0, file->path,
              file->meshes[i].path);
     nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, NULL);
-    if (!result)
-      result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[i]);
+    if (!result) result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[i]);
     if (result) {
       complain("%s: %s", path, nsvcd_result_string(result));
       exit(REFUSED);
@@ -347,8 +331,7 @@ static void profile_proof(const problem_file *file, size_t points) {
     add_proof(&q, work, sums, &times[i]);
   }
   double mean = 0;
-  for (size_t i = 0; i < count; i++)
-    mean += times[i] / (double)count;
+  for (size_t i = 0; i < count; i++) mean += times[i] / (double)count;
   qsort(times, count, sizeof *times, compare_doubles);
   printf("proof, N = %zu, %zu problems: median %.2f, mean %.2f, 99 %% %.1f, worst %.1f us\n",
          points, count, times[count / 2], mean, times[(size_t)(0.99 * (double)count)],
@@ -356,8 +339,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   for (size_t k = 0; k <= NSVCD_STATUS_UNDECIDED; k++) {
     const verdict_sum *sum = &sums[k];
     const double n = (double)sum->count;
-    if (!sum->count)
-      continue;
+    if (!sum->count) continue;
     printf(
         "  %-15s %5zu, mean %6.2f us: %5.0f tests of spheres and discs, %6.1f planes sought, %4.1f "
         "looks for a "
@@ -365,8 +347,7 @@ static void profile_proof(const problem_file *file, size_t points) {
         nsvcd_status_string((nsvcd_status)k), sum->count, sum->microseconds / n, sum->tests / n,
         sum->planes / n, sum->tries / n, sum->pairs / n, sum->work / n);
   }
-  for (size_t i = 0; i < file->mesh_count; i++)
-    nsvcd_body_free(bodies[i], NULL);
+  for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(bodies[i], NULL);
   free(bodies);
   free(work);
   free(times);
@@ -403,8 +384,7 @@ static void time_preparation(void) {
       complain("%s: %s", path, nsvcd_result_string(result));
       exit(REFUSED);
     }
-    if (run < 8)
-      nsvcd_mesh_free(&mesh, NULL);
+    if (run < 8) nsvcd_mesh_free(&mesh, NULL);
   }
   printf("a torus of %zu triangles, %.2f MB of OBJ: read at %.0f MB/s; encoded in",
          mesh.triangle_count, megabytes, megabytes / parse);
@@ -427,10 +407,8 @@ static void time_preparation(void) {
 
 int main(int argc, char **argv) {
   problem_file file;
-  if (argc < 2)
-    return fprintf(stderr, "profile FILE [N...]\n"), USAGE;
-  if (!read_problems(argv[1], &file))
-    return REFUSED;
+  if (argc < 2) return fprintf(stderr, "profile FILE [N...]\n"), USAGE;
+  if (!read_problems(argv[1], &file)) return REFUSED;
   const double peak = peak_gflops();
   printf("fma peak %.0f GFLOP/s\n", peak);
   for (size_t m = 0; m < 3; m++) {
@@ -443,8 +421,7 @@ int main(int argc, char **argv) {
            100 * head_gflops(m, 8, 1) / peak, 100 * head_gflops(m, 16, 1) / peak);
   }
   time_preparation();
-  if (argc == 2)
-    profile(&file, NSVCD_DEFAULT_NETWORK_PATCHES);
+  if (argc == 2) profile(&file, NSVCD_DEFAULT_NETWORK_PATCHES);
   profile_proof(&file, NSVCD_DEFAULT_PATCHES);
   for (int i = 2; i < argc; i++) {
     size_t points;

@@ -223,8 +223,7 @@ SHAPES_DEF void set_fan_solid(shapes_mesh *mesh, const set_outline *outline, int
   for (int i = 0; i < outline->count; i++) {
     const double *p = outline->corner[i];
     shapes_vertex(mesh, p[0], p[1], 0);
-    if (!pointed)
-      shapes_vertex(mesh, p[0], p[1], 1);
+    if (!pointed) shapes_vertex(mesh, p[0], p[1], 1);
   }
   for (int i = 0; i < outline->count; i++) {
     const uint32_t a = ring + stride * (uint32_t)i;
@@ -246,8 +245,7 @@ SHAPES_DEF void set_cut_needles(shapes_mesh *mesh, shapes_rng *rng, double near_
     uint32_t t[3];
     double place[3];
     const int first = shapes_pick(rng, 3);
-    for (int k = 0; k < 3; k++)
-      t[k] = mesh->indices[3 * i + (size_t)((first + k) % 3)];
+    for (int k = 0; k < 3; k++) t[k] = mesh->indices[3 * i + (size_t)((first + k) % 3)];
     for (int k = 0; k < 3; k++) {
       const double a = mesh->positions[3 * t[0] + (size_t)k];
       const double b = mesh->positions[3 * t[1] + (size_t)k];
@@ -320,10 +318,8 @@ SHAPES_DEF void set_degenerate(shapes_mesh *mesh, shapes_rng *rng, int count) {
     const double *p = mesh->positions + 3 * a;
     const double *q = mesh->positions + 3 * b;
     const double middle[3] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
-    if (i % 3 == 0)
-      shapes_triangle(mesh, a, a, b);
-    if (i % 3 == 1)
-      shapes_triangle(mesh, a, a, a);
+    if (i % 3 == 0) shapes_triangle(mesh, a, a, b);
+    if (i % 3 == 1) shapes_triangle(mesh, a, a, a);
     if (i % 3 == 2)
       shapes_triangle(mesh, a, shapes_vertex(mesh, middle[0], middle[1], middle[2]), b);
   }

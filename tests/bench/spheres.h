@@ -125,8 +125,7 @@ static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, 
   stack[0].distance = 0;
   while (count && best > enough) {
     spheres_entry top = stack[--count];
-    if (top.distance >= best)
-      continue;
+    if (top.distance >= best) continue;
     if (top.at & MESH_BVH_LEAF) {
       const mesh_bvh_leaf *leaf = &tree->leaves[top.at & ~MESH_BVH_LEAF];
       spheres_to_triangles(leaf, x, value);
@@ -143,8 +142,7 @@ static float spheres_nearest(const mesh_bvh *tree, const float *x, float limit, 
     size_t first = count;
     for (size_t k = 0; mask; k++, mask >>= 1) {  // the nearest on top
       spheres_entry next = {node->child[k], value[k]};
-      if (!(mask & 1))
-        continue;
+      if (!(mask & 1)) continue;
       stack[count] = next;
       if (count > first && next.distance > stack[count - 1].distance) {
         stack[count] = stack[count - 1];
@@ -172,10 +170,8 @@ static int spheres_winding(const mesh_bvh_leaf *leaf, size_t k, const float *x) 
     double u1 = (double)(leaf->corner[next][0][k] - x[0]);
     double v1 = (double)(leaf->corner[next][1][k] - x[1]);
     double turn = u0 * v1 - u1 * v0;
-    if (v0 <= 0 && v1 > 0 && turn > 0)
-      winding++;
-    if (v1 <= 0 && v0 > 0 && turn < 0)
-      winding--;
+    if (v0 <= 0 && v1 > 0 && turn > 0) winding++;
+    if (v1 <= 0 && v0 > 0 && turn < 0) winding--;
   }
   return winding;
 }
@@ -194,10 +190,8 @@ static int spheres_inside(const mesh_bvh *tree, const float *x) {
       for (size_t k = 0; k < leaf->count; k++) {
         int winding = spheres_winding(leaf, k, x);
         float height = 0;
-        for (int i = 0; i < 3; i++)
-          height += leaf->normal[i][k] * (leaf->corner[0][i][k] - x[i]);
-        if ((height > 0) == (up * (float)winding > 0))
-          sum += winding;
+        for (int i = 0; i < 3; i++) height += leaf->normal[i][k] * (leaf->corner[0][i][k] - x[i]);
+        if ((height > 0) == (up * (float)winding > 0)) sum += winding;
       }
       continue;
     }
@@ -210,8 +204,7 @@ static int spheres_inside(const mesh_bvh *tree, const float *x) {
     }
     unsigned mask = mesh_bvh_mask(gap, 0);
     for (size_t k = 0; mask; k++, mask >>= 1)
-      if (mask & 1)
-        stack[count++] = node->child[k];
+      if (mask & 1) stack[count++] = node->child[k];
   }
   return sum != 0;
 }
@@ -244,14 +237,12 @@ static int spheres_make_grid(spheres_body *b) {
   float x[3];
   float last = 0;
   size_t total = 1;
-  for (int i = 0; i < 3; i++)
-    extent = mesh_bvh_max(extent, 2 * box->half[i]);
+  for (int i = 0; i < 3; i++) extent = mesh_bvh_max(extent, 2 * box->half[i]);
   g->cell = extent / SPHERES_CELLS;
   g->inverse = 1 / g->cell;
   for (int i = 0; i < 3; i++) {
     g->size[i] = (size_t)ceilf(2 * box->half[i] * g->inverse - 1e-3f);
-    if (g->size[i] < 1)
-      g->size[i] = 1;
+    if (g->size[i] < 1) g->size[i] = 1;
     g->low[i] = box->centre[i] - 0.5f * (float)g->size[i] * g->cell;
     total *= g->size[i];
   }
@@ -259,8 +250,7 @@ static int spheres_make_grid(spheres_body *b) {
   for (size_t i = 0; g->distance && i < total; i++) {
     size_t at[3] = {i % g->size[0], i / g->size[0] % g->size[1], i / (g->size[0] * g->size[1])};
     int follows = at[0] > 0;
-    for (int k = 0; k < 3; k++)
-      x[k] = g->low[k] + ((float)at[k] + 0.5f) * g->cell;
+    for (int k = 0; k < 3; k++) x[k] = g->low[k] + ((float)at[k] + 0.5f) * g->cell;
     float limit = follows ? 1.01f * (fabsf(last) + g->cell) : FLT_MAX;
     float d = sqrtf(spheres_nearest(b->tree, x, follows ? limit * limit : FLT_MAX, 0, NULL));
     int inside =
@@ -276,8 +266,7 @@ static int spheres_add(spheres_body *b, const float *centre, float radius) {
   if (b->ball_count == b->ball_capacity) {
     size_t capacity = b->ball_capacity ? 2 * b->ball_capacity : 64;
     spheres_ball *larger = (spheres_ball *)realloc(b->balls, capacity * sizeof *larger);
-    if (!larger)
-      return 0;
+    if (!larger) return 0;
     b->balls = larger;
     b->ball_capacity = capacity;
   }
@@ -297,8 +286,7 @@ static int spheres_fill(spheres_body *b, float voxel) {
       size[i] = (size_t)fminf(fmaxf(ceilf(2 * box->half[i] / voxel - 1e-3f), 1), 65536);
       total *= size[i];
     }
-    if (total > SPHERES_MOST_VOXELS)
-      voxel *= 1.25f;
+    if (total > SPHERES_MOST_VOXELS) voxel *= 1.25f;
   } while (total > SPHERES_MOST_VOXELS);
   for (size_t i = 0; i < total; i++) {
     size_t at[3] = {i % size[0], i / size[0] % size[1], i / (size[0] * size[1])};
@@ -307,19 +295,16 @@ static int spheres_fill(spheres_body *b, float voxel) {
       x[k] = box->centre[k] + ((float)at[k] - 0.5f * (float)(size[k] - 1)) * voxel;
     float known = spheres_look(&b->grid, x, &away);
     float most = 1.01f * (fabsf(known) + away);
-    if (!spheres_sign_at(b, x, known, away))
-      continue;
+    if (!spheres_sign_at(b, x, known, away)) continue;
     float clearance = sqrtf(spheres_nearest(b->tree, x, most * most, 0, NULL));
-    if (clearance > 1e-3f * voxel && !spheres_add(b, x, clearance))
-      return 0;
+    if (clearance > 1e-3f * voxel && !spheres_add(b, x, clearance)) return 0;
   }
   return 1;
 }
 static int spheres_compare(const void *pa, const void *pb) {  // the largest first
   const spheres_ball *a = (const spheres_ball *)pa;
   const spheres_ball *b = (const spheres_ball *)pb;
-  if (a->radius < b->radius || a->radius > b->radius)
-    return a->radius > b->radius ? -1 : 1;
+  if (a->radius < b->radius || a->radius > b->radius) return a->radius > b->radius ? -1 : 1;
   for (int i = 0; i < 3; i++)
     if (a->centre[i] < b->centre[i] || a->centre[i] > b->centre[i])
       return a->centre[i] < b->centre[i] ? -1 : 1;
@@ -327,8 +312,7 @@ static int spheres_compare(const void *pa, const void *pb) {  // the largest fir
 }
 static void spheres_drop_contained(spheres_body *b, float slack) {
   size_t kept = 0;
-  if (b->ball_count)
-    qsort(b->balls, b->ball_count, sizeof *b->balls, spheres_compare);
+  if (b->ball_count) qsort(b->balls, b->ball_count, sizeof *b->balls, spheres_compare);
   for (size_t i = 0; i < b->ball_count; i++) {
     const spheres_ball ball = b->balls[i];
     int contained = 0;
@@ -336,12 +320,10 @@ static void spheres_drop_contained(spheres_body *b, float slack) {
       const spheres_ball *in = &b->balls[j];
       float d[3];
       float room = in->radius - ball.radius + slack;
-      for (int k = 0; k < 3; k++)
-        d[k] = ball.centre[k] - in->centre[k];
+      for (int k = 0; k < 3; k++) d[k] = ball.centre[k] - in->centre[k];
       contained = mesh_bvh_dot3(d, d) <= room * room;
     }
-    if (!contained)
-      b->balls[kept++] = ball;
+    if (!contained) b->balls[kept++] = ball;
   }
   b->ball_count = kept;
 }
@@ -350,8 +332,7 @@ static float spheres_edges(const nsvcd_mesh *mesh, size_t t, const float **corne
                            float *v) {
   const float *p[3];
   float c[3];
-  for (size_t k = 0; k < 3; k++)
-    p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
+  for (size_t k = 0; k < 3; k++) p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + k];
   for (int k = 0; k < 3; k++) {
     u[k] = p[1][k] - p[0][k];
     v[k] = p[2][k] - p[0][k];
@@ -378,10 +359,8 @@ static int spheres_sample(spheres_body *b, const nsvcd_mesh *mesh, size_t n) {
         float a = (float)(f + g > 1 ? 1 - f : f);
         float e = (float)(f + g > 1 ? 1 - g : g);
         float x[3];
-        for (int k = 0; k < 3; k++)
-          x[k] = corner[k] + a * u[k] + e * v[k];
-        if (!spheres_add(b, x, SPHERES_SURFACE_RADIUS))
-          return 0;
+        for (int k = 0; k < 3; k++) x[k] = corner[k] + a * u[k] + e * v[k];
+        if (!spheres_add(b, x, SPHERES_SURFACE_RADIUS)) return 0;
       }
     }
   }
@@ -395,13 +374,11 @@ static void spheres_bound(const spheres_ball *balls, size_t count, spheres_ball 
       low[k] = mesh_bvh_min(low[k], balls[i].centre[k] - balls[i].radius);
       high[k] = mesh_bvh_max(high[k], balls[i].centre[k] + balls[i].radius);
     }
-  for (int k = 0; k < 3; k++)
-    out->centre[k] = (low[k] + high[k]) / 2;
+  for (int k = 0; k < 3; k++) out->centre[k] = (low[k] + high[k]) / 2;
   out->radius = 0;
   for (size_t i = 0; i < count; i++) {
     float d[3];
-    for (int k = 0; k < 3; k++)
-      d[k] = balls[i].centre[k] - out->centre[k];
+    for (int k = 0; k < 3; k++) d[k] = balls[i].centre[k] - out->centre[k];
     out->radius =
         mesh_bvh_max(out->radius, 1.000001f * (sqrtf(mesh_bvh_dot3(d, d)) + balls[i].radius));
   }
@@ -419,16 +396,14 @@ static void spheres_sort(spheres_ball *balls, size_t count, mesh_bvh_key *keys,
     }
   }
   for (int k = 1; k < 3; k++)
-    if (high[k] - low[k] > high[axis] - low[axis])
-      axis = k;
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
   for (size_t i = 0; i < count; i++) {
     keys[i].value = balls[i].centre[axis];
     keys[i].triangle = (uint32_t)i;
   }
   qsort(keys, count, sizeof *keys, mesh_bvh_compare);
   memcpy(scratch, balls, count * sizeof *balls);
-  for (size_t i = 0; i < count; i++)
-    balls[i] = scratch[keys[i].triangle];
+  for (size_t i = 0; i < count; i++) balls[i] = scratch[keys[i].triangle];
 }
 // Halves along the widest axis. Nodes: at most 2 ball_count - 1.
 static void spheres_build(spheres_body *b, mesh_bvh_key *keys, spheres_ball *scratch, size_t first,
@@ -451,16 +426,14 @@ static int spheres_make_tree(spheres_body *b) {
   spheres_ball *scratch = (spheres_ball *)malloc(n * sizeof *scratch);
   b->nodes = (spheres_node *)malloc(2 * n * sizeof *b->nodes);
   int ok = keys && scratch && b->nodes;
-  if (ok)
-    spheres_build(b, keys, scratch, 0, n);
+  if (ok) spheres_build(b, keys, scratch, 0, n);
   free(keys);
   free(scratch);
   return ok;
 }
 static void spheres_release(void *body) {
   spheres_body *b = (spheres_body *)body;
-  if (!b)
-    return;
+  if (!b) return;
   mesh_bvh_release(b->tree);
   free(b->grid.distance);
   free(b->balls);
@@ -475,15 +448,12 @@ static size_t spheres_bytes(const void *body) {
 }
 static void *spheres_prepare(const nsvcd_mesh *mesh, const preparation *how) {
   spheres_body *b = (spheres_body *)calloc(1, sizeof *b);
-  if (!b)
-    return NULL;
+  if (!b) return NULL;
   b->tree = (mesh_bvh *)mesh_bvh_prepare(mesh, NULL);
   int ok = b->tree && spheres_make_grid(b) && (!(how->detail > 0) || spheres_fill(b, how->detail));
-  if (ok)
-    spheres_drop_contained(b, 0.1f * how->detail);
+  if (ok) spheres_drop_contained(b, 0.1f * how->detail);
   ok = ok && spheres_sample(b, mesh, how->points || b->ball_count ? how->points : SPHERES_FALLBACK);
-  if (ok && b->ball_count && spheres_make_tree(b))
-    return b;
+  if (ok && b->ball_count && spheres_make_tree(b)) return b;
   spheres_release(b);
   return NULL;
 }
@@ -494,12 +464,9 @@ static void *spheres_prepare(const nsvcd_mesh *mesh, const preparation *how) {
 // grid says.
 static int spheres_hit(const spheres_body *fixed, const float *x, float radius, float known,
                        float away) {
-  if (known + away < radius)
-    return 1;
-  if (radius > 0 && spheres_near(fixed->tree, x, radius))
-    return 1;
-  if (!spheres_sign_at(fixed, x, known, away))
-    return 0;
+  if (known + away < radius) return 1;
+  if (radius > 0 && spheres_near(fixed->tree, x, radius)) return 1;
+  if (!spheres_sign_at(fixed, x, known, away)) return 0;
   return radius >= 0 || !spheres_near(fixed->tree, x, -radius);
 }
 // Places a sphere's centre. 1 if it is certainly farther from the mesh than `radius`.
@@ -513,8 +480,7 @@ static inline int spheres_place(const spheres_body *fixed, const placement *at,
     float d = mesh_bvh_max(fabsf(x[i] - box->centre[i]) - box->half[i], 0);
     outside += d * d;
   }
-  if (outside > 0 && (radius < 0 || outside > radius * radius))
-    return 1;
+  if (outside > 0 && (radius < 0 || outside > radius * radius)) return 1;
   *known = spheres_look(&fixed->grid, x, away);
   return *known - *away > radius;
 }
@@ -530,10 +496,8 @@ static int spheres_collide(const spheres_body *moving, const spheres_body *fixed
     for (size_t j = node->first; j < node->first + node->count; j++) {
       const spheres_ball *ball = &moving->balls[j];
       float radius = ball->radius + activation;
-      if (spheres_place(fixed, at, ball, radius, x, &known, &away))
-        continue;
-      if (spheres_hit(fixed, x, radius, known, away))
-        return 1;
+      if (spheres_place(fixed, at, ball, radius, x, &known, &away)) continue;
+      if (spheres_hit(fixed, x, radius, known, away)) return 1;
     }
     i++;
   }

@@ -11,10 +11,8 @@ int main(int argc, char **argv) {
   nsvcd_mesh mesh;
   const nsvcd_body *mug = NULL;
   nsvcd_result result = NSVCD_ERROR_ARGUMENT;
-  if (argc == 2)
-    result = nsvcd_obj_load(argv[1], NULL, &mesh, NULL);
-  if (!result)
-    result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);
+  if (argc == 2) result = nsvcd_obj_load(argv[1], NULL, &mesh, NULL);
+  if (!result) result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &mug);
 
   const nsvcd_pose fall[2] = {{{0, 0, 0.5f}, {0, 0, 0, 1}}, {{0, 0, 0}, {0, 0, 0, 1}}};
   nsvcd_question question;
@@ -28,8 +26,7 @@ int main(int argc, char **argv) {
   nsvcd_answer answer;
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   void *workspace = malloc(size);
-  if (!result)
-    result = nsvcd_sweep(&question, workspace, size, &answer);
+  if (!result) result = nsvcd_sweep(&question, workspace, size, &answer);
   if (result) {
     fprintf(stderr, "%s\n", nsvcd_result_string(result));
     return 1;

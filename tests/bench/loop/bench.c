@@ -1,5 +1,5 @@
 // bench.c - the loop against version 0.2 on labelled problems, in one process, in turns.
-// usage: bench [--passes N] [--limit N] [--slow] [--alone] [--both] FILE.txt ...   (files as build/problems makes them)
+// usage: bench [--passes N] [--limit N] [--slow] [--alone] [--both] [--first SHARE] [--clearance METRES] FILE.txt ...   (files as build/problems makes them)
 // Every problem is asked N times of each, in turns, and the least time counts. Both bodies are in
 // memory; 0.2's answers hold points and normals, which the loop does not reckon.
 #define _POSIX_C_SOURCE 200112L
@@ -127,6 +127,8 @@ int main(int argc, char **argv) {
   int slow = 0;
   int alone = 0;
   int both = 0;
+  float first = 0;
+  float clearance = 0;
   for (int i = 1; i < argc; i++) {
     if (!strcmp(argv[i], "--passes")) {
       passes = (size_t)atoi(argv[++i]);
@@ -138,6 +140,14 @@ int main(int argc, char **argv) {
     }
     if (!strcmp(argv[i], "--slow")) {
       slow = 1;
+      continue;
+    }
+    if (!strcmp(argv[i], "--first")) {
+      first = (float)atof(argv[++i]);
+      continue;
+    }
+    if (!strcmp(argv[i], "--clearance")) {
+      clearance = (float)atof(argv[++i]);
       continue;
     }
     if (!strcmp(argv[i], "--both")) {
@@ -167,6 +177,8 @@ int main(int argc, char **argv) {
       q.a.body = all[p->moving].old;
       q.b.body = all[p->fixed].old;
       q.options.method = NSVCD_METHOD_PROOF;
+      q.options.first = first;
+      q.options.clearance = clearance;
       nsvcd_pose drift[4];
       int label = p->label;
       if (both) {  // the other body moves a little too; version 0.2 says what is right
@@ -206,7 +218,7 @@ int main(int argc, char **argv) {
         best[0] = fmin(best[0], t1 - t0);
         best[1] = fmin(best[1], t2 - t1);
       }
-      if (both)
+      if (both || clearance > 0)
         label = old.collides;
       const int hit = now.verdict == LOOP_HIT || now.verdict == LOOP_INSIDE;
       note(&tallies[0], label, hit, now.verdict == LOOP_UNDECIDED, best[0]);
@@ -214,7 +226,7 @@ int main(int argc, char **argv) {
       if (now.verdict == LOOP_UNDECIDED || hit != label)
         printf("  %s: label %d margin %g, loop says %d at %g, 0.2 %s\n", p->id, p->label, p->margin,
                (int)now.verdict, now.time, nsvcd_status_string(old.status));
-      if (slow && best[0] > 50e-6)
+      if (slow && (best[0] > 50e-6 || getenv("ALLP")))
         printf("  %s: label %d margin %g: %.1f us against %.1f; visits %u leaves %u rows %u couples %u "
                "halvings %u; meshes %s %s\n",
                p->id, p->label, p->margin, 1e6 * best[0], 1e6 * best[1], now.visits, now.leaves,
@@ -227,6 +239,7 @@ int main(int argc, char **argv) {
       s->rows += now.rows;
       s->couples += now.couples;
       s->halvings += now.halvings;
+      s->cuts += now.cuts;
       most_waiting = now.most_waiting > most_waiting ? now.most_waiting : most_waiting;
       free(workspace);
       free(memory);
@@ -237,10 +250,10 @@ int main(int argc, char **argv) {
     print_tally("0.2", &tallies[1]);
     for (int label = 0; label < 2; label++) {
       const double c = (double)tallies[0].count[label] + 1e-9;
-      printf("  %s, mean: steps %.0f visits %.0f leaves %.0f rows %.0f couples %.0f halvings %.0f\n",
+      printf("  %s, mean: steps %.0f visits %.0f leaves %.0f rows %.0f couples %.0f halvings %.1f cuts %.1f\n",
              label ? "hit" : "free", sum[label].steps / c, sum[label].visits / c,
              sum[label].leaves / c, sum[label].rows / c, sum[label].couples / c,
-             sum[label].halvings / c);
+             sum[label].halvings / c, sum[label].cuts / c);
     }
     printf("  most waiting %u\n", most_waiting);
     free_problems(&file);

@@ -454,7 +454,7 @@ static void read_pieces(builder *b, const nsvcd_mesh *mesh, const nsvcd__topolog
   b->head.reach_unit = nsvcd__to_float(fmax(reach, 1e-30) / 65500);
   b->head.reach = nsvcd__to_float(reach * 1.000001);
   for (size_t k = 0; k < 3; k++) {
-    b->head.low[k] = nsvcd__float_below(nsvcd__d3_axis(nsvcd__d3_sub(low, middle), k));
+    b->head.low[k] = -nsvcd__float_above(-nsvcd__d3_axis(nsvcd__d3_sub(low, middle), k));
     b->head.high[k] = nsvcd__float_above(nsvcd__d3_axis(nsvcd__d3_sub(high, middle), k));
   }
 }
@@ -477,11 +477,16 @@ static void write_seeds(builder *b, const nsvcd_mesh *mesh, const nsvcd__topolog
 
 // NULL where the mesh is no mesh.
 static tree_body *build_body(const nsvcd_mesh *mesh, const cut_options *cut) {
+  nsvcd__arena arena = nsvcd__arena_of(NULL);
   nsvcd__topology topology;
   builder b;
   memset(&b, 0, sizeof b);
-  if (nsvcd__mesh_check(mesh) || !nsvcd__topology_build(mesh, NULL, &topology))
+  if (nsvcd__mesh_check(mesh))
     return NULL;
+  if (!nsvcd__topology_build(mesh, &arena, &topology)) {
+    nsvcd__arena_free(&arena);
+    return NULL;
+  }
   b.capacity = mesh->triangle_count;
   b.pieces = (piece *)build_memory(NULL, b.capacity * sizeof *b.pieces);
   b.head.triangles = (uint32_t)mesh->triangle_count;
@@ -499,7 +504,7 @@ static tree_body *build_body(const nsvcd_mesh *mesh, const cut_options *cut) {
   free(b.pieces);
   free(b.order);
   free(b.points);
-  nsvcd__topology_free(&topology);
+  nsvcd__arena_free(&arena);
   return (tree_body *)(void *)b.blob;
 }
 

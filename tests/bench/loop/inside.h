@@ -9,8 +9,10 @@
 // (nsvcd__ray_crosses): a ray that passes an edge within the margin is replaced by another. What is
 // asked is about stored surfaces. The true ones are within their quanta of these, so it holds for
 // them where the vertex is farther than that from the stored surface: found by a walk to the boxes
-// about it, before the loop, which then need not run. Where it is nearer, the loop runs first: if it
-// parts all surfaces, by more than their quanta, then it holds too.
+// about it; then the loop need not run. Where it is nearer, the loop decides: if it parts all
+// surfaces, by more than their quanta, then it holds too. It is asked before the loop where all of
+// one body's box starts in the other's or where the components are few but more than one each, after
+// it where only a part does, and else not at all.
 #ifndef LOOP_INSIDE_H
 #define LOOP_INSIDE_H
 
@@ -198,6 +200,56 @@ static int encloses_any(loop *p, const tree_body *inner, const tree_body *outer,
   return 0;
 }
 
+// Where a box about `centre` is, posed so, along the axes of the other body: is a part of it within
+// [low, high], and all of it? margin: for rounding.
+static int box_in_box(const float *matrix, const float *place, const float *from, const float *to,
+                      const float *low, const float *high, float margin, int *all) {
+  for (int k = 0; k < 3; k++) {
+    float at = place[k];
+    float by = margin;
+    for (int c = 0; c < 3; c++) {
+      at += matrix[3 * k + c] * 0.5f * (from[c] + to[c]);
+      by += fabsf(matrix[3 * k + c]) * 0.5f * (to[c] - from[c]);
+    }
+    if (at - by > high[k] || at + by < low[k])
+      return 0;
+    *all &= at - by >= low[k] && at + by <= high[k];
+  }
+  return 1;
+}
+
+// May a component of one body start within the other at all? 2: it is likely to, if it does not meet
+// it, for all of the body's box is in the other's, or it is one of a few.
+#define FEW_PARTS 8
+static int may_start_within(const motion *m) {
+  float matrix[9];
+  float place[3];
+  float back[9];
+  float back_place[3] = {0, 0, 0};
+  int a_in_b = 1;
+  int b_in_a = 1;
+  const float per_square = 1 / (m->scale * m->scale);
+  read_knot(&m->knots, 0, matrix, place);
+  for (int r = 0; r < 3; r++) {
+    for (int c = 0; c < 3; c++)
+      back[3 * r + c] = matrix[3 * c + r] * per_square;
+    back_place[r] = -dot3(back + 3 * r, place);
+  }
+  const float lengths = m->lengths + fabsf(place[0]) + fabsf(place[1]) + fabsf(place[2]);
+  const float margin = 2 * NSVCD__ROUNDING * lengths;
+  const tree_body *a = m->a;
+  const tree_body *b = m->b;
+  const int meet = box_in_box(matrix, place, a->low, a->high, b->low, b->high, margin, &a_in_b) &&
+                   box_in_box(back, back_place, b->low, b->high, a->low, a->high,
+                              margin / m->scale, &b_in_a);
+  // a number that is none compares with nothing
+  if (!meet && lengths < HUGE_VALF)
+    return 0;
+  const uint32_t parts = a->seed_count + b->seed_count;
+  const int some = parts > 2 && parts <= FEW_PARTS;
+  return some || (a_in_b && !b->open) || (b_in_a && !a->open) ? 2 : 1;
+}
+
 // *certain: the true surfaces too, whatever the loop may find.
 static int starts_within(loop *p, int *certain) {
   const double scale = (double)p->m.scale;
@@ -217,9 +269,10 @@ static int starts_within(loop *p, int *certain) {
 // ---- a question
 
 // Are the spheres about the bodies' origins always apart?
-static int always_far(const nsvcd__motion *of, const tree_body *a, const tree_body *b) {
+static int always_far(const nsvcd__motion *of, const tree_body *a, const tree_body *b,
+                      float clearance) {
   const float reach = of->scale * (a->off + a->reach) + b->off + b->reach;
-  return nsvcd__motion_gap(of) > 1.00001f * reach;
+  return nsvcd__motion_gap(of) > 1.00001f * (reach + clearance);
 }
 
 // Bytes that a question needs.
@@ -240,20 +293,35 @@ static int loop_sweep(const nsvcd_question *question, const tree_body *a, const 
   p->a = swapped ? b : a;
   p->b = swapped ? a : b;
   p->limit = question->options.work ? (uint32_t)question->options.work : NSVCD_DEFAULT_WORK;
-  if (always_far(&of, p->a, p->b)) {
+  p->clearance = (double)(question->options.clearance / of.unit);
+  p->m.clearance = 1.000001f * (float)p->clearance;
+  p->first = (double)question->options.first;
+  if (always_far(&of, p->a, p->b, p->m.clearance)) {
     memset(answer, 0, sizeof *answer);
+    answer->free_until = 1;
     return 1;
   }
   motion_begin(&p->m, &of, p->a, p->b, (float *)(p + 1), count_knots(&of));
-  int certain;
+  int certain = 0;
   memset(&p->out, 0, sizeof p->out);
-  const int within = starts_within(p, &certain);
+  const int may = may_start_within(&p->m);
+  int within = may == 2 ? starts_within(p, &certain) : 0;
   if (certain) {
     p->out.verdict = LOOP_INSIDE;
   } else {
     run_loop(p);
-    if (within && p->out.verdict != LOOP_HIT)
-      p->out.verdict = within > 0 && p->out.verdict == LOOP_FREE ? LOOP_INSIDE : LOOP_UNDECIDED;
+    const int is_later = p->out.verdict == LOOP_HIT && p->out.free_until > 0;
+    const int is_open = p->out.verdict != LOOP_HIT || is_later;
+    if (may == 1 && is_open)
+      within = starts_within(p, &certain);
+    // the start is proven free: then it holds for the true surfaces
+    const int is_proven = certain || p->out.verdict == LOOP_FREE || p->out.free_until > 0;
+    if (within > 0 && is_open && is_proven)
+      p->out.verdict = LOOP_INSIDE;
+    else if (within && !is_later && is_open)
+      p->out.verdict = LOOP_UNDECIDED;
+    if (within)
+      p->out.free_until = 0;
   }
   if (swapped) {
     const uint32_t t = p->out.triangle_a;

@@ -153,6 +153,9 @@ FAST lanes lanes_inverse_root(lanes a) {
 FAST lanes3 lanes3_set(float x, float y, float z) {
   return (lanes3){lanes_set(x), lanes_set(y), lanes_set(z)};
 }
+FAST lanes3 lanes3_row(const float *row) {
+  return lanes3_set(row[0], row[1], row[2]);
+}
 FAST lanes3 lanes3_sub(lanes3 a, lanes3 b) {
   return (lanes3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -170,6 +173,12 @@ FAST lanes3 lanes3_cross(lanes3 a, lanes3 b) {
 }
 FAST lanes3 lanes3_abs(lanes3 a) {
   return (lanes3){lanes_abs(a.x), lanes_abs(a.y), lanes_abs(a.z)};
+}
+FAST lanes3 lanes3_min(lanes3 a, lanes3 b) {
+  return (lanes3){lanes_min(a.x, b.x), lanes_min(a.y, b.y), lanes_min(a.z, b.z)};
+}
+FAST lanes3 lanes3_max(lanes3 a, lanes3 b) {
+  return (lanes3){lanes_max(a.x, b.x), lanes_max(a.y, b.y), lanes_max(a.z, b.z)};
 }
 // A matrix (rows) times a in each lane.
 FAST lanes3 lanes3_turn(const float *m, lanes3 a) {

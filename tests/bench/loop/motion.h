@@ -8,7 +8,7 @@
 // middle, |y| <= r) is truly at M(t) y + p(t). Within an arc it strays from K by its bulge,
 //   h^2 / 8 (off + r) scale,
 // where h is the angle of the arc and off how far the middle is from the origin that goes straight
-// (where both bodies move, arc.bulge (off + r) + arc.drift: see nsvcd__arc_bend). And K - L is
+// (where both bodies move, arc.bulge (off + r) + arc.drift: see bend_arc). And K - L is
 // largest at a knot, where it is |p_k - L| + |M_k - L| r, found for the actual knots. So all places
 // of y in the span are within ea + eb r of the chord between its places at the two ends; and a plane
 // that has both of these on one side by more than that, has all of the chord there, and so all
@@ -23,7 +23,8 @@
 //
 // Spans are numbered like a heap: 1 is all of the motion, the halves of n are 2 n and 2 n + 1. A
 // span of several arcs is halved at a knot, one within an arc in the middle. They are made when they
-// are asked for and kept in a small table; what is no longer there is made again.
+// are asked for and kept in a small table; what is no longer there is made again. An instant is a
+// span of one knot, in which a witness is looked for: nothing that is parted there is parted for good.
 #ifndef LOOP_MOTION_H
 #define LOOP_MOTION_H
 
@@ -32,6 +33,10 @@
 #define SPAN_SLOTS 64
 #define MOST_HALVINGS 58  // of all of the motion: 64 bits
 #define ARC_SLOTS 4
+#ifndef FEW_ARCS
+#define FEW_ARCS 8
+#endif
+#define INSTANT ((uint64_t)1 << 63)  // of a span: no more than a knot, the one below
 
 // Rows of so many knots; rows end in 16 that nobody reads for what they are.
 typedef struct knot_table {
@@ -48,17 +53,17 @@ typedef struct span {
   uint32_t first, last;  // knots; within one arc where they are neighbours
   double from, to;       // shares of that arc, else 0 and 1
   float start[9], end[9], start_at[3], end_at[3];
-  float ea, eb, rounding;  // ea does not hold the rounding
+  float ea, eb, rounding;  // ea does not hold the rounding, which holds the clearance
+  float hair;              // the rounding by itself
   float w[3], ea_w, eb_w;  // along w
   float way;               // of the middle, and
   float turn;              // of what is one unit from it
-  int has_axes, has_ends;
-  // 16 directions not longer than 1, as seen by b and, turned back, by a at the start and the end;
-  // and the middle's heights along them: 0-2 faces of b, 3-5 of a half way, 6-14 crossed
-  lanes3 axes, at_start, at_end;
-  lanes start_height, end_height;
-  lanes axes_ea, axes_eb;                // along these; the rounding is in axes_ea
-  float half_way[9];                     // rows: a's axes half way, not longer than 1
+  int has_ends;
+  // faces' directions, not longer than 1: b's, and a's half way; as b sees them, as a does at the
+  // start and the end, the middle's heights then, and strays of ea + eb reach (with rounding)
+  float axes[6][3], at_start[6][3], at_end[6][3];
+  float start_height[6], end_height[6];
+  float axes_ea[6], axes_eb[6];
   nsvcd__placement exact_start, exact_end;  // in double
   double exact_rounding;  // of bounds found among knots in float
 } span;
@@ -68,6 +73,7 @@ typedef struct motion {
   const tree_body *a, *b;
   float scale;    // of a
   float lengths;  // that enter computations, but for places
+  float clearance;  // what comes as near as this counts as meeting; added to all rounding but hair
   float off;      // of a's middle from its origin
   knot_table knots;
   nsvcd__arc arcs[ARC_SLOTS];
@@ -76,6 +82,22 @@ typedef struct motion {
 } motion;
 
 // ---- arcs, in double
+
+// What both bodies' turns do: see nsvcd__cut_double_arc.
+static void bend_arc(nsvcd__arc *arc) {
+  const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
+  const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+  const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+  const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+  const double angle = nsvcd__d3_length(fixed_turn);
+  const double swing = fmax(nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from)),
+                            nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end)));
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+  arc->turn = nsvcd__d3_length(turn);
+  arc->speed = nsvcd__d3_length(arc->moved) + swing;
+  arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+  arc->drift = 0.1250001 * (2 * across + angle * swing);
+}
 
 static const nsvcd__arc *arc_at(motion *m, uint32_t knot) {
   const nsvcd__motion *of = m->of;
@@ -98,7 +120,7 @@ static const nsvcd__arc *arc_at(motion *m, uint32_t knot) {
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (arc->fixed_moves) {
-    nsvcd__arc_bend(arc);
+    bend_arc(arc);
     return arc;
   }
   const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
@@ -166,25 +188,24 @@ static void knots_of_one(motion *m) {
   const float *c = m->a->centre;
   const float *d = m->b->centre;
   const float *turn = &of->to_fixed.x.x;
+  // poses lane by lane, where the table will be: quaternions in four of its rows
+  for (uint32_t n = 0; n <= k->count + LANES; n++) {
+    const nsvcd_pose *pose = &of->moving.poses[n < k->count ? n : k->count - 1];
+    k->place[0][n] = pose->position[0] - of->fixed_position.x;
+    k->place[1][n] = pose->position[1] - of->fixed_position.y;
+    k->place[2][n] = pose->position[2] - of->fixed_position.z;
+    for (int i = 0; i < 4; i++)
+      k->matrix[i][n] = pose->rotation[i];
+  }
   for (uint32_t first = 0; first < k->count; first += LANES) {
-    float raw[8][LANES];  // offset, quaternion of this knot
-    float next[4][LANES];
-    for (uint32_t l = 0; l < LANES; l++) {
-      const uint32_t n = first + l < k->count ? first + l : k->count - 1;
-      const nsvcd_pose *pose = &of->moving.poses[n];
-      const nsvcd_pose *after = pose + (n + 1 < k->count);
-      raw[0][l] = pose->position[0] - of->fixed_position.x;
-      raw[1][l] = pose->position[1] - of->fixed_position.y;
-      raw[2][l] = pose->position[2] - of->fixed_position.z;
-      for (int i = 0; i < 4; i++) {
-        raw[3 + i][l] = pose->rotation[i];
-        next[i][l] = after->rotation[i];
-      }
-    }
-    const lanes x = lanes_load(raw[3]);
-    const lanes y = lanes_load(raw[4]);
-    const lanes z = lanes_load(raw[5]);
-    const lanes w = lanes_load(raw[6]);
+    const lanes x = lanes_load(k->matrix[0] + first);
+    const lanes y = lanes_load(k->matrix[1] + first);
+    const lanes z = lanes_load(k->matrix[2] + first);
+    const lanes w = lanes_load(k->matrix[3] + first);
+    const lanes nx = lanes_load(k->matrix[0] + first + 1);
+    const lanes ny = lanes_load(k->matrix[1] + first + 1);
+    const lanes nz = lanes_load(k->matrix[2] + first + 1);
+    const lanes nw = lanes_load(k->matrix[3] + first + 1);
     // f times the pose's
     const lanes qx = f.w * x + f.x * w + f.y * z - f.z * y;
     const lanes qy = f.w * y - f.x * z + f.y * w + f.z * x;
@@ -197,7 +218,8 @@ static void knots_of_one(motion *m) {
                           s - two * (qx * qx + qz * qz), two * (qy * qz - qx * qw),
                           two * (qx * qz - qy * qw),     two * (qy * qz + qx * qw),
                           s - two * (qx * qx + qy * qy)};
-    lanes3 p = {lanes_load(raw[0]), lanes_load(raw[1]), lanes_load(raw[2])};
+    lanes3 p = {lanes_load(k->place[0] + first), lanes_load(k->place[1] + first),
+                lanes_load(k->place[2] + first)};
     p = lanes3_scale(lanes3_turn(turn, p), lanes_set(per_metre));
     p.x += row[0] * c[0] + row[1] * c[1] + row[2] * c[2] - d[0];
     p.y += row[3] * c[0] + row[4] * c[1] + row[5] * c[2] - d[1];
@@ -208,10 +230,6 @@ static void knots_of_one(motion *m) {
     lanes_store(k->place[1] + first, p.y);
     lanes_store(k->place[2] + first, p.z);
     // A bound of the angle to the next: see nsvcd__v_arc_bound.
-    const lanes nx = lanes_load(next[0]);
-    const lanes ny = lanes_load(next[1]);
-    const lanes nz = lanes_load(next[2]);
-    const lanes nw = lanes_load(next[3]);
     const lanes dot = x * nx + y * ny + z * nz + w * nw;
     const lanes sign = lanes_pick(lanes_above(lanes_set(0), dot), lanes_set(-1), lanes_set(1));
     const lanes ex = sign * nx - x;
@@ -252,7 +270,7 @@ static size_t knot_floats(uint32_t count) {
   return 19 * ((size_t)count + 2 * LANES);
 }
 
-// memory: knot_floats(count_knots()).
+// m->clearance is set. memory: knot_floats(count_knots()).
 static void motion_begin(motion *m, const nsvcd__motion *of, const tree_body *a, const tree_body *b,
                          float *memory, uint32_t knots) {
   knot_table *k = &m->knots;
@@ -384,6 +402,34 @@ static void bound_span(const motion *m, span *s) {
   s->ea_w = 1.00001f * (lanes_most(stray_w) + lanes_most(drift_w)) + 1e-6f * s->ea;
 }
 
+// The same where the arcs are few, in any direction alike: along w little would be gained.
+static void bound_few(const motion *m, span *s) {
+  const knot_table *k = &m->knots;
+  const uint32_t there = first_lanes(s->last - s->first);
+  const uint32_t n = s->first;
+  const float per_length = 1 / (k->share[s->last] - k->share[s->first]);
+  const lanes u = (lanes_load(k->share + n) - k->share[s->first]) * per_length;
+  const lanes zero = lanes_set(0);
+  lanes square = zero;
+  lanes off = zero;
+  for (int r = 0; r < 9; r++) {
+    const lanes d = lanes_load(k->matrix[r] + n) - s->start[r] - u * (s->end[r] - s->start[r]);
+    square += d * d;
+  }
+  for (int r = 0; r < 3; r++) {
+    const lanes d = lanes_load(k->place[r] + n) - s->start_at[r] - u * (s->end_at[r] - s->start_at[r]);
+    off += d * d;
+  }
+  // for any vectors, the length of a difference of matrices is no more than its Frobenius norm
+  const float turn = lanes_most(lanes_pick(there, square, zero));
+  const float stray = lanes_most(lanes_pick(there, off, zero));
+  s->eb = 1.00001f * (sqrtf(turn) + lanes_most(lanes_pick(there, lanes_load(k->bulge + n), zero)));
+  s->ea = 1.00001f * (sqrtf(stray) + lanes_most(lanes_pick(there, lanes_load(k->drift + n), zero)));
+  s->eb_w = s->eb;
+  s->ea_w = s->ea;
+  s->w[0] = s->w[1] = s->w[2] = 0;
+}
+
 // The same within one arc. Where b turns, an arc has no axis of which this would hold.
 static void bound_part(const motion *m, span *s) {
   const knot_table *k = &m->knots;
@@ -395,6 +441,7 @@ static void bound_part(const motion *m, span *s) {
   s->ea = part * k->drift[n];
   s->eb_w = s->eb;
   s->ea_w = s->ea;
+  s->w[0] = s->w[1] = s->w[2] = 0;  // then all of a direction is across
   if (!(length > 1e-3f))
     return;
   nsvcd__f3_store(nsvcd__f3_scale(axis, 1 / length), s->w);
@@ -414,12 +461,55 @@ FAST float stray_of(const span *s, const float *n, float reach) {
   const float across = sqrtf(square > 0 ? square : 0);
   return along * (s->ea_w + s->eb_w * reach) + across * (s->ea + s->eb * reach);
 }
+// What stray_of grows by with the reach.
+FAST float stray_along_reach(const span *s, const float *n) {
+  const float along = fabsf(n[0] * s->w[0] + n[1] * s->w[1] + n[2] * s->w[2]);
+  const float square = 1.000004f - along * along;
+  return along * s->eb_w + sqrtf(square > 0 ? square : 0) * s->eb;
+}
 static inline double stray_along_one(const span *s, nsvcd__d3 n, double reach) {
   const nsvcd__d3 w = nsvcd__d3_load(s->w);
   const double along = fabs(nsvcd__d3_dot(n, w));
-  const double across = nsvcd__d3_length(nsvcd__d3_cross(n, w)) + 1e-6;
+  const double beside = nsvcd__d3_length(nsvcd__d3_cross(n, w)) + 1e-6;
+  const double across = nsvcd__d3_dot(w, w) > 0.5 ? beside : nsvcd__d3_length(n);
   return along * ((double)s->ea_w + (double)s->eb_w * reach) +
          across * ((double)s->ea + (double)s->eb * reach);
+}
+
+// How a direction looks from a, at the start and the end.
+FAST void turn_back(const float *matrix, const float *n, float *out) {
+  for (int k = 0; k < 3; k++)
+    out[k] = matrix[k] * n[0] + matrix[3 + k] * n[1] + matrix[6 + k] * n[2];
+}
+FAST float dot3(const float *a, const float *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void span_axes(span *s) {
+  for (int j = 0; j < 3; j++) {
+    float *n = s->axes[3 + j];
+    for (int k = 0; k < 3; k++) {
+      s->axes[j][k] = j == k;
+      s->at_start[j][k] = s->start[3 * j + k];
+      s->at_end[j][k] = s->end[3 * j + k];
+      n[k] = s->start[3 * k + j] + s->end[3 * k + j];
+    }
+    const float square = dot3(n, n);
+    const float unit = square > 1e-30f ? 0.999999f / sqrtf(square) : 0;
+    for (int k = 0; k < 3; k++)
+      n[k] *= unit;
+    turn_back(s->start, n, s->at_start[3 + j]);
+    turn_back(s->end, n, s->at_end[3 + j]);
+  }
+  for (int j = 0; j < 6; j++) {
+    s->start_height[j] = dot3(s->axes[j], s->start_at);
+    s->end_height[j] = dot3(s->axes[j], s->end_at);
+    const float along = fabsf(dot3(s->axes[j], s->w));
+    const float square = 1.000004f - along * along;
+    const float across = sqrtf(square > 0 ? square : 0);
+    s->axes_ea[j] = along * s->ea_w + across * s->ea + s->rounding;
+    s->axes_eb[j] = along * s->eb_w + across * s->eb;
+  }
 }
 
 static void read_knot(const knot_table *k, uint32_t n, float *matrix, float *place) {
@@ -432,6 +522,11 @@ static void read_knot(const knot_table *k, uint32_t n, float *matrix, float *pla
 // Which knots, and which part of an arc, a span is.
 static void find_span(const motion *m, uint64_t id, span *s) {
   s->id = id;
+  if (id & INSTANT) {
+    s->first = s->last = (uint32_t)id;
+    s->from = s->to = 0;
+    return;
+  }
   s->first = 0;
   s->last = m->knots.count - 1;
   s->from = 0;
@@ -450,24 +545,28 @@ static void find_span(const motion *m, uint64_t id, span *s) {
 
 static void make_span(motion *m, uint64_t id, span *s) {
   find_span(m, id, s);
-  const int in_arc = s->from > 0 || s->to < 1;
-  s->has_axes = s->has_ends = 0;
+  const int in_arc = s->last > s->first && (s->from > 0 || s->to < 1);
+  s->has_ends = 0;
   if (in_arc) {
     s->exact_start = true_pose(m, s->first, s->from);
     s->exact_end = true_pose(m, s->first, s->to);
     store_pose(&s->exact_start, s->start, s->start_at);
     store_pose(&s->exact_end, s->end, s->end_at);
-    choose_w(m, s);
     bound_part(m, s);
     s->has_ends = 1;
   } else {
     read_knot(&m->knots, s->first, s->start, s->start_at);
     read_knot(&m->knots, s->last, s->end, s->end_at);
-    choose_w(m, s);
-    if (m->knots.count > 1)
+    if (s->last - s->first > 1 && s->last - s->first <= FEW_ARCS) {
+      bound_few(m, s);
+    } else if (s->last - s->first > 1) {
+      choose_w(m, s);
       bound_span(m, s);
-    else
-      s->ea = s->eb = s->ea_w = s->eb_w = 0;
+    } else if (s->last > s->first) {
+      bound_part(m, s);
+    } else {
+      s->ea = s->eb = s->ea_w = s->eb_w = s->w[0] = s->w[1] = s->w[2] = 0;
+    }
   }
   float remote = 0;
   float way = 0;
@@ -483,12 +582,17 @@ static void make_span(motion *m, uint64_t id, span *s) {
     turn += (s->end[k] - s->start[k]) * (s->end[k] - s->start[k]);
   s->way = sqrtf(way);
   s->turn = sqrtf(turn);
-  s->rounding = NSVCD__ROUNDING * (m->lengths + sqrtf(remote) + sqrtf(places));
-  s->exact_rounding = s->last - s->first > 1 ? (double)s->rounding : 0;
+  s->hair = NSVCD__ROUNDING * (m->lengths + sqrtf(remote) + sqrtf(places));
+  s->rounding = s->hair + m->clearance;
+  s->exact_rounding = s->last - s->first > 1 ? (double)s->hair : 0;
+  span_axes(s);
 }
 
+// It stays where it is while its halves are asked for: slots are odd or even as their spans' depths
+// are.
 static span *span_at(motion *m, uint64_t id) {
-  const unsigned slot = (unsigned)((id ^ id >> 6 ^ id >> 17) % SPAN_SLOTS);
+  const unsigned odd = (unsigned)__builtin_clzll(id) & 1;
+  const unsigned slot = 2 * (unsigned)((id ^ id >> 5 ^ id >> 17) % (SPAN_SLOTS / 2)) + odd;
   if (m->known[slot] != id) {
     m->known[slot] = id;
     make_span(m, id, &m->spans[slot]);
@@ -512,44 +616,6 @@ static void span_times(const motion *m, const span *s, double *start, double *en
   const double last = (double)m->knots.tick[s->last];
   *start = (first + s->from * (last - first)) / ticks;
   *end = (first + s->to * (last - first)) / ticks;
-}
-
-static void span_axes(span *s) {
-  float row[3][LANES] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  s->has_axes = 1;
-  for (int j = 0; j < 3; j++) {
-    float n[3];
-    float square = 0;
-    for (int k = 0; k < 3; k++) {
-      n[k] = s->start[3 * k + j] + s->end[3 * k + j];
-      square += n[k] * n[k];
-    }
-    const float unit = square > 1e-30f ? 0.999999f / sqrtf(square) : 0;
-    for (int k = 0; k < 3; k++)
-      s->half_way[3 * j + k] = row[k][3 + j] = unit * n[k];
-    // the axes of b crossed with it
-    const float x = unit * n[0];
-    const float y = unit * n[1];
-    const float z = unit * n[2];
-    const float crossed[3][3] = {{0, -z, y}, {z, 0, -x}, {-y, x, 0}};
-    for (int i = 0; i < 3; i++)
-      for (int k = 0; k < 3; k++)
-        row[k][6 + 3 * j + i] = crossed[i][k];
-  }
-  s->axes = (lanes3){lanes_load(row[0]), lanes_load(row[1]), lanes_load(row[2])};
-  const lanes3 unit = lanes3_unit(s->axes);
-  const uint32_t crossed = 0x7fc0;  // the others are of that length, and known elsewhere too
-  s->axes = (lanes3){lanes_pick(crossed, unit.x, s->axes.x), lanes_pick(crossed, unit.y, s->axes.y),
-                     lanes_pick(crossed, unit.z, s->axes.z)};
-  s->at_start = lanes3_turn_back(s->start, s->axes);
-  s->at_end = lanes3_turn_back(s->end, s->axes);
-  s->start_height =
-      lanes3_dot(s->axes, lanes3_set(s->start_at[0], s->start_at[1], s->start_at[2]));
-  const lanes along = lanes_abs(s->axes.x * s->w[0] + s->axes.y * s->w[1] + s->axes.z * s->w[2]);
-  const lanes across = lanes_sqrt(lanes_max(1.000004f - along * along, lanes_set(0)));
-  s->axes_ea = along * s->ea_w + across * s->ea + s->rounding;
-  s->axes_eb = along * s->eb_w + across * s->eb;
-  s->end_height = lanes3_dot(s->axes, lanes3_set(s->end_at[0], s->end_at[1], s->end_at[2]));
 }
 
 #endif

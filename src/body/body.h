@@ -1,0 +1,406 @@
+// In: N patches. Out: one relocatable, checksummed blob. Patches are stored in groups of 16
+// neighbours, each group with a sphere over its members. Where there are many groups, there are
+// levels of spheres above them: the broad phase's tree. There are two kinds of bodies, which begin
+// alike:
+//
+//   struct nsvcd_body    64 bytes
+//   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
+//                        padding has r = NSVCD__NOWHERE
+//   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
+//                        above
+//   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
+//                        H as G
+//   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
+//
+// A body of latents, for the network, goes on with
+//   x, y, z      (3, P)  float: area vectors, square metres, along the outward normal; padding is
+//                        zero
+//   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
+//                        the members of the spheres above
+//   latents      (N, NSVCD__LATENT)  int8, free of scale
+// and a body of triangles, for the proof, with what body/facets says. A body that has both is
+// one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
+// and patches have the same numbers in both. Each part ends in zeros up to a multiple of
+// NSVCD_ALIGNMENT.
+#pragma once
+#include "../interface/bodies.h"
+#include "../ground/spheres.h"
+#include "../ground/bits.h"
+#include "../ground/slices.h"
+#include "../encoder/model.h"
+
+// patches of a group, and groups or the like of a sphere above
+#define NSVCD__GROUP NSVCD__LANES
+// Groups of a body that are searched at once; with more there are levels above. (Fewer for a test,
+// in which small bodies then make several tiles.)
+#ifndef NSVCD__TILE
+#define NSVCD__TILE 32
+#endif
+#define NSVCD__TILE_SLOTS 32
+#define NSVCD__LEVELS 3  // of spheres above the patches, at most
+// metres, over every radius and distance that coordinates within bounds can give
+#define NSVCD__MAX_LENGTH 1.6e7f
+#define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
+#define NSVCD__BODY_VERSION 5u
+
+struct nsvcd_body {
+  uint32_t magic, version;
+  // over everything that follows
+  uint64_t checksum;
+  // bytes, of the whole blob
+  uint32_t size;
+  // of the weights that made the latents; 0: a body of triangles
+  uint32_t weights_id;
+  uint32_t patches;  // N
+  uint32_t padded;   // P
+  // a sphere over all
+  float centre[3], radius;
+  // max |p_i| + r_i: no part is farther from the body's origin
+  float extent;
+  // 1: nothing can be inside
+  uint32_t open;
+  // of the mesh; 0: none are stored
+  uint32_t triangles;
+  // bytes from here to the body of triangles within; 0: there is none
+  uint32_t inner;
+};
+
+static size_t nsvcd__group_slots(size_t padded) {
+  return nsvcd__round_up(padded / NSVCD__GROUP, NSVCD__GROUP);
+}
+
+// A level of spheres: level 0 are the groups, each of the next is over 16 of the one before.
+typedef struct nsvcd__level {
+  size_t count;  // spheres
+  size_t slots;  // the same, rounded up to 16
+  // float, from the body's first: x (slots), y, z, r
+  size_t first;
+} nsvcd__level;
+
+static nsvcd__level nsvcd__level_of(size_t padded, size_t level) {
+  nsvcd__level out = {padded / NSVCD__GROUP, nsvcd__group_slots(padded), 4 * padded};
+  for (; level > 0; level--) {
+    out.first += 4 * out.slots;
+    out.count = nsvcd__round_up(out.count, NSVCD__GROUP) / NSVCD__GROUP;
+    out.slots = nsvcd__round_up(out.count, NSVCD__GROUP);
+  }
+  return out;
+}
+
+// How many levels there are: none above the groups where these can be searched all at once.
+static size_t nsvcd__level_count(size_t padded) {
+  size_t levels = 1;
+  if (padded / NSVCD__GROUP <= NSVCD__TILE) return 1;
+  while (nsvcd__level_of(padded, levels - 1).count > NSVCD__GROUP) levels++;
+  return levels;
+}
+
+// Accessors: x, y, z and r are (P), of the patches.
+static size_t nsvcd__body_groups(const nsvcd_body *body) {
+  return body->padded / NSVCD__GROUP;
+}
+static const float *nsvcd__body_floats(const nsvcd_body *body, size_t first) {
+  return (const float *)(body + 1) + first;
+}
+static const float *nsvcd__body_r(const nsvcd_body *body) {
+  return nsvcd__body_floats(body, 3 * body->padded);
+}
+static nsvcd__spheres nsvcd__body_patches(const nsvcd_body *body) {
+  return nsvcd__spheres_of(nsvcd__body_floats(body, 0), body->padded);
+}
+static nsvcd__spheres nsvcd__level_spheres(const nsvcd_body *body, nsvcd__level level) {
+  return nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+}
+static nsvcd__spheres nsvcd__group_spheres(const nsvcd_body *body) {
+  return nsvcd__level_spheres(body, nsvcd__level_of(body->padded, 0));
+}
+static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
+  const nsvcd__sphere out = {nsvcd__f3_load(body->centre), body->radius};
+  return out;
+}
+
+// The same place of a body that is being written.
+static void *nsvcd__writable(nsvcd_body *body, const void *place) {
+  return (char *)body + ((const char *)place - (const char *)body);
+}
+
+// Spheres with their padding: of the patches and all levels.
+static size_t nsvcd__sphere_slots(size_t padded) {
+  const size_t levels = nsvcd__level_count(padded);
+  const nsvcd__level top = nsvcd__level_of(padded, levels - 1);
+  return top.first / 4 + top.slots;
+}
+
+// Bytes of the header and the spheres, with which both kinds of bodies begin.
+static size_t nsvcd__spheres_size(size_t padded) {
+  return sizeof(struct nsvcd_body) + 16 * nsvcd__sphere_slots(padded);
+}
+
+// Area vectors with their padding: one for each sphere, but where there are no levels above the
+// groups, of patches alone.
+static size_t nsvcd__area_slots(size_t padded) {
+  return nsvcd__level_count(padded) > 1 ? nsvcd__sphere_slots(padded) : padded;
+}
+// (3, P)
+static const float *nsvcd__body_areas(const nsvcd_body *body) {
+  const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
+  return (const float *)(const void *)at;
+}
+// Bytes of a body of latents up to these.
+static size_t nsvcd__areas_end(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+}
+
+#ifndef NSVCD_NO_NETWORK
+// The sums over the spheres of a level of a body that has some above the groups, (3, slots): they
+// lie as the spheres do.
+static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
+  return nsvcd__body_areas(body) + level.first / 4 * 3;
+}
+// (N, LATENT)
+static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
+  return (const int8_t *)(nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded));
+}
+#endif
+
+#ifndef NSVCD_NO_NETWORK
+NSVCDDEF size_t nsvcd_body_size(size_t patches) {
+  if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
+  const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
+  const size_t latents = patches * NSVCD__LATENT;
+  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
+}
+#endif
+
+// FNV-1a, 64 bits, over 32-bit words: every step is a bijection of the state, so no single changed
+// word is missed.
+static uint64_t nsvcd__body_checksum(const nsvcd_body *body) {
+  const char *bytes = (const char *)body;
+  uint64_t hash = 14695981039346656037u;
+  for (size_t i = offsetof(struct nsvcd_body, size); i < body->size; i += 4) {
+    uint32_t word;
+    memcpy(&word, bytes + i, 4);
+    hash = (hash ^ word) * 1099511628211u;
+  }
+  return hash;
+}
+
+#ifndef NSVCD_NO_ENCODER
+// Numbers of patches that are being sorted.
+typedef struct nsvcd__ordering {
+  // of all patches
+  const nsvcd__f3 *centres;
+  uint16_t *order;  // (count)
+  // (count), working memory
+  uint16_t *spare;
+  size_t count;
+} nsvcd__ordering;
+
+// Sorts patches by a coordinate of their centres, merging ever longer runs. Equal ones keep their
+// order, so that the result is the same everywhere.
+static void nsvcd__sort_along(nsvcd__ordering all, size_t axis) {
+  const float *at = (const float *)(const void *)all.centres + axis;
+  for (size_t run = 1; run < all.count; run *= 2) {
+    for (size_t first = 0; first < all.count; first += 2 * run) {
+      const size_t middle = first + run < all.count ? first + run : all.count;
+      const size_t end = first + 2 * run < all.count ? first + 2 * run : all.count;
+      size_t left = first;
+      size_t right = middle;
+      for (size_t to = first; to < end; to++) {
+        int from_right = left == middle;
+        if (left < middle && right < end)
+          from_right = at[3 * all.order[right]] < at[3 * all.order[left]];
+        all.spare[to] = from_right ? all.order[right++] : all.order[left++];
+      }
+    }
+    memcpy(all.order, all.spare, all.count * sizeof *all.order);
+  }
+}
+
+// Orders patches so that each run of 16 is compact, and each run of 16 of those: median splits
+// across the longest axis of the centres' box, the left part a multiple of 16, or of 256 and so on
+// where there are more than a tile's.
+static void nsvcd__body_order(nsvcd__ordering all) {
+  if (all.count <= NSVCD__GROUP) return;
+  nsvcd__f3 low = all.centres[all.order[0]];
+  nsvcd__f3 high = low;
+  for (size_t i = 1; i < all.count; i++) {
+    low = nsvcd__f3_min(low, all.centres[all.order[i]]);
+    high = nsvcd__f3_max(high, all.centres[all.order[i]]);
+  }
+  const nsvcd__f3 size = nsvcd__f3_sub(high, low);
+  const size_t axis = size.y > size.x ? 1 : 0;
+  const int is_z = size.z > (axis ? size.y : size.x);
+  nsvcd__sort_along(all, is_z ? 2 : axis);
+  size_t unit = NSVCD__GROUP;
+  while (2 * NSVCD__GROUP * unit < all.count) unit *= NSVCD__GROUP;
+  nsvcd__ordering left = all;
+  nsvcd__ordering right = all;
+  left.count = nsvcd__round_up(all.count / 2, unit);
+  right.count = all.count - left.count;
+  right.order += left.count;
+  nsvcd__body_order(left);
+  nsvcd__body_order(right);
+}
+
+// Begins a body of so many patches in `memory`: zeros, the header, and the padding of the patches'
+// spheres.
+static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, int open) {
+  nsvcd_body *b = (nsvcd_body *)memory;
+  memset(memory, 0, size);
+  b->magic = NSVCD__BODY_MAGIC;
+  b->version = NSVCD__BODY_VERSION;
+  b->size = (uint32_t)size;
+  b->patches = (uint32_t)patches;
+  b->padded = (uint32_t)nsvcd__round_up(patches, NSVCD__GROUP);
+  b->open = open != 0;
+  float *radii = (float *)(b + 1) + 3 * b->padded;
+  for (size_t i = patches; i < b->padded; i++) radii[i] = NSVCD__NOWHERE;
+  return b;
+}
+#endif
+
+// The distance of the farthest point of `count` spheres from a place; *farthest is the sphere that
+// has it, if it is above 0.
+static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
+                                     size_t *farthest) {
+  float reach = 0;
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const float end = nsvcd__f3_length(offset) + all.r[i];
+    if (end > reach) *farthest = i;
+    reach = end > reach ? end : reach;
+  }
+  return reach;
+}
+
+// A sphere over `count` spheres: from the middle of their box, ever shorter steps towards the
+// farthest (Badoiu and Clarkson 2003), the best one kept. The radius is rounded up by more than any
+// compiler's rounding.
+static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
+  nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
+  nsvcd__f3 high = nsvcd__f3_scale(low, -1);
+  for (size_t i = 0; i < count; i++) {
+    const nsvcd__f3 r = nsvcd__f3_of(all.r[i], all.r[i], all.r[i]);
+    const nsvcd__f3 centre = nsvcd__centre_of(all, i);
+    low = nsvcd__f3_min(low, nsvcd__f3_sub(centre, r));
+    high = nsvcd__f3_max(high, nsvcd__f3_add(centre, r));
+  }
+  nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
+  nsvcd__sphere best = {centre, HUGE_VALF};
+  for (int step = 0; step < 32; step++) {
+    size_t farthest = 0;
+    const float reach = nsvcd__reach_of_spheres(all, count, centre, &farthest);
+    if (reach < best.radius) {
+      best.centre = centre;
+      best.radius = reach;
+    }
+    const nsvcd__f3 way = nsvcd__f3_sub(nsvcd__centre_of(all, farthest), centre);
+    const float steps = (float)(step + 3);
+    centre.x += way.x / steps;
+    centre.y += way.y / steps;
+    centre.z += way.z / steps;
+  }
+  best.radius *= 1.000002f;
+  return best;
+}
+
+// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
+// whose patches are in place.
+static void nsvcd__body_finish(nsvcd_body *body) {
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  nsvcd__spheres below = patches;
+  size_t members = body->patches;
+  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    float *out = (float *)(body + 1) + level.first;
+    for (size_t g = 0; g < level.slots; g++) {
+      nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
+      const size_t i = g * NSVCD__GROUP;
+      const size_t left = i >= members ? 0 : members - i;
+      const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+      if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+      nsvcd__sphere_store(sphere, out, level.slots, g);
+    }
+    below = nsvcd__level_spheres(body, level);
+    members = level.count;
+  }
+  size_t farthest = 0;
+  const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
+  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->patches);
+  const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
+  nsvcd__f3_store(sphere.centre, body->centre);
+  body->radius = sphere.radius;
+  body->extent = extent * 1.000002f;
+  body->checksum = nsvcd__body_checksum(body);
+}
+
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
+
+// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
+// holds under -ffast-math too.
+static int nsvcd__within(const float *values, size_t count, float most) {
+  for (size_t i = 0; i < count; i++) {
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
+  }
+  return 1;
+}
+
+// Are the area vectors of a body of latents in range?
+static int nsvcd__areas_are_sound(const nsvcd_body *body) {
+  return nsvcd__within(nsvcd__body_areas(body), 3 * nsvcd__area_slots(body->padded),
+                       NSVCD__MAX_LENGTH * NSVCD__MAX_LENGTH);
+}
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_NETWORK)
+// What a body of latents is built of.
+typedef struct nsvcd__latents_source {
+  size_t count;              // N
+  const nsvcd__f3 *centres;  // (N)
+  const float *radii;        // (N)
+  const nsvcd__f3 *areas;    // (N)
+  const int8_t *latents;     // (N, LATENT)
+  // (N) of the patches
+  const uint16_t *order;
+  int open;
+} nsvcd__latents_source;
+
+// Builds a body of latents in `memory`, nsvcd_body_size bytes. NUMBER if something is out of
+// bounds, EMPTY if it is too small.
+static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void *memory) {
+  const size_t count = source->count;
+  nsvcd_body *b = nsvcd__body_begin(memory, nsvcd_body_size(count), count, source->open);
+  const size_t padded = b->padded;
+  b->weights_id = NSVCD_WEIGHTS_ID;
+  float *spheres = (float *)(b + 1);
+  float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
+  for (size_t i = 0; i < count; i++) {
+    const size_t from = source->order[i];
+    const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
+    nsvcd__sphere_store(sphere, spheres, padded, i);
+    nsvcd__f3_put(source->areas[from], areas + i, padded);
+    memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
+    latents += NSVCD__LATENT;
+  }
+  // The levels, if there are any above the groups, have the sums over what is below.
+  const size_t levels = nsvcd__level_count(padded);
+  const float *below = areas;
+  size_t stride = padded;
+  for (size_t n = 0; levels > 1 && n < levels; n++) {
+    const nsvcd__level level = nsvcd__level_of(padded, n);
+    float *sums = areas + level.first / 4 * 3;
+    for (size_t i = 0; i < 3 * stride; i++)
+      sums[i / stride * level.slots + i % stride / NSVCD__GROUP] += below[i];
+    below = sums;
+    stride = level.slots;
+  }
+  int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
+  sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
+  if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
+  nsvcd__body_finish(b);
+  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+}
+#endif

@@ -1,0 +1,328 @@
+// In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
+// or could have it.
+#pragma once
+#include "facets.h"
+
+// ---- the spheres, with which both kinds of bodies begin
+
+// Does a sphere contain `count` spheres?
+static int nsvcd__covers(nsvcd__sphere sphere, nsvcd__spheres all, size_t count) {
+  size_t farthest = 0;
+  return nsvcd__reach_of_spheres(all, count, sphere.centre, &farthest) <= sphere.radius;
+}
+
+// Are the first `count` of (4, slots) spheres finite and within bounds, their radii not negative,
+// and the others exactly what padding is? most: of the coordinates.
+static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, float most) {
+  if (!nsvcd__within(all.x, 3 * slots, most)) return 0;
+  if (!nsvcd__within(all.r, count, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(all.r, slots, -NSVCD__NOWHERE)) return 0;
+  for (size_t i = 0; i < count; i++) {
+    if (all.r[i] < 0) return 0;
+  }
+  for (size_t i = count; i < slots; i++) {
+    if (all.x[i] != 0 || all.y[i] != 0 || all.z[i] != 0) return 0;
+    if (all.r[i] != NSVCD__NOWHERE) return 0;
+  }
+  return 1;
+}
+
+// Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
+// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
+// a lying sphere would hide collisions.
+static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
+  const nsvcd__spheres patches = nsvcd__body_patches(b);
+  const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
+  if (!nsvcd__are_spheres(patches, b->patches, b->padded, NSVCD_MAX_COORDINATE)) return 0;
+  if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
+  if (b->radius < NSVCD_MIN_RADIUS) return 0;
+  nsvcd__spheres below = patches;
+  size_t members = b->patches;
+  for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
+    const nsvcd__level level = nsvcd__level_of(b->padded, k);
+    const nsvcd__spheres above = nsvcd__level_spheres(b, level);
+    if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
+    for (size_t i = 0; i < members; i += NSVCD__GROUP) {
+      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+      const nsvcd__sphere sphere = nsvcd__sphere_of(above, i / NSVCD__GROUP);
+      if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+    }
+    below = above;
+    members = level.count;
+  }
+  return nsvcd__covers(nsvcd__body_sphere(b), patches, b->patches) &&
+         nsvcd__covers(about_origin, patches, b->patches);
+}
+
+// Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
+// products may overflow a float.
+static int nsvcd__spheres_fit(const nsvcd_body *b, float scale) {
+  const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
+  const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
+  if ((double)b->radius < least) return 0;
+  for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
+    if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
+  }
+  // Twice the extent is over every radius and centre of a group.
+  return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
+}
+
+// ---- the triangles
+
+#ifndef NSVCD_NO_PROOF
+// Are counts and indices of a patch right? Those of the patches before it are.
+static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
+  const uint32_t *vertex = f->first_vertex + i;
+  const uint32_t *triangle = f->first_triangle + i;
+  if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
+  if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
+  const size_t vertices = vertex[1] - vertex[0];
+  const size_t triangles = triangle[1] - triangle[0];
+  const size_t hull_count = f->hull_counts[i];
+  if (hull_count > NSVCD__HULL || hull_count > vertices) return 0;
+  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+
+  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+  const uint64_t corners_end = f->first_byte[i] + corners;
+  if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
+  for (size_t n = 0; n < 3 * triangles; n++) {
+    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices) return 0;
+  }
+  // Behind them are just as many codes, and all of triangles that there are.
+  const unsigned char *at = f->listings + (size_t)corners_end;
+  const unsigned char *end = f->listings + f->first_byte[i + 1];
+  uint32_t number = 0;
+  for (size_t n = 0; n < triangles; n++) {
+    const size_t left = (size_t)(end - at);
+    size_t bytes = 1;
+    while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80) bytes++;
+    if (at >= end || at[bytes - 1] & 0x80) return 0;
+    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
+    if (number >= f->body->triangles) return 0;
+  }
+  return at == end;
+}
+#endif  // NSVCD_NO_PROOF
+
+// ---- whole bodies
+
+// Is this the beginning of a blob of ours, of `size` bytes or fewer?
+static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
+  if (size < sizeof *b) return 0;
+  if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
+  if (b->patches < 1 || b->patches > NSVCD_MAX_PATCHES) return 0;
+  if (b->open > 1 || b->size > size) return 0;
+  if (b->padded != nsvcd__round_up(b->patches, NSVCD__GROUP)) return 0;
+  return b->size >= nsvcd__spheres_size(b->padded) && b->size % NSVCD_ALIGNMENT == 0;
+}
+
+// Is all of a body of triangles sound: the spheres; the layout, which is sizes, counts and indices;
+// and are the numbers in range? They may lie about the surface, but nothing that is computed from
+// them overflows. It has at most `size` bytes, and a sound header.
+static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
+#ifndef NSVCD_NO_PROOF
+  if (b->inner != 0 || !nsvcd__spheres_are_sound(b)) return 0;
+  const size_t patches = b->patches;
+  const size_t padded = b->padded;
+  const size_t groups = nsvcd__body_groups(b);
+  const size_t slots = nsvcd__group_slots(padded);
+  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(b);
+  if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
+  const uint32_t *zeros = counts->zeros;
+  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || b->triangles == 0) return 0;
+  nsvcd__facets f;
+  if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
+
+  f = nsvcd__facets_of(b);
+  if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
+  for (size_t i = 0; i < patches; i++) {
+    if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
+  }
+  for (size_t g = 0; g < groups; g++) {
+    if (f.first_seed[g + 1] < f.first_seed[g]) return 0;
+  }
+  if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
+    return 0;
+  if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+    return 0;
+
+  const float most = NSVCD__MAX_LENGTH;
+  if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
+  if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
+  if (!nsvcd__within(f.discs + 3 * padded, 3 * padded, most)) return 0;
+  if (!nsvcd__within(f.group_discs, 3 * slots, 1.000001f)) return 0;
+  if (!nsvcd__within(f.group_discs + 3 * slots, 3 * slots, most)) return 0;
+  if (!nsvcd__within(f.steps, padded, most / 32768)) return 0;
+  if (!nsvcd__within(f.slacks, padded, most)) return 0;
+  if (!nsvcd__within(f.quanta, padded, most)) return 0;
+  if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
+  for (size_t i = 0; i < padded; i++) {
+    const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
+    if (f.quanta[i] > nsvcd__widest_quantum(&f)) return 0;
+  }
+#else
+  (void)b;
+  (void)size;  // never looked at
+#endif
+  return 1;
+}
+
+// Is all of a body sound, but for the checksum? Its header is.
+static int nsvcd__body_is_sound(const nsvcd_body *b) {
+  if (b->weights_id == 0) {
+#ifndef NSVCD_NO_PROOF
+    return nsvcd__triangles_are_sound(b, b->size);
+#else
+    return 0;
+#endif
+  }
+  if (b->size < nsvcd__areas_end(b->padded)) return 0;
+  if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
+  const size_t latents = nsvcd_body_size(b->patches);
+  if (b->size < latents) return 0;
+  if (b->inner == 0) return b->size == latents && b->triangles == 0;
+  if (b->inner != latents) return 0;
+#else
+  if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
+  if (b->inner < nsvcd__areas_end(b->padded)) return 0;
+#endif
+  // the body of triangles within
+  const char *at = (const char *)b + b->inner;
+  const nsvcd_body *within = (const nsvcd_body *)(const void *)at;
+  const size_t left = b->size - b->inner;
+  if (!nsvcd__header_is_sound(within, left) || within->size != left) return 0;
+  if (within->weights_id != 0 || within->open != b->open) return 0;
+  if (within->patches != b->patches || within->triangles != b->triangles) return 0;
+  return nsvcd__triangles_are_sound(within, left);
+}
+
+NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
+                                       const nsvcd_body **body) {
+  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_body *b = (const nsvcd_body *)memory;
+  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
+#endif
+  *body = b;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
+                                      const nsvcd_body **body) {
+  const nsvcd_body *b = NULL;
+  const nsvcd_result result = nsvcd_body_trust(memory, size, body ? &b : NULL);
+  if (result) return result;
+  if (b->checksum != nsvcd__body_checksum(b) || !nsvcd__body_is_sound(b))
+    return NSVCD_ERROR_BODY;
+  *body = b;
+  return NSVCD_OK;
+}
+
+// Multiplies a body of triangles; one of latents without what is within it.
+static void nsvcd__scale_part(nsvcd_body *b, float scale) {
+  const size_t padded = b->padded;
+  float *spheres = (float *)(b + 1);
+  for (size_t i = 0; i < 3 * padded + b->patches; i++) spheres[i] *= scale;
+  if (b->weights_id != 0) {
+    float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
+    for (size_t i = 0; i < 3 * nsvcd__area_slots(padded); i++) {
+      areas[i] *= scale;
+      areas[i] *= scale;
+    }
+    nsvcd__body_finish(b);
+    return;
+  }
+#ifndef NSVCD_NO_PROOF
+  // What rounding does to a vertex goes to the slacks and quanta.
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  const double by = (double)scale;
+  float *discs = (float *)nsvcd__writable(b, f.discs);
+  float *steps = (float *)nsvcd__writable(b, f.steps);
+  float *slacks = (float *)nsvcd__writable(b, f.slacks);
+  float *quanta = (float *)nsvcd__writable(b, f.quanta);
+  float *seeds = (float *)nsvcd__writable(b, f.seeds);
+  for (size_t i = 0; i < b->patches; i++) {
+    const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
+    nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
+    steps[i] *= scale;
+    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
+    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
+    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
+    disc.low = (float)((double)disc.low * by - rounding);
+    disc.high = (float)((double)disc.high * by + rounding);
+    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
+    nsvcd__disc_store(disc, discs, padded, i);
+  }
+  for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  nsvcd__facets_finish(b);
+#endif
+}
+
+NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
+                                       size_t capacity, const nsvcd_body **scaled) {
+  if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+#ifdef NSVCD_NO_PROOF
+  // The triangles would keep their size; nor were they looked at when the body was loaded.
+  if (body->triangles) return NSVCD_ERROR_BODY;
+#endif
+  // Would it still be within the limits of nsvcd_body_load?
+  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+  const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
+  const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
+  for (size_t i = 0; i < numbers; i++) {
+    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_ARGUMENT;
+  }
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+#endif
+  // in place is allowed
+  memmove(memory, body, body->size);
+  nsvcd_body *b = (nsvcd_body *)memory;
+#ifndef NSVCD_NO_PROOF
+  if (b->inner) nsvcd__scale_part((nsvcd_body *)(void *)((char *)memory + b->inner), scale);
+#endif
+  nsvcd__scale_part(b, scale);
+  *scaled = b;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
+  nsvcd_body_facts facts;
+  memset(&facts, 0, sizeof facts);
+  facts.size = body->size;
+  facts.patches = body->patches;
+  memcpy(facts.centre, body->centre, sizeof facts.centre);
+  facts.radius = body->radius;
+  facts.latents = body->weights_id != 0;
+  for (size_t i = 0; i < body->patches; i++)
+    facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles) {
+    const nsvcd__facets f = nsvcd__facets_of(triangles);
+    facts.triangles = triangles->triangles;
+    facts.listings = f.listed;
+    facts.quantum = nsvcd__widest_quantum(&f);
+  }
+#endif
+  return facts;
+}
+
+NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
+                              float *radius) {
+  if (!body || patch >= body->patches) return 0;
+  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
+  nsvcd__f3_store(sphere.centre, centre);
+  *radius = sphere.radius;
+  return 1;
+}

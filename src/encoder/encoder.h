@@ -1,0 +1,262 @@
+// In: the samples of one patch, its centre and the radius of its ball. Out: its latent
+// (NSVCD__LATENT floats in (-1,1)): NSVCD_W_CHANNELS vectors of degree 1, as many of degree 2,
+// NSVCD_W_SCALARS invariants.
+//
+// A Vector-Neuron encoder (Deng et al. 2021) on features of degrees 1 and 2 (FER-VN, Son et al.
+// 2024): channels are mixed by matrices shared by all components, and the only nonlinearities are
+// gates computed from invariants, so turning the samples by R turns the latent by D(R). Dividing by
+// the radius makes it independent of scale.
+#pragma once
+#include "../ground/points.h"
+#include "model.h"
+
+#ifndef NSVCD_NO_NETWORK
+#ifndef NSVCD_NO_ENCODER
+// channels after pooling
+#define NSVCD__WIDE (NSVCD_W_POOLED + NSVCD_W_CONTEXT)
+// of each sample
+#define NSVCD__INVARIANTS (2 + 5 * NSVCD_W_CONTEXT)
+#define NSVCD__GATES (5 * NSVCD_W_POOLED + NSVCD_W_POOLED_SCALARS)
+#define NSVCD__PATCH_IN (2 * NSVCD__WIDE + NSVCD_W_POOLED_SCALARS)
+#define NSVCD__PATCH_OUT (2 * NSVCD_W_HIDDEN + NSVCD_W_SCALARS)
+
+// A linear layer: y = w^T x + bias; w (inputs, outputs), bias (outputs) or NULL, x (inputs),
+// y (outputs), apart from each other. It is a sum of rows, which compilers vectorise.
+static void nsvcd__linear(const float *w, const float *bias, size_t inputs, size_t outputs,
+                          const float *x, float *y) {
+  size_t left = inputs;
+  for (size_t o = 0; o < outputs; o++) y[o] = bias ? bias[o] : 0;
+  // four rows at a time: reading and writing y takes longest
+  for (; left >= 4; left -= 4) {
+    const float *r1 = w + outputs;
+    const float *r2 = r1 + outputs;
+    const float *r3 = r2 + outputs;
+    const float x0 = x[0];
+    const float x1 = x[1];
+    const float x2 = x[2];
+    const float x3 = x[3];
+    for (size_t o = 0; o < outputs; o++)
+      y[o] += (w[o] * x0 + r1[o] * x1) + (r2[o] * x2 + r3[o] * x3);
+    w += 4 * outputs;
+    x += 4;
+  }
+  for (; left > 0; left--) {
+    for (size_t o = 0; o < outputs; o++) y[o] += w[o] * x[0];
+    w += outputs;
+    x++;
+  }
+}
+
+static void nsvcd__relu(size_t count, float *x) {
+  for (size_t i = 0; i < count; i++) x[i] = x[i] > 0 ? x[i] : 0;
+}
+
+// A vector of degree 2, in the basis of the real spherical harmonics xy, yz, zz, xz, xx-yy.
+typedef struct nsvcd__f5 {
+  float v[5];
+} nsvcd__f5;
+
+// Written out, for compilers that leave a loop over five in memory.
+static inline nsvcd__f5 nsvcd__f5_scale(nsvcd__f5 a, float s) {
+  const float *v = a.v;
+  const nsvcd__f5 out = {{s * v[0], s * v[1], s * v[2], s * v[3], s * v[4]}};
+  return out;
+}
+static inline nsvcd__f5 nsvcd__f5_add(nsvcd__f5 a, nsvcd__f5 b) {
+  nsvcd__f5 out;
+  out.v[0] = a.v[0] + b.v[0];
+  out.v[1] = a.v[1] + b.v[1];
+  out.v[2] = a.v[2] + b.v[2];
+  out.v[3] = a.v[3] + b.v[3];
+  out.v[4] = a.v[4] + b.v[4];
+  return out;
+}
+static inline float nsvcd__f5_dot(nsvcd__f5 a, nsvcd__f5 b) {
+  float sum = a.v[0] * b.v[0];
+  sum += a.v[1] * b.v[1];
+  sum += a.v[2] * b.v[2];
+  sum += a.v[3] * b.v[3];
+  return sum + a.v[4] * b.v[4];
+}
+
+// The symmetric traceless part of a b^T, scaled so that the square of a vector has its squared
+// length.
+static nsvcd__f5 nsvcd__degree2(nsvcd__f3 a, nsvcd__f3 b) {
+  const float half_root3 = 0.8660254037844386f;
+  nsvcd__f5 q;
+  q.v[0] = half_root3 * (a.x * b.y + a.y * b.x);
+  q.v[1] = half_root3 * (a.y * b.z + a.z * b.y);
+  q.v[2] = a.z * b.z - 0.5f * (a.x * b.x + a.y * b.y);
+  q.v[3] = half_root3 * (a.x * b.z + a.z * b.x);
+  q.v[4] = half_root3 * (a.x * b.x - a.y * b.y);
+  return q;
+}
+
+// The samples of a patch, in its frame.
+typedef struct nsvcd__encoded {
+  // (count)
+  const nsvcd__f3 *samples;
+  // (count)
+  const nsvcd__f3 *normals;
+  size_t count;
+  nsvcd__f3 centre;
+  float inverse_radius;
+} nsvcd__encoded;
+
+// One sample: its vectors of degree 1 and 2.
+typedef struct nsvcd__feature {
+  // place over the radius; unit normal
+  nsvcd__f3 u, n;
+  float uu, un;  // |u|^2, u.n
+  // degree2 of both
+  nsvcd__f5 quu, qun, qnn;
+} nsvcd__feature;
+
+static nsvcd__feature nsvcd__feature_of(const nsvcd__encoded *patch, size_t i) {
+  const nsvcd__f3 offset = nsvcd__f3_sub(patch->samples[i], patch->centre);
+  nsvcd__feature f;
+  f.u = nsvcd__f3_scale(offset, patch->inverse_radius);
+  f.n = patch->normals[i];
+  f.uu = nsvcd__f3_dot(f.u, f.u);
+  f.un = nsvcd__f3_dot(f.u, f.n);
+  f.quu = nsvcd__degree2(f.u, f.u);
+  f.qun = nsvcd__degree2(f.u, f.n);
+  f.qnn = nsvcd__degree2(f.n, f.n);
+  return f;
+}
+
+// The channels of a patch: what is pooled, then the context.
+typedef struct nsvcd__channels {
+  nsvcd__f3 degree1[NSVCD__WIDE];
+  nsvcd__f5 degree2[NSVCD__WIDE];
+  float scalars[NSVCD_W_POOLED_SCALARS];
+} nsvcd__channels;
+
+// First pass: four moments of each degree, mixed into the context.
+static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
+  nsvcd__f3 m1[4] = {{0, 0, 0}};
+  nsvcd__f5 m2[4] = {{{0, 0, 0, 0, 0}}};
+  for (size_t i = 0; i < patch->count; i++) {
+    const nsvcd__feature f = nsvcd__feature_of(patch, i);
+    m1[0] = nsvcd__f3_add(m1[0], f.n);
+    m1[1] = nsvcd__f3_add_scaled(m1[1], f.uu, f.n);
+    m1[2] = nsvcd__f3_add_scaled(m1[2], f.un, f.u);
+    m1[3] = nsvcd__f3_add_scaled(m1[3], f.uu, f.u);
+    m2[0] = nsvcd__f5_add(m2[0], f.quu);
+    m2[1] = nsvcd__f5_add(m2[1], f.qun);
+    m2[2] = nsvcd__f5_add(m2[2], f.qnn);
+    m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
+  }
+  const float share = 1 / (float)patch->count;
+  for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
+    nsvcd__f3 c1 = {0, 0, 0};
+    nsvcd__f5 c2 = {{0, 0, 0, 0, 0}};
+    for (size_t m = 0; m < 4; m++) {
+      const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
+      const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
+      c1 = nsvcd__f3_add_scaled(c1, share, nsvcd__f3_scale(m1[m], w1));
+      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
+    }
+    out->degree1[NSVCD_W_POOLED + c] = c1;
+    out->degree2[NSVCD_W_POOLED + c] = c2;
+  }
+}
+
+// The sample network: invariants of one sample -> its gates, (5 POOLED + POOLED_SCALARS).
+static void nsvcd__gates(const nsvcd__feature *f, const nsvcd__channels *context,
+                         float *gates) {
+  const size_t hidden = NSVCD_W_POINT_HIDDEN;
+  const nsvcd__f3 *c1 = context->degree1 + NSVCD_W_POOLED;
+  const nsvcd__f5 *c2 = context->degree2 + NSVCD_W_POOLED;
+  float x[NSVCD__INVARIANTS], h1[NSVCD_W_POINT_HIDDEN], h2[NSVCD_W_POINT_HIDDEN];
+  x[0] = f->uu;
+  x[1] = f->un;
+  for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
+    float *to = x + 2 + c;
+    to[0] = nsvcd__f3_dot(f->u, c1[c]);
+    to[NSVCD_W_CONTEXT] = nsvcd__f3_dot(f->n, c1[c]);
+    to[2 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->quu, c2[c]);
+    to[3 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qun, c2[c]);
+    to[4 * NSVCD_W_CONTEXT] = nsvcd__f5_dot(f->qnn, c2[c]);
+  }
+  nsvcd__linear(nsvcd_w_point0, nsvcd_w_point0_bias, NSVCD__INVARIANTS, hidden, x, h1);
+  nsvcd__relu(hidden, h1);
+  nsvcd__linear(nsvcd_w_point1, nsvcd_w_point1_bias, hidden, hidden, h1, h2);
+  nsvcd__relu(hidden, h2);
+  nsvcd__linear(nsvcd_w_point2, nsvcd_w_point2_bias, hidden, NSVCD__GATES, h2, gates);
+}
+
+// The patch network: the channels -> the latent. Of each degree the channels are mixed, gated and
+// mixed once more.
+static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
+  const size_t hidden = NSVCD_W_PATCH_HIDDEN;
+  float x[NSVCD__PATCH_IN], h[NSVCD_W_PATCH_HIDDEN], y[NSVCD__PATCH_OUT];
+  for (size_t c = 0; c < NSVCD__WIDE; c++) {
+    x[c] = nsvcd__f3_dot(a->degree1[c], a->degree1[c]);
+    x[NSVCD__WIDE + c] = nsvcd__f5_dot(a->degree2[c], a->degree2[c]);
+  }
+  memcpy(x + 2 * NSVCD__WIDE, a->scalars, sizeof a->scalars);
+  nsvcd__linear(nsvcd_w_patch0, nsvcd_w_patch0_bias, NSVCD__PATCH_IN, hidden, x, h);
+  nsvcd__relu(hidden, h);
+  nsvcd__linear(nsvcd_w_patch1, nsvcd_w_patch1_bias, hidden, NSVCD__PATCH_OUT, h, y);
+
+  for (size_t degree = 1; degree <= 2; degree++) {
+    const void *channels = degree == 1 ? (const void *)a->degree1 : (const void *)a->degree2;
+    // (WIDE, size)
+    const float *from = (const float *)channels;
+    const float *mix = degree == 1 ? nsvcd_w_mix1 : nsvcd_w_mix2;
+    const float *out = degree == 1 ? nsvcd_w_out1 : nsvcd_w_out2;
+    const float *gates = y + NSVCD_W_HIDDEN * (degree - 1);
+    const size_t size = 2 * degree + 1;
+    for (size_t k = 0; k < size; k++) {
+      float mixed[NSVCD__WIDE], gated[NSVCD_W_HIDDEN];
+      for (size_t c = 0; c < NSVCD__WIDE; c++) mixed[c] = from[c * size + k];
+      nsvcd__linear(mix, NULL, NSVCD__WIDE, NSVCD_W_HIDDEN, mixed, gated);
+      for (size_t c = 0; c < NSVCD_W_HIDDEN; c++) gated[c] *= gates[c];
+      float *z = latent + NSVCD_W_CHANNELS * k;
+      nsvcd__linear(out, NULL, NSVCD_W_HIDDEN, NSVCD_W_CHANNELS, gated, z);
+    }
+    // shortened to less than 1, so that int8 holds it
+    for (size_t c = 0; c < NSVCD_W_CHANNELS; c++) {
+      float *z = latent + c;
+      float square = 0;
+      for (size_t k = 0; k < size; k++)
+        square += z[NSVCD_W_CHANNELS * k] * z[NSVCD_W_CHANNELS * k];
+      const float scale = 1 / sqrtf(1 + square);
+      for (size_t k = 0; k < size; k++) z[NSVCD_W_CHANNELS * k] *= scale;
+    }
+    latent += NSVCD_W_CHANNELS * size;
+  }
+  const float *scalars = y + 2 * NSVCD_W_HIDDEN;
+  for (size_t c = 0; c < NSVCD_W_SCALARS; c++) latent[c] = tanhf(scalars[c]);
+}
+
+// The latent (LATENT) of a patch of one sample or more: degree 1 (3, CHANNELS), degree 2 (5,
+// CHANNELS), scalars.
+static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
+  const size_t pooled = NSVCD_W_POOLED;
+  const float share = 1 / (float)patch->count;
+  nsvcd__channels all;
+  memset(&all, 0, sizeof all);
+  nsvcd__context(patch, &all);
+  for (size_t i = 0; i < patch->count; i++) {
+    const nsvcd__feature f = nsvcd__feature_of(patch, i);
+    float gates[NSVCD__GATES];
+    nsvcd__gates(&f, &all, gates);
+    for (size_t c = 0; c < pooled; c++) {
+      const float *gate = gates + c;
+      nsvcd__f3 a1 = nsvcd__f3_scale(f.u, gate[0]);
+      a1 = nsvcd__f3_add(a1, nsvcd__f3_scale(f.n, gate[pooled]));
+      nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
+      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
+      a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
+      all.degree1[c] = nsvcd__f3_add_scaled(all.degree1[c], share, a1);
+      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
+    }
+    for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
+      all.scalars[c] += gates[5 * pooled + c] * share;
+  }
+  nsvcd__finish_latent(&all, latent);
+}
+#endif  // NSVCD_NO_ENCODER
+#endif  // NSVCD_NO_NETWORK

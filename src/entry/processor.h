@@ -1,0 +1,152 @@
+// In: a question. Out: its answer, by the functions for the best vectors that the processor has.
+//
+// Where the compiler's flags allow SSE2 and no more, the default on x86-64, all that a query does
+// is compiled three times: with SSE2 above, and here with AVX2 and with AVX-512. At each call the
+// processor at hand decides which of them answers. NSVCD_NO_DISPATCH leaves the first only.
+//
+// This file takes itself in for that. Of it only the rooms that use vectors are compiled again.
+// Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
+#pragma once
+#include "../query/self_test.h"
+#include "../gradient/gradient.h"
+
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
+#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#define NSVCD__DISPATCH
+#elif defined(_M_X64) && !defined(__clang__)
+#include <intrin.h>
+#define NSVCD__DISPATCH
+#endif
+#endif
+
+#ifdef NSVCD__DISPATCH
+#define NSVCD__JOIN(name, isa) name##isa
+#define NSVCD__OF_ISA(name, isa) NSVCD__JOIN(name, isa)
+#define NSVCD__AT(name) NSVCD__OF_ISA(nsvcd__##name, NSVCD__ISA)
+#define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
+
+// ---- the names, as src/make_header.py writes them
+
+// ---- the passes
+
+// gcc leaves out at -O2 what makes these loops fast: at -O3 they take 0.75 to 0.85 of the time.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC push_options
+#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#pragma GCC optimize("O3")
+#endif
+#pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,bmi2,lzcnt,popcnt"))), \
+                             apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#define NSVCD__SLICE 8
+#define NSVCD__ISA _avx2
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC target("avx512f,avx512vl,avx512vnni")
+#elif defined(__clang__)
+#pragma clang attribute pop
+#pragma clang attribute push( \
+    __attribute__((target("avx512f,avx512vl,avx512vnni,fma,bmi,bmi2,lzcnt,popcnt"))), \
+    apply_to = function)
+#endif
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__BYTE_ROWS
+#define NSVCD__SLICE 16
+#define NSVCD__ISA _avx512
+#define NSVCD__VNNI
+#include "neuralsvcd.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC pop_options
+#elif defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+// from here on a name is a name again, and vectors are those above
+#undef NSVCD__SLICE
+#undef NSVCD__ISA
+#undef NSVCD__VNNI
+#define NSVCD__SLICE 4
+#undef NSVCD__AT
+#undef NSVCD__NUMBER_AT
+#define NSVCD__AT(name) nsvcd__##name
+#define NSVCD__NUMBER_AT(name) NSVCD__##name
+
+typedef enum nsvcd__isa { NSVCD__SSE2, NSVCD__AVX2, NSVCD__AVX512 } nsvcd__isa;
+
+#if defined(_MSC_VER) && !defined(__clang__)
+// What the processor and the system have, remembered: one word, which all threads that may write it
+// at a time write alike.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  static volatile long known = -1;
+  int first[4];
+  int seventh[4];
+  if (known >= 0) return (nsvcd__isa)known;
+  __cpuid(first, 0);
+  if (first[0] < 7) return NSVCD__SSE2;
+  __cpuid(first, 1);
+  __cpuidex(seventh, 7, 0);
+  // the system, of vectors: OSXSAVE
+  const int keeps_registers = first[2] >> 27 & 1;
+  const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
+  const int fma = first[2] >> 12 & 1;
+  const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
+  const int avx2 = (kept & 6) == 6 && fma && bmi && seventh[1] >> 5 & 1;
+  const int vnni = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
+  return (nsvcd__isa)known;
+}
+#else
+// What the processor and the system have. The compiler's own library asks them before main.
+static nsvcd__isa nsvcd__isa_at_hand(void) {
+  const int fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  if (!fma || !__builtin_cpu_supports("avx2")) return NSVCD__SSE2;
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni"))
+    return NSVCD__AVX512;
+  return NSVCD__AVX2;
+}
+#endif
+
+#define NSVCD__BEST(name) \
+  (nsvcd__isa_at_hand() == NSVCD__AVX512 ? nsvcd__##name##_avx512 \
+   : nsvcd__isa_at_hand() == NSVCD__AVX2 ? nsvcd__##name##_avx2 \
+                                         : nsvcd__##name)
+#else
+#define NSVCD__BEST(name) nsvcd__##name
+#endif  // NSVCD__DISPATCH
+
+// ---- what is asked, handed to the best of them
+
+NSVCDDEF nsvcd_result nsvcd_self_test(void) {
+  return NSVCD__BEST(self_test)();
+}
+
+NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
+  return NSVCD__BEST(sweep_size)(question);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
+                                  size_t workspace_size, nsvcd_answer *answer) {
+  if (!question) return NSVCD_ERROR_ARGUMENT;
+  return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
+}
+
+NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
+                                        void *workspace, size_t workspace_size,
+                                        nsvcd_answer *answers) {
+  return NSVCD__BEST(sweep_batch)(questions, count, workspace, workspace_size, answers);
+}
+
+#ifndef NSVCD_NO_GRADIENT
+NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
+                                           size_t workspace_size, nsvcd_answer *answer,
+                                           float *gradient_a, float *gradient_b) {
+  return NSVCD__BEST(sweep_gradient)(question, workspace, workspace_size, answer, gradient_a,
+                                     gradient_b);
+}
+#endif

@@ -1,0 +1,220 @@
+// In: derivatives by the pair. Out: those by the poses of both movers.
+#pragma once
+#include "../query/question.h"
+#include "by_pair.h"
+
+#ifndef NSVCD_NO_GRADIENT
+// Adds to a wrench, row (6).
+static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row), force), row);
+  nsvcd__f3_store(nsvcd__f3_add(nsvcd__f3_load(row + 3), torque), row + 3);
+}
+
+// From a force and a torque on a body at time t, in the world, to `gradient` (count, 6), or NULL,
+// by its poses before and after t. Returns the derivative by t. With R = exp(2 u h n) A, on the
+// shorter arc from A to B = exp(2 h n) A, small rotations a of A and b of B (on the left) turn R
+//   along n    by (1 - u) a + u b,
+//   across n   by sin((1 - u) h) / sin h of a, turned by u h about n,
+//              and sin(u h) / sin h of b, turned by -(1 - u) h.
+static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
+                             nsvcd__f3 torque, float *gradient) {
+  const size_t arcs = track->count - 1;
+  if (arcs == 0) {
+    if (gradient) nsvcd__wrench_add(force, torque, gradient);
+    return 0;
+  }
+  const float at = t * (float)arcs;
+  const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
+  const float u = at - (float)k;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = &track->poses[k + 1];
+  // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
+  const nsvcd__quat qa = nsvcd__quat_unit(nsvcd__quat_load(a->rotation));
+  const nsvcd__quat qb = nsvcd__quat_unit(nsvcd__quat_load(b->rotation));
+  const nsvcd__quat nearer = nsvcd__quat_beside(qb, nsvcd__poses_opposed(a, b));
+  const nsvcd__f3 axis = nsvcd__quat_turn(qa, nearer);
+  const float sine = nsvcd__f3_length(axis);
+  const float inverse = sine > 0 ? 1 / sine : 0;
+  const nsvcd__f3 n = nsvcd__f3_scale(axis, inverse);
+  const float h = nsvcd__quat_arc(qa, nearer);
+  if (gradient) {
+    const float wa = h > 1e-3f ? sinf((1 - u) * h) * inverse : 1 - u;
+    const float wb = h > 1e-3f ? sinf(u * h) * inverse : u;
+    const nsvcd__f3 on_a = nsvcd__turned(torque, n, 1 - u, wa, -u * h);
+    const nsvcd__f3 on_b = nsvcd__turned(torque, n, u, wb, (1 - u) * h);
+    nsvcd__wrench_add(nsvcd__f3_scale(force, 1 - u), on_a, gradient + 6 * k);
+    nsvcd__wrench_add(nsvcd__f3_scale(force, u), on_b, gradient + 6 * (k + 1));
+  }
+  const nsvcd__f3 from = nsvcd__f3_load(a->position);
+  const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
+  const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
+  return (float)arcs * (nsvcd__f3_dot(force, moved) + by_turn);
+}
+
+// ---- instants and contact
+
+// Times at which the moving patch is looked at.
+enum {
+  NSVCD__AT_ENTRY = 0,
+  NSVCD__AT_EXIT = 1,
+  NSVCD__AT_MIDDLE = 2,    // between these two
+  NSVCD__ENTRY_BEGIN = 3,  // the ends of the segment in which it enters,
+  NSVCD__ENTRY_END = 4,
+  NSVCD__EXIT_BEGIN = 5,  // and of that in which it leaves
+  NSVCD__EXIT_END = 6,
+  NSVCD__INSTANTS = 7
+};
+
+// The moving patch at these times, in the fixed body's axes and units.
+typedef struct nsvcd__instants {
+  float t[NSVCD__INSTANTS];
+  // from the body's origin to its centre
+  float arm[3][NSVCD__LANES];
+  float place[3][NSVCD__LANES];  // its centre
+  // does it within the segment? else at one of its ends, and these do not move
+  int enters, leaves;
+} nsvcd__instants;
+
+// The instants of a candidate. time: of the segments' ends.
+static void nsvcd__instants_of(const nsvcd__task *task, const nsvcd__candidate *candidate,
+                               const float *time, nsvcd__instants *at) {
+  const float t0 = candidate->t_enter;
+  const float t1 = candidate->t_exit;
+  const nsvcd__motion *motion = &task->motion;
+  const nsvcd__f3 own = nsvcd__centre_of(nsvcd__body_patches(task->moving), candidate->moving);
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_scale(own, motion->scale));
+  size_t a = 0;
+  size_t b = 0;
+  while (!(t0 < time[a + 1]) && time[a + 1] < 1) a++;
+  while (!(t1 <= time[b + 1]) && time[b + 1] < 1) b++;
+  const float t[] = {t0, t1, 0.5f * (t0 + t1), time[a], time[a + 1], time[b], time[b + 1]};
+  memcpy(at->t, t, sizeof t);
+  at->enters = time[a] < t0 && t0 < time[a + 1];
+  at->leaves = time[b] < t1 && t1 < time[b + 1];
+
+  for (size_t first = 0; first < NSVCD__INSTANTS; first += NSVCD__SLICE) {
+    const size_t left = NSVCD__INSTANTS - first;
+    const size_t count = left < NSVCD__SLICE ? left : NSVCD__SLICE;
+    const nsvcd__v_pose pose = nsvcd__v_poses_at(motion, t + first, count);
+    const nsvcd__v3 arm = nsvcd__vmat3_apply(nsvcd__vmat3_of(pose.rotation), centre);
+    nsvcd__v3_store(at->arm, first, arm);
+    nsvcd__v3_store(at->place, first, nsvcd__v3_add(arm, pose.position));
+  }
+}
+
+// From a force on the patch's centre at instant l, and a torque on the moving body, in the fixed
+// one's axes and units, to the derivatives by the poses of the moving body and of the fixed one:
+// out (2), of which one may be NULL. What is done to one body is done to the other the opposite
+// way. Returns the derivative by the time.
+static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+                               nsvcd__f3 force, nsvcd__f3 torque, float *const *out) {
+  const float t = at->t[l];
+  const float unit = motion->unit;
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, t);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
+  const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
+  const nsvcd__f3 lever = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
+  const nsvcd__f3 seen = nsvcd__mat3_apply(&axes, force);
+  const nsvcd__f3 push = nsvcd__f3_of(seen.x / unit, seen.y / unit, seen.z / unit);
+  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, lever));
+  const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
+  const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
+  const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
+  return by_moving + nsvcd__by_poses(&motion->fixed, t, back, turn_back, out[1]);
+}
+
+// The adjoint of the time at which the balls meet (AT_ENTRY) or part (AT_EXIT): y = x0 + tau x - c,
+// from the chord x of the segment, is as long as the sum of the radii; so y.(dy + x dtau) = 0.
+// Balls that only graze (y across x) do so for a time whose derivative has no limit: it is bounded
+// where float32 has no digits left.
+static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, size_t l,
+                              nsvcd__f3 centre, float by_time, float *const *out) {
+  const nsvcd__f3 none = {0, 0, 0};
+  const size_t s = l == NSVCD__AT_ENTRY ? NSVCD__ENTRY_BEGIN : NSVCD__EXIT_BEGIN;
+  const float length = at->t[s + 1] - at->t[s];
+  const nsvcd__f3 start = nsvcd__lane_of(at->place, s);
+  const float tau = (at->t[l] - at->t[s]) / length;
+  const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
+  const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
+  const nsvcd__f3 y = nsvcd__f3_add_scaled(from, tau, chord);
+  const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
+  const float dot = fabsf(nsvcd__f3_dot(y, chord));
+  if (!(least > 0)) return;
+  const float along = l == NSVCD__AT_ENTRY ? length : -length;
+  const float rate = along * by_time / (dot > least ? dot : least);
+  const nsvcd__f3 before = nsvcd__f3_scale(y, (1 - tau) * rate);
+  const nsvcd__f3 after = nsvcd__f3_scale(y, tau * rate);
+  nsvcd__by_instant(motion, at, s, before, none, out);
+  nsvcd__by_instant(motion, at, s + 1, after, none, out);
+}
+
+// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
+// ends.
+static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
+                            const float *time, float *const *out) {
+  const nsvcd__motion *motion = &task->motion;
+  nsvcd__candidate candidate = decisive->candidate;
+  nsvcd__candidate *one = &candidate;
+  nsvcd__pairs pairs;
+  nsvcd__by_pair by;
+  nsvcd__instants at;
+  float x[NSVCD__DECODER_IN];
+  float by_x[NSVCD__DECODER_IN];
+  nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
+  nsvcd__invariants(&pairs, 1, x);
+  nsvcd__decoder_gradient(decisive->decoder, x, by_x);
+  nsvcd__by_invariants(&pairs, x, by_x, &by);
+  nsvcd__instants_of(task, &candidate, time, &at);
+
+  // The adjoint of nsvcd__pairs_of. v = w x arm + (x1 - x0) / 2, where arm goes from the moving
+  // centre half way to the other.
+  const nsvcd__f3 w = nsvcd__first_f3(pairs.w);
+  const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
+  const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
+  const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
+  const nsvcd__f3 p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
+  // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
+  // nsvcd__by_poses says.
+  const nsvcd__f3 none = {0, 0, 0};
+  float by_time[2];
+  const float h = nsvcd__f3_length(w);
+  const float half = 0.5f * (h > 1e-3f ? h / sinf(h) : 1);
+  const nsvcd__f3 n = h > 0 ? nsvcd__f3_of(w.x / h, w.y / h, w.z / h) : none;
+  const float by_middle =
+      nsvcd__by_instant(motion, &at, NSVCD__AT_MIDDLE, p1, by.rotation, out);
+  for (size_t l = NSVCD__AT_ENTRY; l <= NSVCD__AT_EXIT; l++) {
+    const float side = l == NSVCD__AT_ENTRY ? -1.0f : 1.0f;
+    const nsvcd__f3 force = nsvcd__f3_scale(by.v, 0.5f * side);
+    const nsvcd__f3 torque = nsvcd__turned(turn, n, 0.5f * side, half * side, h * side);
+    by_time[l] = 0.5f * by_middle + nsvcd__by_instant(motion, &at, l, force, torque, out);
+  }
+  if (at.enters) nsvcd__by_contact(motion, &at, NSVCD__AT_ENTRY, centre, by_time[0], out);
+  if (at.leaves) nsvcd__by_contact(motion, &at, NSVCD__AT_EXIT, centre, by_time[1], out);
+}
+
+// As nsvcd_sweep_gradient.
+static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
+                                          size_t workspace_size, nsvcd_answer *answer,
+                                          float *gradient_a, float *gradient_b) {
+  if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
+  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_question by_network = *question;
+  by_network.options.method = NSVCD_METHOD_NETWORK;
+  const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
+  if (result) return result;
+  nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
+  nsvcd__task *task = &query->task;
+  nsvcd__decisive decisive;
+  task->decisive = &decisive;
+  nsvcd__answer_query(query, NULL, answer);
+  float *const out[2] = {task->swapped ? gradient_b : gradient_a,
+                         task->swapped ? gradient_a : gradient_b};
+  if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
+  if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
+  if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
+    nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_GRADIENT

@@ -1,0 +1,42 @@
+// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
+// its callers.
+#pragma once
+#include "../interface/options.h"
+
+#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef NSVCD_NO_STDIO
+#include <stdio.h>
+#endif
+// Functions that take more of the stack, and of flash, called than merged into their callers.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__MERGED static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__MERGED static __forceinline
+#else
+#define NSVCD__MERGED static inline
+#endif
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
+// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+#ifdef __OPTIMIZE_SIZE__
+#define NSVCD__INLINE static inline
+#else
+#define NSVCD__INLINE NSVCD__MERGED
+#endif
+// Functions that must not be inlined: what they take of the stack would add up.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__APART __declspec(noinline)
+#else
+#define NSVCD__APART
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#else
+#define NSVCD__UNROLL
+#endif

@@ -1,0 +1,180 @@
+// In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
+// its rows. A transform is a rotation and a place.
+#pragma once
+#include "points.h"
+
+// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _add_scaled is a + s b; _axis is that of a unit
+// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
+// _apply_transpose is the transpose of m, times a.
+#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+  typedef struct quat { \
+    scalar x, y, z, w; \
+  } quat; \
+  typedef struct mat { \
+    vec x, y, z; \
+  } mat; \
+  static inline scalar quat##_dot(quat a, quat b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
+  } \
+  static inline quat quat##_scale(quat q, scalar s) { \
+    const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
+    return out; \
+  } \
+  static inline quat quat##_add_scaled(quat a, scalar s, quat b) { \
+    const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
+    return out; \
+  } \
+  NSVCD__MERGED quat quat##_unit(quat q) { \
+    return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
+  } \
+  static inline vec quat##_axis(quat q) { \
+    return vec##_of(q.x, q.y, q.z); \
+  } \
+  static inline mat mat##_of(quat q) { \
+    mat m; \
+    m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
+    m.x.y = 2 * (q.x * q.y - q.z * q.w); \
+    m.x.z = 2 * (q.x * q.z + q.y * q.w); \
+    m.y.x = 2 * (q.x * q.y + q.z * q.w); \
+    m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z); \
+    m.y.z = 2 * (q.y * q.z - q.x * q.w); \
+    m.z.x = 2 * (q.x * q.z - q.y * q.w); \
+    m.z.y = 2 * (q.y * q.z + q.x * q.w); \
+    m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y); \
+    return m; \
+  } \
+  static inline mat mat##_transpose(mat m) { \
+    const mat out = {vec##_of(m.x.x, m.y.x, m.z.x), vec##_of(m.x.y, m.y.y, m.z.y), \
+                     vec##_of(m.x.z, m.y.z, m.z.z)}; \
+    return out; \
+  } \
+  static inline vec mat##_apply(const mat *m, vec a) { \
+    return vec##_of(vec##_dot(m->x, a), vec##_dot(m->y, a), vec##_dot(m->z, a)); \
+  } \
+  static inline vec mat##_apply_transpose(const mat *m, vec a) { \
+    const mat back = mat##_transpose(*m); \
+    return mat##_apply(&back, a); \
+  }
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+#undef NSVCD__ROTATIONS
+
+// The inverse of a, unit, times b.
+static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(a);
+  const nsvcd__d3 v = nsvcd__dquat_axis(b);
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
+  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
+  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
+  return out;
+}
+
+static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+  const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
+                            nsvcd__d3_scale(m->z, s)};
+  return out;
+}
+
+// ---- quaternions and matrices of floats
+
+// A rotation and a position: a -> rotation a + position.
+typedef struct nsvcd__transform {
+  nsvcd__mat3 rotation;
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
+}
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
+}
+// To rows of x, y, z and w, so many numbers apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  nsvcd__quat_put(q, p, 1);
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot += (double)a.y * (double)b.y;
+  dot += (double)a.z * (double)b.z;
+  dot += (double)a.w * (double)b.w;
+  return dot < 0;
+}
+
+// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
+// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
+// left.
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat chord = nsvcd__quat_add_scaled(a, -1, b);
+  return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+}
+
+// The same rotation on the side of another quaternion, to which q is opposed or not.
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+// of a unit one
+static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
+  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
+}
+
+// The rotation by b, then by a.
+static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
+  nsvcd__quat out;
+  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
+  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
+  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
+  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
+  return out;
+}
+// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
+  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
+}
+
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
+  const float angle = nsvcd__quat_arc(start, end);
+  float wa = 1 - u;
+  float wb = u;
+  // below, the difference is less than rounding
+  if (angle > 1e-3f) {
+    wa = sinf((1 - u) * angle);
+    wb = sinf(u * angle);
+  }
+  return nsvcd__quat_unit(nsvcd__quat_add_scaled(nsvcd__quat_scale(start, wa), wb, end));
+}
+
+// s (a + t b).
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s)};
+  return out;
+}
+static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
+  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
+                           nsvcd__mat3_apply(&columns, a->y),
+                           nsvcd__mat3_apply(&columns, a->z)};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+}

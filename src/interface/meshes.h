@@ -1,0 +1,59 @@
+// In: an OBJ file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
+#pragma once
+#include "results.h"
+
+typedef struct nsvcd_mesh {
+  // (vertex_count, 3) metres
+  float *positions;
+  // (triangle_count, 3) vertices, counter-clockwise from outside
+  uint32_t *indices;
+  size_t vertex_count;
+  size_t triangle_count;
+} nsvcd_mesh;
+
+#ifndef NSVCD_NO_OBJ
+// Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
+// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
+// of corners are cut into triangles, concave ones too.
+//   text       (size) characters, not NULL; they need not end in a NUL or a newline
+//   allocator  NULL: malloc and free
+//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   error_line NULL, or set to the line at fault, from 1; 0 where no line is at fault
+//   allocates  the mesh, and working memory that is given back; time is linear in size, but for
+//              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
+//              tests/test_mesh.c tries
+//   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
+//              one that is found first: statements and counts come before vertices, these before
+//              faces
+//   source     Wavefront, "Object Files", version 3.0; ear clipping after Meisters 1975
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line);
+#ifndef NSVCD_NO_STDIO
+// nsvcd_obj_parse on what a file holds.
+//   path       not NULL, as fopen takes it
+//   errors     those of nsvcd_obj_parse, and IO
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line);
+#endif
+#endif
+#ifndef NSVCD_NO_ENCODER
+// Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
+// For a large mesh that changes all the time, or that the network is to judge, whose patches must
+// not be much larger than the gap in question: encode what the moving body can reach, the box over
+// its sweep grown a little, as an `open` body. A mesh that stays is better encoded whole, once.
+//   mesh       not NULL
+//   low, high  the box in the mesh's frame, metres, not NULL, finite, low < high on each axis
+//   allocator  NULL: malloc and free
+//   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   allocates  the part
+//   errors     ARGUMENT, EMPTY (nothing of it is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
+//   source     Sutherland and Hodgman 1974
+NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
+                                     const float high[3], const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *part);
+// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated, and empties *mesh.
+//   mesh       may be NULL
+//   allocator  the one that it came from
+NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
+#endif

@@ -1,0 +1,282 @@
+// In: the corners of a face. Out: triangles, by ear clipping (Meisters 1975; after Eberly,
+// "Triangulation by Ear Clipping").
+//
+// A face becomes corners - 2 triangles whose vector areas always sum to the polygon's. A simple
+// polygon, concave or with holes cut open by a bridge, is covered without overlap; any other
+// (crossing itself, no area) is cut somehow.
+//
+// An ear is a corner whose triangle holds no reflex corner. So that faces may have many corners,
+// these are not all looked at: corners are sorted along a Z curve (Morton 1966), and each run of 8
+// has a box, as have two boxes side by side, and so on up to one about all.
+#pragma once
+#include "../ground/memory.h"
+#include "../ground/slices.h"
+
+#ifndef NSVCD_NO_OBJ
+#define NSVCD__RUN 8
+
+// In the polygon's plane.
+typedef struct nsvcd__d2 {
+  double x, y;
+} nsvcd__d2;
+
+typedef struct nsvcd__corner {
+  // the polygon is counter-clockwise
+  nsvcd__d2 at;
+  uint32_t vertex;
+  // the ring of corners not yet clipped
+  uint32_t previous, next;
+  // 1: in the queue
+  uint32_t queued;
+  // 1: the inner angle exceeds 180 degrees
+  uint32_t reflex;
+  // the box of its run
+  uint32_t box;
+} nsvcd__corner;
+
+typedef struct nsvcd__corner_box {
+  nsvcd__d2 low, high;
+  // corners in it that are reflex
+  uint32_t reflex;
+} nsvcd__corner_box;
+
+typedef struct nsvcd__polygon {
+  nsvcd__corner *corners;
+  // (count): corners along the Z curve
+  uint32_t *order;
+  // (2 runs): box k is about boxes 2 k and 2 k + 1, the last are runs'
+  nsvcd__corner_box *boxes;
+  uint32_t count, runs;  // a power of two
+  // (count), a ring: corners that may have become an ear
+  uint32_t *queue;
+  uint32_t queue_first, queue_length;
+} nsvcd__polygon;
+
+// Runs of so many corners, rounded up to a power of two.
+static uint32_t nsvcd__runs_of(uint32_t corners) {
+  uint32_t runs = 1;
+  while (NSVCD__RUN * (uint64_t)runs < corners) runs *= 2;
+  return runs;
+}
+
+// Room for polygons of up to so many corners. 0 without memory.
+static int nsvcd__polygon_alloc(nsvcd__polygon *polygon, uint32_t corners,
+                                nsvcd__arena *arena) {
+  memset(polygon, 0, sizeof *polygon);
+  polygon->corners = NSVCD__TAKE(arena, nsvcd__corner, corners);
+  polygon->order = NSVCD__TAKE(arena, uint32_t, corners);
+  polygon->queue = NSVCD__TAKE(arena, uint32_t, corners);
+  polygon->boxes = NSVCD__TAKE(arena, nsvcd__corner_box, 2 * (size_t)nsvcd__runs_of(corners));
+  return !arena->failed;
+}
+
+// Twice the area of abc, positive if counter-clockwise. In double a difference of floats is as good
+// as exact.
+static double nsvcd__d2_cross(nsvcd__d2 a, nsvcd__d2 b, nsvcd__d2 c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+}
+static int nsvcd__same_place(nsvcd__d2 a, nsvcd__d2 b) {
+  return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y);
+}
+
+// Places the corners in a plane: drops the axis along which the normal is longest, and so keeps the
+// coordinates exact.
+static void nsvcd__polygon_project(nsvcd__polygon *polygon, const float *positions) {
+  nsvcd__corner *corners = polygon->corners;
+  // twice the area times the normal (Newell's)
+  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 origin = nsvcd__d3_row(positions, corners[0].vertex);
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const uint32_t next = corners[(i + 1) % polygon->count].vertex;
+    const nsvcd__d3 p = nsvcd__d3_sub(nsvcd__d3_row(positions, corners[i].vertex), origin);
+    const nsvcd__d3 q = nsvcd__d3_sub(nsvcd__d3_row(positions, next), origin);
+    normal = nsvcd__d3_add(normal, nsvcd__d3_cross(p, q));
+  }
+  size_t axis = fabs(normal.y) > fabs(normal.x) ? 1 : 0;
+  if (fabs(normal.z) > fabs(nsvcd__d3_axis(normal, axis))) axis = 2;
+  const size_t turned = nsvcd__d3_axis(normal, axis) < 0;
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    const float *p = positions + 3 * (size_t)corners[i].vertex;
+    corners[i].at.x = (double)p[(axis + 1 + turned) % 3];
+    corners[i].at.y = (double)p[(axis + 2 - turned) % 3];
+  }
+}
+
+// Sorts corners along the Z curve, by this bit of it and those below: the bits of x and y in turn.
+static void nsvcd__z_sort(const nsvcd__corner *corners, uint32_t *order, uint32_t count,
+                          int bit) {
+  if (count <= NSVCD__RUN || bit < 0) return;
+  // where those begin that have the bit
+  uint32_t ones = count;
+  for (uint32_t i = 0; i < ones;) {
+    const uint32_t corner = order[i];
+    const nsvcd__d2 at = corners[corner].at;
+    const float x = (float)(bit % 2 ? at.x : at.y);
+    uint32_t key;
+    memcpy(&key, &x, sizeof key);
+    // grows with the coordinate
+    key = key >> 31 ? ~key : key | 0x80000000u;
+    if (key >> bit / 2 & 1) {
+      order[i] = order[--ones];
+      order[ones] = corner;
+    } else {
+      i++;
+    }
+  }
+  nsvcd__z_sort(corners, order, ones, bit - 1);
+  nsvcd__z_sort(corners, order + ones, count - ones, bit - 1);
+}
+
+static nsvcd__corner_box nsvcd__no_box(void) {
+  const nsvcd__corner_box out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, 0};
+  return out;
+}
+static void nsvcd__box_take(nsvcd__corner_box *box, nsvcd__d2 at) {
+  if (at.x < box->low.x) box->low.x = at.x;
+  if (at.y < box->low.y) box->low.y = at.y;
+  if (at.x > box->high.x) box->high.x = at.x;
+  if (at.y > box->high.y) box->high.y = at.y;
+}
+
+// Puts the corners into boxes. None is known to be reflex yet.
+static void nsvcd__polygon_box(nsvcd__polygon *polygon) {
+  polygon->runs = nsvcd__runs_of(polygon->count);
+  for (uint32_t k = 0; k < 2 * polygon->runs; k++) polygon->boxes[k] = nsvcd__no_box();
+  for (uint32_t i = 0; i < polygon->count; i++) polygon->order[i] = i;
+  nsvcd__z_sort(polygon->corners, polygon->order, polygon->count, 63);
+  for (uint32_t i = 0; i < polygon->count; i++) {
+    nsvcd__corner *c = &polygon->corners[polygon->order[i]];
+    c->box = polygon->runs + i / NSVCD__RUN;
+    for (uint32_t k = c->box; k > 0; k /= 2) nsvcd__box_take(&polygon->boxes[k], c->at);
+  }
+}
+
+static void nsvcd__polygon_set_reflex(nsvcd__polygon *polygon, uint32_t i, uint32_t reflex) {
+  nsvcd__corner *c = &polygon->corners[i];
+  for (uint32_t k = c->box; k > 0 && c->reflex != reflex; k /= 2)
+    polygon->boxes[k].reflex += reflex - c->reflex;
+  c->reflex = reflex;
+}
+
+// Looks at corner i again, after a neighbour of it has changed.
+static void nsvcd__polygon_update(nsvcd__polygon *polygon, uint32_t i) {
+  nsvcd__corner *corners = polygon->corners;
+  nsvcd__corner *c = &corners[i];
+  const nsvcd__d2 previous = corners[c->previous].at;
+  const nsvcd__d2 next = corners[c->next].at;
+  nsvcd__polygon_set_reflex(polygon, i, nsvcd__d2_cross(previous, c->at, next) < 0);
+  if (c->queued) return;
+  c->queued = 1;
+  polygon->queue[(polygon->queue_first + polygon->queue_length++) % polygon->count] = i;
+}
+
+// A triangle of three neighbours, counter-clockwise, and the box about it.
+typedef struct nsvcd__ear {
+  nsvcd__d2 at[3];
+  nsvcd__corner_box box;
+} nsvcd__ear;
+
+// Is a place within an ear, and not at one of its corners?
+static int nsvcd__ear_holds(const nsvcd__ear *ear, nsvcd__d2 p) {
+  for (size_t k = 0; k < 3; k++) {
+    if (nsvcd__d2_cross(ear->at[k], ear->at[(k + 1) % 3], p) < 0) return 0;
+  }
+  if (nsvcd__same_place(p, ear->at[0]) || nsvcd__same_place(p, ear->at[1])) return 0;
+  return !nsvcd__same_place(p, ear->at[2]);
+}
+
+// May an ear hold a corner in a box?
+static int nsvcd__ear_meets(const nsvcd__ear *ear, const nsvcd__corner_box *box) {
+  if (nsvcd__same_place(box->low, box->high)) return nsvcd__ear_holds(ear, box->low);
+  if (ear->box.high.x < box->low.x || ear->box.high.y < box->low.y) return 0;
+  if (ear->box.low.x > box->high.x || ear->box.low.y > box->high.y) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    // All of the box is to the right of a side: its farthest corner to the left tells.
+    const nsvcd__d2 a = ear->at[k];
+    const nsvcd__d2 b = ear->at[(k + 1) % 3];
+    const double x = b.y > a.y ? box->low.x : box->high.x;
+    const nsvcd__d2 left = {x, b.x > a.x ? box->high.y : box->low.y};
+    if (nsvcd__d2_cross(a, b, left) < 0) return 0;
+  }
+  return 1;
+}
+
+// An ear is a convex corner whose triangle holds no other corner; only reflex ones need a look.
+static int nsvcd__polygon_is_ear(const nsvcd__polygon *polygon, uint32_t i) {
+  const nsvcd__corner *corners = polygon->corners;
+  const nsvcd__d2 a = corners[corners[i].previous].at;
+  const nsvcd__d2 c = corners[corners[i].next].at;
+  nsvcd__ear ear = {{a, corners[i].at, c}, nsvcd__no_box()};
+  if (nsvcd__d2_cross(a, ear.at[1], c) <= 0) return 0;
+  for (size_t k = 0; k < 3; k++) nsvcd__box_take(&ear.box, ear.at[k]);
+  for (uint32_t k = 1; k > 0;) {
+    const nsvcd__corner_box *box = &polygon->boxes[k];
+    const int meets = box->reflex > 0 && nsvcd__ear_meets(&ear, box);
+    NSVCD__TALLY(boxes, 1);
+    if (meets && k < polygon->runs) {
+      k *= 2;
+      continue;
+    }
+    const uint32_t first = NSVCD__RUN * (k - polygon->runs);
+    for (uint32_t j = first; meets && j < first + NSVCD__RUN && j < polygon->count; j++) {
+      const nsvcd__corner *p = &corners[polygon->order[j]];
+      if (p->reflex && nsvcd__ear_holds(&ear, p->at)) return 0;
+    }
+    // to the next box that is not within this one; 0: there is none
+    while (k % 2) k /= 2;
+    k += k > 0;
+  }
+  return 1;
+}
+
+// polygon: its corners, 3 or more, with their vertices set. triangles: (count - 2, 3).
+static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *positions,
+                                       uint32_t *triangles) {
+  // A ring of the corners, and a queue of all: each may be an ear.
+  nsvcd__corner *corners = polygon->corners;
+  const uint32_t count = polygon->count;
+  polygon->queue_first = 0;
+  polygon->queue_length = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    corners[i].previous = (i + count - 1) % count;
+    corners[i].next = (i + 1) % count;
+    corners[i].queued = 0;
+    corners[i].reflex = 0;
+  }
+  if (count > 3) {
+    nsvcd__polygon_project(polygon, positions);
+    nsvcd__polygon_box(polygon);
+    for (uint32_t i = 0; i < count; i++) nsvcd__polygon_update(polygon, i);
+  }
+
+  // some corner of what is left
+  uint32_t at = 0;
+  for (uint32_t left = count; left > 3;) {
+    // An empty queue means that no corner is an ear: not a simple polygon. Cut any corner off and
+    // go on.
+    const int stuck = polygon->queue_length == 0;
+    const uint32_t i = stuck ? at : polygon->queue[polygon->queue_first];
+    nsvcd__corner *c = &corners[i];
+    if (!stuck) {
+      polygon->queue_first = (polygon->queue_first + 1) % count;
+      polygon->queue_length--;
+      c->queued = 0;
+    }
+    if (!stuck && !nsvcd__polygon_is_ear(polygon, i)) continue;
+    triangles[0] = corners[c->previous].vertex;
+    triangles[1] = c->vertex;
+    triangles[2] = corners[c->next].vertex;
+    triangles += 3;
+    left--;
+    corners[c->previous].next = c->next;
+    corners[c->next].previous = c->previous;
+    nsvcd__polygon_set_reflex(polygon, i, 0);
+    nsvcd__polygon_update(polygon, c->previous);
+    nsvcd__polygon_update(polygon, c->next);
+    at = c->next;
+  }
+  triangles[0] = corners[at].vertex;
+  triangles[1] = corners[corners[at].next].vertex;
+  triangles[2] = corners[corners[at].previous].vertex;
+}
+#endif  // NSVCD_NO_OBJ

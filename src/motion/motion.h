@@ -1,0 +1,277 @@
+// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
+// position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
+// *moving*, in the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame
+// it is, in units of its scale, so that its stored numbers need no change. A point x of the moving
+// body is at scale R x + p there. Positions are subtracted in the world first, so a scene far from
+// the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding
+// picks one.
+//
+// Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
+// two of its poses: the least common multiple. A *knot* is a tick at which a pose of either is.
+// Between two knots both motions are smooth.
+#pragma once
+#include "../interface/queries.h"
+#include "../body/body.h"
+#include "../lanes/turns.h"
+
+// The poses of one body.
+typedef struct nsvcd__track {
+  // (count), the caller's
+  const nsvcd_pose *poses;
+  size_t count;
+  // from a pose to the next; all of them where there is one pose
+  uint32_t ticks;
+} nsvcd__track;
+
+typedef struct nsvcd__motion {
+  nsvcd__track moving, fixed;
+  uint32_t ticks;  // in all
+  // t: 0 and 1; of one end alone 0 or 1, and 0
+  double begin, duration;
+  // else it has one pose
+  int fixed_moves;
+  float scale;      // of the moving body, over that of the fixed one,
+  float per_scale;  // and the other way round
+  // of the fixed body's frame: its scale, metres
+  float unit;
+  nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
+  // world axes to the fixed body's axes at t = 0
+  nsvcd__mat3 to_fixed;
+  nsvcd__quat to_fixed_quat;
+  // of the moving body's origin less the fixed one's, in world axes, metres
+  nsvcd__f3 low, high;
+  // by which the moving body is held off its poses, as the fixed one sees it, in its units
+  nsvcd__f3 lift;
+} nsvcd__motion;
+
+// Are all numbers in range and all quaternions of unit length, to 1e-4?
+static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
+  // 7 to a pose
+  const float *numbers = poses->position;
+  uint32_t most = 0;
+  float shortest = 1;
+  float longest = 1;
+  for (size_t k = 0; k < 7 * count; k++) {
+    const uint32_t bits = nsvcd__magnitude(numbers[k]);
+    most = bits > most ? bits : most;
+  }
+  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
+  for (size_t k = 0; k < count; k++) {
+    const float *q = poses[k].rotation;
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest;
+    longest = square > longest ? square : longest;
+  }
+  return shortest >= 0.9998f && longest <= 1.0002f;
+}
+
+// What a mover that is at rest at the origin is given.
+static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
+
+// A mover's scale, which is 1 where 0 is given.
+static float nsvcd__scale_of(const nsvcd_mover *mover) {
+  return mover->scale > 0 ? mover->scale : 1;
+}
+
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
+  return mover->poses ? mover->count : 1;
+}
+
+static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
+  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
+  const float scale = mover->scale;
+  if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
+  if (scale > 0) {
+    if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
+    if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
+  }
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+}
+
+static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
+  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
+                        nsvcd__pose_count(mover), 0};
+  return track;
+}
+
+// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which
+// 32 bits hold, for parts is 1 but where knots are few.
+static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
+  const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
+  const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
+  uint32_t divisor = a;
+  for (uint32_t rest = b; rest;) {
+    const uint32_t next = divisor % rest;
+    divisor = rest;
+    rest = next;
+  }
+  motion->ticks = a / divisor * b * parts;
+  motion->moving.ticks = motion->ticks / a;
+  motion->fixed.ticks = motion->ticks / b;
+}
+
+// The box of a track's positions.
+static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
+  nsvcd__box box;
+  box.low = box.high = nsvcd__f3_load(track->poses->position);
+  for (size_t n = 1; n < track->count; n++) {
+    const nsvcd__f3 position = nsvcd__f3_load(track->poses[n].position);
+    box.low = nsvcd__f3_min(box.low, position);
+    box.high = nsvcd__f3_max(box.high, position);
+  }
+  return box;
+}
+
+// Prepares what follows from a motion's tracks.
+static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
+                                     nsvcd__track fixed) {
+  motion->moving = moving;
+  motion->fixed = fixed;
+  motion->fixed_moves = motion->fixed.count > 1;
+  nsvcd__motion_set_ticks(motion, 1);
+
+  const nsvcd_pose *first = motion->fixed.poses;
+  const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
+  motion->to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(q));
+  motion->to_fixed_quat = nsvcd__quat_inverse(q);
+  motion->fixed_position = nsvcd__f3_load(first->position);
+
+  const nsvcd__box at = nsvcd__track_box(&motion->moving);
+  const nsvcd__box from = nsvcd__track_box(&motion->fixed);
+  motion->low = nsvcd__f3_sub(at.low, from.high);
+  motion->high = nsvcd__f3_sub(at.high, from.low);
+}
+
+// Prepares the motion of valid movers. Keeps the pointers to their poses.
+static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
+                               nsvcd__motion *motion) {
+  motion->unit = nsvcd__scale_of(fixed);
+  motion->scale = nsvcd__scale_of(moving) / motion->unit;
+  motion->per_scale = 1 / motion->scale;
+  motion->lift = nsvcd__f3_of(0, 0, 0);
+  motion->begin = 0;
+  motion->duration = 1;
+  nsvcd__motion_set_tracks(motion, nsvcd__track_of(moving), nsvcd__track_of(fixed));
+}
+
+// In the fixed body's units: the moving body's origin always stays so far from the fixed one's.
+static float nsvcd__motion_gap(const nsvcd__motion *motion) {
+  const nsvcd__f3 above = nsvcd__f3_scale(motion->high, -1);
+  const nsvcd__f3 gap = nsvcd__f3_max(motion->low, above);
+  const nsvcd__f3 apart = nsvcd__f3_max(gap, nsvcd__f3_of(0, 0, 0));
+  return 0.99999f * nsvcd__f3_length(apart) / motion->unit;
+}
+
+// Is the shorter arc from a to b the one to -b?
+static inline int nsvcd__poses_opposed(const nsvcd_pose *a, const nsvcd_pose *b) {
+  return nsvcd__quats_opposed(nsvcd__quat_load(a->rotation), nsvcd__quat_load(b->rotation));
+}
+
+// A body's pose in the world: rotation unit to 1e-4, position in metres. In double: on a long way
+// past the other body, roundings of its ends would be large beside what is near.
+typedef struct nsvcd__world_pose {
+  nsvcd__quat rotation;
+  nsvcd__d3 position;
+} nsvcd__world_pose;
+
+static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
+  const nsvcd__world_pose out = {nsvcd__quat_load(pose->rotation),
+                                 nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// Between two poses, a share of the way from the first.
+static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
+                                                   double share) {
+  const nsvcd__world_pose from = nsvcd__world_pose_of(a);
+  const nsvcd__world_pose to = nsvcd__world_pose_of(b);
+  nsvcd__world_pose out;
+  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)share);
+  out.position = nsvcd__d3_mix(from.position, to.position, share);
+  return out;
+}
+
+// A track's pose at a tick.
+static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t tick) {
+  const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
+  const uint32_t past = tick - k * track->ticks;
+  const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
+  if (past == 0 || track->count == 1) return nsvcd__world_pose_of(a);
+  return nsvcd__world_pose_between(a, a + 1, (double)past / (double)track->ticks);
+}
+
+// The knot after a tick.
+static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
+  const uint32_t a = motion->moving.ticks;
+  const uint32_t b = motion->fixed.ticks;
+  if (a == 1 || b == 1) return tick + 1;
+  const uint32_t after_a = (tick / a + 1) * a;
+  const uint32_t after_b = (tick / b + 1) * b;
+  return after_a < after_b ? after_a : after_b;
+}
+
+// Poses of both bodies at the times of one slice, in the world.
+typedef struct nsvcd__v_poses {
+  // of any length
+  nsvcd__vquat moving;
+  nsvcd__vquat fixed;  // unit; only where that body moves
+  // of the moving body's origin from the fixed one's, metres
+  nsvcd__v3 offset;
+} nsvcd__v_poses;
+
+// A slice of poses.
+typedef struct nsvcd__v_pose {
+  nsvcd__vquat rotation;
+  nsvcd__v3 position;
+} nsvcd__v_pose;
+
+// The moving body's poses as the fixed one sees them: quaternions of any length, positions in its
+// units.
+static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_poses *at) {
+  const nsvcd__v per_metre = nsvcd__v_set(1 / motion->unit);
+  nsvcd__vquat to_fixed;
+  nsvcd__vmat3 matrix;
+  if (motion->fixed_moves) {
+    to_fixed = nsvcd__vquat_inverse(at->fixed);
+    matrix = nsvcd__vmat3_of(to_fixed);
+  } else {
+    to_fixed = nsvcd__vquat_set(motion->to_fixed_quat);
+    matrix = nsvcd__vmat3_set(&motion->to_fixed);
+  }
+  const nsvcd__v3 metres = nsvcd__vmat3_apply(matrix, at->offset);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_mul(to_fixed, at->moving);
+  out.position = nsvcd__v3_fma(per_metre, metres, nsvcd__v3_set(motion->lift));
+  return out;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  const size_t last = track->count - 2;
+  const float at = t * (float)(last + 1);
+  const size_t k = (size_t)at < last ? (size_t)at : last;
+  const double share = (double)(at - (float)k);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], share);
+}
+
+// The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
+// multiplied by the scale first.
+static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t) {
+  const float when = t < 0 ? 0 : t > 1 ? 1 : t;
+  const nsvcd__world_pose moving = nsvcd__track_pose_at(&motion->moving, when);
+  const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, when);
+  const nsvcd__mat3 rotation = nsvcd__mat3_of(moving.rotation);
+  const nsvcd__mat3 to_fixed = nsvcd__mat3_transpose(nsvcd__mat3_of(fixed.rotation));
+  const nsvcd__d3 metres = nsvcd__d3_sub(moving.position, fixed.position);
+  const nsvcd__f3 offset = nsvcd__d3_narrow(nsvcd__d3_over(metres, (double)motion->unit));
+  nsvcd__transform out;
+  out.rotation = nsvcd__mat3_mul(&to_fixed, &rotation);
+  out.position = nsvcd__f3_add(nsvcd__mat3_apply(&to_fixed, offset), motion->lift);
+  return out;
+}
+#endif

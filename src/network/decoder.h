@@ -1,0 +1,268 @@
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each.
+#pragma once
+#include "pairs.h"
+
+#ifndef NSVCD_NO_NETWORK
+// Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
+typedef struct nsvcd__layer {
+  size_t inputs, outputs;  // multiples of 4, and of 16
+  // in nsvcd_w_decoder, (inputs, outputs), and in nsvcd_w_decoder_int8
+  size_t weights;
+  // of its outputs, in nsvcd_w_decoder_bias, _scale and _sum
+  size_t first;
+  int relu;
+} nsvcd__layer;
+
+// The n-th layer of a decoder.
+static nsvcd__layer nsvcd__layer_of(const nsvcd__decoder *decoder, size_t n) {
+  const size_t *sizes = decoder->sizes;
+  nsvcd__layer out;
+  out.inputs = sizes[n];
+  out.outputs = sizes[n + 1];
+  out.weights = decoder->weights;
+  out.first = decoder->outputs;
+  out.relu = n + 1 < decoder->layers;
+  for (size_t k = 0; k < n; k++) {
+    out.weights += sizes[k] * sizes[k + 1];
+    out.first += sizes[k + 1];
+  }
+  return out;
+}
+
+#ifndef NSVCD_NO_FLOAT
+// Outputs o .. o + tiles * SLICE - 1 of a layer for so many rows: x, of which a row begins every
+// `pitch` floats, and y (rows, WIDEST). rows * tiles sums must fit into the registers.
+NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const float *x,
+                                     size_t pitch, float *y, size_t rows, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int relu = layer->relu;
+  const float *w = nsvcd_w_decoder + layer->weights + o;
+  const float *bias = nsvcd_w_decoder_bias + layer->first + o;
+  nsvcd__v sum[8][4], column[4];
+  NSVCD__UNROLL
+  for (size_t p = 0; p < rows; p++) {
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_load(bias + NSVCD__SLICE * t);
+  }
+  for (size_t i = 0; i < inputs; i++, w += outputs) {
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++) column[t] = nsvcd__v_load(w + NSVCD__SLICE * t);
+    NSVCD__UNROLL
+    for (size_t p = 0; p < rows; p++) {
+      const nsvcd__v input = nsvcd__v_set(x[pitch * p + i]);
+      NSVCD__UNROLL
+      for (size_t t = 0; t < tiles; t++) sum[p][t] = nsvcd__v_fma(input, column[t], sum[p][t]);
+    }
+  }
+  NSVCD__UNROLL
+  for (size_t p = 0; p < rows; p++) {
+    float *row = y + NSVCD__WIDEST * p + o;
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++) {
+      const nsvcd__v value = relu ? nsvcd__v_max(sum[p][t], nsvcd__v_set(0)) : sum[p][t];
+      nsvcd__v_store(row + NSVCD__SLICE * t, value);
+    }
+  }
+}
+
+// As nsvcd__decoder_logits, in fp32. The weights of the largest decoder do not fit into the first
+// cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
+// outputs, or by 4 slices where that is less, in fewer.
+#define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
+static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
+                                                  const float *x, size_t count,
+                                                  float *logits) {
+  const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
+  float a[NSVCD__ROWS * NSVCD__WIDEST];
+  float b[NSVCD__ROWS * NSVCD__WIDEST];
+  float *y = a;
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    const size_t outputs = layer.outputs;
+    size_t p = 0;
+    size_t o;
+#if NSVCD__SLICE == 16
+    for (; p + 8 <= rows; p += 8) {
+      const float *from = x + pitch * p;
+      float *to = y + NSVCD__WIDEST * p;
+      for (o = 0; o + 32 <= outputs; o += 32)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 2);
+      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 8, 1);
+    }
+#endif
+    for (; p < rows; p += 4) {
+      const float *from = x + pitch * p;
+      float *to = y + NSVCD__WIDEST * p;
+#if NSVCD__SLICE == 16
+      for (o = 0; o + 64 <= outputs; o += 64)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 4);
+      for (; o + 32 <= outputs; o += 32) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 2);
+      if (o < outputs) nsvcd__layer_tile(&layer, o, from, pitch, to, 4, 1);
+#else
+      for (o = 0; o < outputs; o += NSVCD__TILES * NSVCD__SLICE)
+        nsvcd__layer_tile(&layer, o, from, pitch, to, 4, NSVCD__TILES);
+#endif
+    }
+    x = y;
+    pitch = NSVCD__WIDEST;
+    y = y == a ? b : a;
+  }
+  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+}
+#endif  // NSVCD_NO_FLOAT
+
+#ifndef NSVCD_NO_INT8
+// nsvcd__layer_by_bytes is a layer in integers, for BYTE_ROWS rows, which share the weights that
+// are loaded: x, of which a row begins every `pitch` floats, and y (BYTE_ROWS, WIDEST), which may
+// take x's place. Inputs over the largest of them are bytes in [1, 255] about 128, because the
+// processors' instructions multiply unsigned by signed bytes, by weights of (inputs / 4, outputs,
+// 4); sums are exact in int32, and 128 times the sum of the weights too much.
+#ifdef NSVCD__VNNI
+#define NSVCD__BYTE_ROWS 4
+// Outputs o .. o + 16 tiles - 1 of bytes (4, inputs): dot (4, outputs).
+NSVCD__INLINE void nsvcd__dot_tile(const nsvcd__layer *layer, size_t o, const uint8_t *bytes,
+                                   int32_t *dot, size_t tiles) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights + 4 * o;
+  __m512i sum[4][4];
+  NSVCD__UNROLL
+  for (size_t p = 0; p < 4; p++) {
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++) sum[p][t] = _mm512_setzero_si512();
+  }
+  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++) {
+      const __m512i column = _mm512_loadu_si512((const void *)(w + 64 * t));
+      NSVCD__UNROLL
+      for (size_t p = 0; p < 4; p++) {
+        int32_t word;
+        memcpy(&word, bytes + inputs * p + i, sizeof word);
+        sum[p][t] = _mm512_dpbusd_epi32(sum[p][t], _mm512_set1_epi32(word), column);
+      }
+    }
+  }
+  NSVCD__UNROLL
+  for (size_t p = 0; p < 4; p++) {
+    NSVCD__UNROLL
+    for (size_t t = 0; t < tiles; t++)
+      _mm512_storeu_si512((void *)(dot + outputs * p + o + 16 * t), sum[p][t]);
+  }
+}
+static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, size_t pitch,
+                                  float *y) {
+  const size_t outputs = layer->outputs;
+  const float *weights = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  uint8_t bytes[NSVCD__BYTE_ROWS * NSVCD__MOST_INPUTS];
+  int32_t dot[NSVCD__BYTE_ROWS * NSVCD__WIDEST];
+  float step[NSVCD__BYTE_ROWS];
+  for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
+    const float *row = x + pitch * p;
+    uint8_t *to = bytes + layer->inputs * p;
+    __m512 most = _mm512_set1_ps(1e-20f);
+    for (size_t i = 0; i < layer->inputs; i += 16)
+      most = nsvcd__v_max(most, _mm512_abs_ps(_mm512_loadu_ps(row + i)));
+    const float largest = 0 - nsvcd__v_least(nsvcd__v_sub(nsvcd__v_set(0), most));
+    const __m512 inverse = _mm512_set1_ps(127 / largest);
+    const __m512 middle = _mm512_set1_ps(128.5f);
+    for (size_t i = 0; i < layer->inputs; i += 16) {
+      const __m512 scaled = _mm512_fmadd_ps(_mm512_loadu_ps(row + i), inverse, middle);
+      const __m512i value = _mm512_maskz_cvttps_epi32(NSVCD__ALL, scaled);
+      const __m128i narrow = _mm512_maskz_cvtepi32_epi8(NSVCD__ALL, value);
+      _mm_storeu_si128((__m128i *)(void *)(to + i), narrow);
+    }
+    step[p] = largest / 127;
+  }
+  size_t o = 0;
+  for (; o + 64 <= outputs; o += 64) nsvcd__dot_tile(layer, o, bytes, dot, 4);
+  for (; o + 32 <= outputs; o += 32) nsvcd__dot_tile(layer, o, bytes, dot, 2);
+  if (o < outputs) nsvcd__dot_tile(layer, o, bytes, dot, 1);
+  const __m512 least = _mm512_set1_ps(layer->relu ? 0 : -1e30f);
+  const __m512 middle = _mm512_set1_ps(-128);
+  for (size_t p = 0; p < NSVCD__BYTE_ROWS; p++) {
+    const __m512 steps = _mm512_set1_ps(step[p]);
+    for (o = 0; o < outputs; o += 16) {
+      const __m512i whole = _mm512_loadu_si512((const void *)(dot + outputs * p + o));
+      const __m512 value = _mm512_maskz_cvtepi32_ps(NSVCD__ALL, whole);
+      const __m512 exact = _mm512_fmadd_ps(_mm512_loadu_ps(weights + o), middle, value);
+      const __m512 factor = _mm512_mul_ps(steps, _mm512_loadu_ps(scale + o));
+      const __m512 out = _mm512_fmadd_ps(exact, factor, _mm512_loadu_ps(bias + o));
+      _mm512_storeu_ps(y + NSVCD__WIDEST * p + o, nsvcd__v_max(least, out));
+    }
+  }
+}
+#else
+#define NSVCD__BYTE_ROWS 1
+static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, size_t pitch,
+                                  float *y) {
+  const size_t inputs = layer->inputs;
+  const size_t outputs = layer->outputs;
+  const int8_t *w = nsvcd_w_decoder_int8 + layer->weights;
+  const float *weights = nsvcd_w_decoder_sum + layer->first;
+  const float *scale = nsvcd_w_decoder_scale + layer->first;
+  const float *bias = nsvcd_w_decoder_bias + layer->first;
+  uint8_t bytes[NSVCD__MOST_INPUTS];
+  int32_t dot[NSVCD__WIDEST];
+  float most = 1e-20f;
+  (void)pitch;
+  for (size_t i = 0; i < inputs; i++) most = fabsf(x[i]) > most ? fabsf(x[i]) : most;
+  const float inverse = 127 / most;
+  const float step = most / 127;
+  for (size_t i = 0; i < inputs; i++) bytes[i] = (uint8_t)(int32_t)(x[i] * inverse + 128.5f);
+  memset(dot, 0, outputs * sizeof *dot);
+  for (size_t i = 0; i < inputs; i += 4, w += 4 * outputs) {
+    const int32_t x0 = bytes[i];
+    const int32_t x1 = bytes[i + 1];
+    const int32_t x2 = bytes[i + 2];
+    const int32_t x3 = bytes[i + 3];
+    for (size_t o = 0; o < outputs; o++) {
+      dot[o] += (x0 * w[4 * o] + x1 * w[4 * o + 1]) + (x2 * w[4 * o + 2] + x3 * w[4 * o + 3]);
+    }
+  }
+  for (size_t o = 0; o < outputs; o++) {
+    const float exact = (float)dot[o] - 128 * weights[o];
+    const float value = bias[o] + exact * (step * scale[o]);
+    y[o] = layer->relu && value < 0 ? 0 : value;
+  }
+}
+#endif
+
+// As nsvcd__decoder_logits, in int8 arithmetic.
+static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
+                                                 size_t count, float *logits) {
+  float y[NSVCD__ROWS * NSVCD__WIDEST];
+  size_t pitch = NSVCD__DECODER_IN;
+  for (size_t n = 0; n < decoder->layers; n++) {
+    const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
+    for (size_t p = 0; p < count; p += NSVCD__BYTE_ROWS)
+      nsvcd__layer_by_bytes(&layer, x + pitch * p, pitch, y + NSVCD__WIDEST * p);
+    x = y;
+    pitch = NSVCD__WIDEST;
+  }
+  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+}
+#endif  // NSVCD_NO_INT8
+
+// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by a decoder, in fp32 or int8
+// arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
+static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
+                                  int int8, float *logits) {
+#ifdef NSVCD_NO_INT8
+  (void)int8;
+  nsvcd__decoder_by_floats(decoder, x, count, logits);
+#elif defined(NSVCD_NO_FLOAT)
+  (void)int8;
+  nsvcd__decoder_by_bytes(decoder, x, count, logits);
+#else
+  if (int8)
+    nsvcd__decoder_by_bytes(decoder, x, count, logits);
+  else
+    nsvcd__decoder_by_floats(decoder, x, count, logits);
+#endif
+}
+#endif  // NSVCD_NO_NETWORK

@@ -1,0 +1,395 @@
+// In: candidate pairs of patches and the motion over the intervals in which their balls meet.
+// Out: their invariants (n, DECODER_IN), of which the decoder makes a logit each.
+//
+// The motion is linearised about the middle of the interval; then everything is expressed in a
+// frame that moves with the pair, in units of r1 + r2 (NeuralSVCD, appendix F), so the logit is
+// invariant to rigid motion and scale. The symmetries that are left are removed by convention, not
+// learned:
+//   swap           the larger patch comes first
+//   axis 1         the line between the centres
+//   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
+//                  the patches' mean directions, latent channel 0), so that it has a limit where
+//                  the velocity vanishes
+//   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
+//   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
+//                  is for a pair at rest, the frame is right-handed
+// Degenerate cases: centres that coincide (to 1e-5 of r1 + r2) take the lean, else x, as axis 1; a
+// reference that vanishes takes the coordinate axis farthest from axis 1 as axis 2.
+//
+// Pairs are asked about in batches of 16, at most. They become inputs a slice at a time, one per
+// lane (only their latents are turned pair by pair, channels side by side), and these go through
+// the layers some rows at a time.
+#pragma once
+#include "../motion/segments.h"
+#include "latent_rotation.h"
+
+#ifndef NSVCD_NO_NETWORK
+#define NSVCD__BATCH NSVCD__LANES
+// Rows of inputs at a time, and the step in which the layers of floats go through them: where there
+// are no vectors, there may be no stack for more, and without floats nothing is gained by more than
+// one.
+#if NSVCD__SLICE > 1
+#define NSVCD__ROWS NSVCD__BATCH
+#define NSVCD__ROW_STEP 4
+#elif !defined(NSVCD_NO_FLOAT)
+#define NSVCD__ROWS 4
+#define NSVCD__ROW_STEP 4
+#else
+#define NSVCD__ROWS 1
+#define NSVCD__ROW_STEP 1
+#endif
+// What the decoder sees of a pair's geometry, in the pair's frame and units; vectors take three
+// numbers.
+enum {
+  // of the centres
+  NSVCD__FACT_DISTANCE = 0,
+  NSVCD__FACT_RADIUS = 1,   // the larger one
+  NSVCD__FACT_CLOSEST = 2,  // distance of the centres, when they come closest,
+  NSVCD__FACT_TAU = 3,      // and when that is: -1 and 1 are the ends of the interval
+  NSVCD__FACT_VELOCITY = 4,
+  NSVCD__FACT_TURN = 7,
+  NSVCD__FACT_SPEED = 10,  // the lengths of these two
+  NSVCD__FACT_SPIN = 11,
+  NSVCD__FACTS = 12
+};
+#define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
+#define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
+// Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
+#define NSVCD__WIDEST_TINY 32
+#define NSVCD__WIDEST_SMALL 96
+#ifndef NSVCD_NO_BASE
+#define NSVCD__WIDEST NSVCD_W_WIDEST
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__WIDEST NSVCD__WIDEST_SMALL
+#else
+#define NSVCD__WIDEST NSVCD__WIDEST_TINY
+#endif
+// of a layer
+#define NSVCD__MOST_INPUTS \
+  (NSVCD__WIDEST > NSVCD__DECODER_IN ? NSVCD__WIDEST : NSVCD__DECODER_IN)
+#define NSVCD__LEAN 0.05f  // share of the lean in axis 2
+#define NSVCD__SIDE 1e-4f  // a lean less than this to one side of axes 1 and 2 is on neither
+
+// ---- pairs, as they move
+
+// A slice of pairs.
+typedef struct nsvcd__pairs {
+  // centres at mid-interval: of the moving patch, of the fixed one; the fixed body's frame
+  nsvcd__v3 p1, p2;
+  // the balls' radii
+  nsvcd__v r1, r2;
+  nsvcd__vmat3 rotation;  // of the moving body at mid-interval
+  // half displacement of the point midway between p1 and p2, as part of the moving body
+  nsvcd__v3 v;
+  nsvcd__v3 w;  // half rotation vector
+  // latents, in the bodies' frames
+  const int8_t *z[2][NSVCD__SLICE];
+} nsvcd__pairs;
+
+// Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
+// times its vector part.
+static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
+  // of asin(s) / s by s^2, from its end, to 2e-6 for s < 0.5
+  static const float series[5] = {0.03038194f, 0.04464286f, 0.075f, 0.16666667f, 1};
+  const nsvcd__v3 axis = nsvcd__vquat_axis(q);
+  const nsvcd__v sign = nsvcd__v_sign(q.w);
+  const nsvcd__v square = nsvcd__v3_dot(axis, axis);
+  nsvcd__v ratio = nsvcd__v_set(0.02237216f);
+  for (size_t k = 0; k < 5; k++) ratio = nsvcd__v_fma(ratio, square, nsvcd__v_set(series[k]));
+  // over 60 degrees: a motion of few poses
+  uint32_t wide = nsvcd__v_le(nsvcd__v_set(0.25f), square);
+  if (wide) {
+    float ratios[NSVCD__SLICE];
+    float squares[NSVCD__SLICE];
+    float cosines[NSVCD__SLICE];
+    nsvcd__v_store(ratios, ratio);
+    nsvcd__v_store(squares, square);
+    nsvcd__v_store(cosines, nsvcd__v_mul(sign, q.w));
+    for (; wide; wide &= wide - 1) {
+      const size_t l = nsvcd__lowest_bit(wide);
+      const float sine = sqrtf(squares[l]);
+      ratios[l] = atan2f(sine, cosines[l]) / sine;
+    }
+    ratio = nsvcd__v_load(ratios);
+  }
+  return nsvcd__v3_scale(axis, nsvcd__v_mul(sign, ratio));
+}
+
+// A track's poses at `count` times t in [0,1], 1 to SLICE, one per lane: unit quaternions, and
+// positions from an origin.
+static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
+                                           size_t count, nsvcd__f3 origin) {
+  float share[NSVCD__SLICE] = {0};
+  float rotation[4 * NSVCD__SLICE] = {0};
+  float turned[4 * NSVCD__SLICE] = {0};
+  float position[3 * NSVCD__SLICE] = {0};
+  float moved[3 * NSVCD__SLICE] = {0};
+  const int moves = track->count > 1;
+  const size_t last = moves ? track->count - 2 : 0;
+  for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
+  for (size_t l = 0; l < count; l++) {
+    const float at = moves ? t[l] * (float)(last + 1) : 0;
+    const size_t k = (size_t)at < last ? (size_t)at : last;
+    const nsvcd_pose *a = &track->poses[k];
+    const nsvcd_pose *b = moves ? a + 1 : a;
+    const nsvcd__f3 from = nsvcd__f3_load(a->position);
+    const nsvcd__f3 to = nsvcd__f3_load(b->position);
+    nsvcd__quat q = nsvcd__quat_load(a->rotation);
+    const nsvcd__quat next = nsvcd__quat_load(b->rotation);
+    const float cosine = nsvcd__quat_dot(q, next);
+    const float sign = cosine < 0 ? -1.0f : 1.0f;
+    const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
+                               sign * next.w - q.w};
+    share[l] = at - (float)k;
+    // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
+    // radians.
+    if (fabsf(cosine) < 0.999f)
+      q = nsvcd__quat_slerp(q, next, share[l]);
+    else
+      nsvcd__quat_put(chord, turned + l, NSVCD__SLICE);
+    nsvcd__quat_put(q, rotation + l, NSVCD__SLICE);
+    nsvcd__f3_put(nsvcd__f3_sub(from, origin), position + l, NSVCD__SLICE);
+    nsvcd__f3_put(nsvcd__f3_sub(to, from), moved + l, NSVCD__SLICE);
+  }
+  const nsvcd__v u = nsvcd__v_load(share);
+  const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
+  const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
+  const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
+  nsvcd__v_pose out;
+  out.rotation = nsvcd__vquat_unit(nsvcd__vquat_fma(u, chord, start));
+  out.position = nsvcd__v3_fma(u, way, nsvcd__v3_load_rows(position, NSVCD__SLICE));
+  return out;
+}
+
+// The moving body's poses in the fixed frame at `count` times, 1 to SLICE, one per lane.
+static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float *t,
+                                       size_t count) {
+  const nsvcd__f3 origin = motion->fixed_position;
+  nsvcd__v_pose pose = nsvcd__track_poses_at(&motion->moving, t, count, origin);
+  nsvcd__v_poses at = {pose.rotation, pose.rotation, pose.position};
+  if (motion->fixed_moves) {
+    pose = nsvcd__track_poses_at(&motion->fixed, t, count, origin);
+    at.fixed = pose.rotation;
+    at.offset = nsvcd__v3_sub(at.offset, pose.position);
+  }
+  return nsvcd__v_seen(motion, &at);
+}
+
+// The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
+static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                         const nsvcd__motion *motion,
+                                         nsvcd__candidate *const *candidates, size_t count,
+                                         nsvcd__pairs *pairs) {
+  // of entry, of exit, and halfway
+  float times[3][NSVCD__SLICE];
+  nsvcd__v_pose at[3];
+  float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  float radii[2][NSVCD__SLICE] = {{0}, {0}};
+  for (size_t l = 0; l < count; l++) {
+    const nsvcd__candidate *candidate = candidates[l];
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_body *body = n == 0 ? moving : fixed;
+      const size_t i = n == 0 ? candidate->moving : candidate->fixed;
+      const float scale = n == 0 ? motion->scale : 1;
+      const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(body), i);
+      nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
+      radii[n][l] = scale * patch.radius;
+      pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+    }
+    times[0][l] = candidate->t_enter;
+    times[1][l] = candidate->t_exit;
+    times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
+  }
+  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
+
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres[0], NSVCD__SLICE);
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
+  pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
+  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+  pairs->r1 = nsvcd__v_load(radii[0]);
+  pairs->r2 = nsvcd__v_load(radii[1]);
+}
+
+// ---- frames and facts
+
+// Pairs in their own units, in the fixed body's axes, and their frames.
+typedef struct nsvcd__views {
+  // 1 over the unit of length; the radii
+  nsvcd__v inverse, k1, k2;
+  // -1: the other patch is the larger
+  nsvcd__v swap;
+  // the line from the larger patch to the smaller one
+  nsvcd__v3 d;
+  nsvcd__v3 lean;
+  // reversed where time is to run backwards
+  nsvcd__v3 v, w;
+  // rows are its axes in the fixed body's frame
+  nsvcd__vmat3 frame;
+  // -1 where mirrored, else 1
+  nsvcd__v side;
+} nsvcd__views;
+
+// Removes from a its part along the unit vector e.
+static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
+  return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
+}
+
+// a over its length, where that exceeds `least`; elsewhere `instead`.
+static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
+  const nsvcd__v length = nsvcd__v3_length(a);
+  const nsvcd__v floor = nsvcd__v_set(least);
+  const nsvcd__v inverse = nsvcd__v_div(nsvcd__v_set(1), nsvcd__v_max(length, floor));
+  const nsvcd__v3 unit = nsvcd__v3_scale(a, inverse);
+  return nsvcd__v3_of(nsvcd__v_pick(length, floor, instead.x, unit.x),
+                      nsvcd__v_pick(length, floor, instead.y, unit.y),
+                      nsvcd__v_pick(length, floor, instead.z, unit.z));
+}
+
+// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
+static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
+  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
+}
+
+// Views of the first `count` pairs of a slice.
+static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v minus = nsvcd__v_set(-1);
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
+  float means[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  for (size_t n = 0; n < 2; n++) {
+    for (size_t l = 0; l < count; l++)
+      nsvcd__f3_put(nsvcd__mean_direction(pairs->z[n][l]), means[n] + l, NSVCD__SLICE);
+  }
+  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[0], NSVCD__SLICE), step);
+  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[1], NSVCD__SLICE), step);
+  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
+  // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
+  const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
+  const nsvcd__v least = nsvcd__v_fma(nsvcd__v_set(1e-6f), lengths, nsvcd__v_set(1e-30f));
+  const nsvcd__v unit = nsvcd__v_max(nsvcd__v_add(pairs->r1, pairs->r2), least);
+  const nsvcd__v inverse = nsvcd__v_div(one, unit);
+  view->inverse = inverse;
+  view->k1 = nsvcd__v_mul(pairs->r1, inverse);
+  view->k2 = nsvcd__v_mul(pairs->r2, inverse);
+  view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
+  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
+  // can stay.
+  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
+  const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
+  const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
+  view->lean = lean;
+  view->d = nsvcd__v3_scale(nsvcd__v3_scale(between, inverse), view->swap);
+
+  // The frames, and which way time runs.
+  const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+  const nsvcd__v3 line = nsvcd__v3_of(nsvcd__v_plus(lean.x, 1e-6f), lean.y, lean.z);
+  nsvcd__v3 instead = nsvcd__v_unit_or(line, 1e-9f, x_axis);
+  const nsvcd__v3 e1 = nsvcd__v_unit_or(view->d, 1e-5f, instead);
+  const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
+  const nsvcd__v3 v_across = nsvcd__v_across(v, e1);
+  const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
+  view->v = nsvcd__v3_scale(v, sign);
+  view->w = nsvcd__v3_scale(pairs->w, sign);
+  const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
+  const nsvcd__v3 ref = nsvcd__v3_fma(nsvcd__v_set(NSVCD__LEAN), lean_across, forward);
+  // where the reference vanishes in some lane: the coordinate axis farthest from e1
+  if (nsvcd__v_le(nsvcd__v3_length(ref), nsvcd__v_set(1e-7f))) {
+    const nsvcd__v3 size = nsvcd__v3_max(e1, nsvcd__v3_negate(e1));
+    const nsvcd__v x = nsvcd__v_pick(size.x, nsvcd__v_min(size.y, size.z), one, zero);
+    const nsvcd__v y_of_two = nsvcd__v_pick(size.y, size.z, one, zero);
+    const nsvcd__v y = nsvcd__v_mul(nsvcd__v_sub(one, x), y_of_two);
+    const nsvcd__v3 axis = nsvcd__v3_of(x, y, nsvcd__v_sub(one, nsvcd__v_add(x, y)));
+    instead = nsvcd__v_unit_or(nsvcd__v_across(axis, e1), 1e-9f, x_axis);
+  }
+  const nsvcd__v3 e2 = nsvcd__v_unit_or(ref, 1e-7f, instead);
+  const nsvcd__v3 e3 = nsvcd__v3_cross(e1, e2);
+  const nsvcd__v beside = nsvcd__v3_dot(lean, e3);
+  view->side = nsvcd__v_pick(nsvcd__v_set(-NSVCD__SIDE), beside, one, minus);
+  view->frame.x = e1;
+  view->frame.y = e2;
+  view->frame.z = nsvcd__v3_scale(e3, view->side);
+}
+
+// What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
+typedef struct nsvcd__scenes {
+  // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
+  // radii, in units of the pairs' lengths
+  nsvcd__vmat3 turn[2];
+  nsvcd__v k[2];
+  // lanes in which the first patch is the larger
+  uint32_t keep;
+  float facts[NSVCD__FACTS][NSVCD__SLICE];
+} nsvcd__scenes;
+
+// Scenes of the first `count` pairs of a slice.
+static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
+                                          nsvcd__scenes *scene) {
+  nsvcd__views view;
+  nsvcd__views_of(pairs, count, &view);
+  scene->turn[0] = nsvcd__vmat3_mul(view.frame, pairs->rotation);
+  scene->turn[1] = view.frame;
+  scene->k[0] = view.k1;
+  scene->k[1] = view.k2;
+  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.swap);
+
+  const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
+  const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
+  // nearest approach of the centres, in half intervals
+  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
+  const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
+  const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
+  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
+  const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
+  // an axial vector
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);
+
+  float(*facts)[NSVCD__SLICE] = scene->facts;
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
+  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
+  nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
+  nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
+  nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
+  nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
+}
+
+// The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
+// DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
+static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
+                                          const nsvcd__pairs *pairs, size_t count, float *x) {
+  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
+  float wigner[NSVCD__WIGNER][NSVCD__SLICE];
+  for (size_t n = 0; n < 2; n++) {
+    nsvcd__wigner(&scene->turn[n], nsvcd__v_mul(scene->k[n], step), wigner);
+    for (size_t l = 0; l < count; l++) {
+      const size_t place = (scene->keep >> l & 1) == n;
+      nsvcd__rotate_latent(pairs->z[n][l], wigner, l, place, x + NSVCD__DECODER_IN * l);
+    }
+  }
+  for (size_t l = 0; l < count; l++) {
+    float *facts = x + NSVCD__DECODER_IN * l + 2 * NSVCD__LATENT;
+    for (size_t k = 0; k < NSVCD__DECODER_IN - 2 * NSVCD__LATENT; k++)
+      facts[k] = k < NSVCD__FACTS ? scene->facts[k][l] : 0;
+  }
+}
+
+static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+  nsvcd__scenes scene;
+  nsvcd__scenes_of(pairs, count, &scene);
+  nsvcd__inputs_in(&scene, pairs, count, x);
+}
+#endif  // NSVCD_NO_NETWORK

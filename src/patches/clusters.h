@@ -1,0 +1,179 @@
+// In: samples. Out: centres, and the samples of each.
+#pragma once
+#include "samples.h"
+
+#ifndef NSVCD_NO_ENCODER
+// The squared distance of a point from a centre.
+static float nsvcd__squared_to_centre(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
+  const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
+  return nsvcd__f3_dot(offset, offset);
+}
+
+// Lists the nearest other centres of each centre; a short list ends in infinities.
+static void nsvcd__link_centres(nsvcd__patches *p) {
+  const size_t last = NSVCD__NEIGHBOURS - 1;
+  for (uint32_t i = 0; i < p->count; i++) {
+    uint32_t *neighbours = p->neighbours + (size_t)i * NSVCD__NEIGHBOURS;
+    float *quarters = p->quarter_squares + (size_t)i * NSVCD__NEIGHBOURS;
+    for (size_t k = 0; k <= last; k++) {
+      neighbours[k] = i;
+      quarters[k] = HUGE_VALF;
+    }
+    for (uint32_t j = 0; j < p->count; j++) {
+      const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
+      if (j == i || quarter >= quarters[last]) continue;
+      size_t k = last;
+      for (; k > 0 && quarters[k - 1] > quarter; k--) {
+        quarters[k] = quarters[k - 1];
+        neighbours[k] = neighbours[k - 1];
+      }
+      quarters[k] = quarter;
+      neighbours[k] = j;
+    }
+  }
+}
+
+// The centre nearest to a point, of equals the first, found from a guess. A centre twice as far
+// from the guess as the point is cannot be nearer to the point (triangle inequality). So the
+// guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
+static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
+  uint32_t best = guess;
+  float least = nsvcd__squared_to_centre(p, guess, at);
+  for (int all = 0;;) {
+    const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
+    const float *quarters = p->quarter_squares + (size_t)guess * NSVCD__NEIGHBOURS;
+    const size_t most = all ? p->count : NSVCD__NEIGHBOURS;
+    const float own = least;
+    size_t k = 0;
+    for (; k < most && (all || quarters[k] <= own); k++) {
+      const uint32_t i = all ? (uint32_t)k : neighbours[k];
+      const float square = nsvcd__squared_to_centre(p, i, at);
+      if (square > least || (square >= least && i >= best)) continue;
+      best = i;
+      least = square;
+    }
+    if (all || k < most) return best;
+    all = best == guess;
+    guess = best;
+  }
+}
+
+static void nsvcd__forget_samples(nsvcd__patches *p, uint32_t centre) {
+  p->first_sample[centre] = NSVCD__NO_SAMPLE;
+  p->squared_reach[centre] = -1;
+}
+
+// square: of its distance from the owner.
+static inline void nsvcd__give_sample(nsvcd__patches *p, uint32_t s, uint32_t owner,
+                                      float square) {
+  p->owners[s] = (uint16_t)owner;
+  p->squares[s] = square;
+  p->next_sample[s] = p->first_sample[owner];
+  p->first_sample[owner] = s;
+  if (square > p->squared_reach[owner]) {
+    p->squared_reach[owner] = square;
+    p->farthest_sample[owner] = s;
+  }
+}
+
+// Farthest point sampling (Gonzalez 1985). The first centre is the sample farthest from the mean of
+// all. Ends early once every sample is at a centre.
+static void nsvcd__farthest_points(nsvcd__patches *p) {
+  nsvcd__d3 sum = nsvcd__d3_of(0, 0, 0);
+  for (size_t s = 0; s < p->sample_count; s++)
+    sum = nsvcd__d3_add(sum, nsvcd__d3_widen(p->drawn[s]));
+  p->centres[0] = nsvcd__d3_narrow(nsvcd__d3_over(sum, (double)p->sample_count));
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
+    nsvcd__forget_samples(p, 0);
+    for (uint32_t s = 0; s < p->sample_count; s++)
+      nsvcd__give_sample(p, s, 0, nsvcd__squared_to_centre(p, 0, p->drawn[s]));
+  }
+
+  uint32_t count = 1;
+  for (; count < p->count; count++) {
+    uint32_t farthest = 0;
+    for (uint32_t i = 1; i < count; i++)
+      farthest = p->squared_reach[i] > p->squared_reach[farthest] ? i : farthest;
+    if (!(p->squared_reach[farthest] > 0)) break;
+    p->centres[count] = p->drawn[p->farthest_sample[farthest]];
+    nsvcd__forget_samples(p, count);
+    for (uint32_t owner = 0; owner < count; owner++) {
+      // An owner more than twice as far away as its farthest sample loses none (triangle
+      // inequality): most are passed over.
+      const float square = nsvcd__squared_to_centre(p, owner, p->centres[count]);
+      if (0.25f * square > p->squared_reach[owner]) continue;
+      uint32_t s = p->first_sample[owner];
+      nsvcd__forget_samples(p, owner);
+      while (s != NSVCD__NO_SAMPLE) {
+        const uint32_t next = p->next_sample[s];
+        const float old = p->squares[s];
+        const float fresh = nsvcd__squared_to_centre(p, count, p->drawn[s]);
+        const int nearer = fresh < old;
+        nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
+        s = next;
+      }
+    }
+  }
+  p->count = count;
+}
+
+// Moves every centre to the mean of its samples. A centre without samples is dropped, and the
+// others close the gap.
+static void nsvcd__move_centres(nsvcd__patches *p) {
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++) {
+    nsvcd__patch_sum *sum = &p->sums[p->owners[s]];
+    sum->vector = nsvcd__d3_add(sum->vector, nsvcd__d3_widen(p->drawn[s]));
+    sum->weight += 1;
+  }
+
+  uint32_t kept = 0;
+  for (size_t i = 0; i < p->count; i++) {
+    const nsvcd__patch_sum *sum = &p->sums[i];
+    // for now: the new number of patch i
+    p->offsets[i] = kept;
+    if (!(sum->weight > 0)) continue;
+    const nsvcd__d3 mean = nsvcd__d3_over(sum->vector, sum->weight);
+    p->centres[kept++] = nsvcd__d3_narrow(mean);
+  }
+  for (size_t s = 0; s < p->sample_count; s++)
+    p->owners[s] = (uint16_t)p->offsets[p->owners[s]];
+  p->count = kept;
+  nsvcd__link_centres(p);
+}
+
+// Makes a sum reach to a point.
+static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
+  nsvcd__patch_sum *sum = &p->sums[patch];
+  const double square = nsvcd__d3_squared_distance(at, nsvcd__d3_widen(p->centres[patch]));
+  sum->squared_reach = fmax(sum->squared_reach, square);
+}
+
+// Root, rounded up: a radius may be too large by a rounding, never too small.
+static float nsvcd__radius_above(double squared) {
+  return (float)(sqrt(squared) * (1 + 4e-7));
+}
+
+// Writes the samples patch by patch, in a patch in their order (counting sort), and the sample
+// radii.
+static void nsvcd__group_samples(nsvcd__patches *p) {
+  memset(p->offsets, 0, (p->count + 1) * sizeof *p->offsets);
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t s = 0; s < p->sample_count; s++) p->offsets[p->owners[s] + 1]++;
+  for (size_t i = 0; i < p->count; i++) p->offsets[i + 1] += p->offsets[i];
+
+  for (size_t s = 0; s < p->sample_count; s++) {
+    const uint32_t owner = p->owners[s];
+    // afterwards each offset is the next patch's
+    const size_t to = p->offsets[owner]++;
+    p->samples[to] = p->drawn[s];
+    p->normals[to] = p->drawn_normals[s];
+    nsvcd__reach_to(p, owner, nsvcd__d3_widen(p->drawn[s]));
+  }
+  memmove(p->offsets + 1, p->offsets, p->count * sizeof *p->offsets);
+  p->offsets[0] = 0;
+  for (size_t i = 0; i < p->count; i++)
+    p->sample_radii[i] = nsvcd__radius_above(p->sums[i].squared_reach);
+}
+#endif  // NSVCD_NO_ENCODER

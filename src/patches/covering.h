@@ -1,0 +1,141 @@
+// In: centres, their samples, and the mesh. Out: of each patch a ball; together the balls hold
+// every triangle.
+//
+// Every triangle is halved across its longest edge until no edge exceeds `limit`. Each piece goes
+// to the patch whose centre is nearest to the piece's centroid. That patch's ball grows to hold the
+// piece's three corners, and so all of it.
+#pragma once
+#include "clusters.h"
+
+#ifndef NSVCD_NO_ENCODER
+static inline size_t nsvcd__longest_of(const double *e) {
+  if (e[1] > e[0] && e[1] >= e[2]) return 1;
+  return e[2] > e[0] ? 2 : 0;
+}
+// The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
+// the longest; of equal ones the first.
+static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
+  e[0] = nsvcd__d3_squared_distance(t->at[0], t->at[1]);
+  e[1] = nsvcd__d3_squared_distance(t->at[1], t->at[2]);
+  e[2] = nsvcd__d3_squared_distance(t->at[2], t->at[0]);
+  return nsvcd__longest_of(e);
+}
+
+// How many pieces a triangle makes; stops counting beyond `most`. The new edge is the median of the
+// longest one (Apollonius's theorem), so lengths are enough.
+static double nsvcd__count_pieces(const double *e, double limit, double most) {
+  const size_t k = nsvcd__longest_of(e);
+  const size_t next = k == 2 ? 0 : k + 1;
+  const double ab = e[k];
+  const double bc = e[next];
+  const double ca = e[3 - k - next];
+  if (ab <= limit * limit) return 1;
+  const double median = 0.5 * (bc + ca) - 0.25 * ab;
+  const double near_a[3] = {0.25 * ab, median, ca};
+  const double near_b[3] = {0.25 * ab, bc, median};
+  const double pieces = nsvcd__count_pieces(near_a, limit, most);
+  if (pieces > most) return pieces;
+  return pieces + nsvcd__count_pieces(near_b, limit, most - pieces);
+}
+
+// The limit on the edges of pieces: twice, four times ... the given one, until a mesh makes no more
+// than `most` pieces. Writes how many.
+static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double most,
+                                 double *pieces) {
+  // A triangle makes at least as many pieces as its longest edge has limits: no need to begin below
+  // that.
+  double longest = 0;
+  double e[3];
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    const size_t k = nsvcd__edge_squares(&triangle, e);
+    longest = fmax(longest, e[k]);
+  }
+  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
+    *pieces = 0;
+    for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; t++) {
+      const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+      (void)nsvcd__edge_squares(&triangle, e);
+      *pieces += nsvcd__count_pieces(e, limit, most - *pieces);
+    }
+    if (*pieces <= most) return limit;
+  }
+}
+
+// Covers a triangle, halved as often as need be; a small one goes to the patch with the nearest
+// centre. vector: its area times its normal. guess: a patch near by. Returns the patch of the last
+// half: the guess for what comes next.
+static uint32_t nsvcd__cover_triangle(nsvcd__patches *p, double limit, uint32_t guess,
+                                      const nsvcd__triangle *t, nsvcd__d3 vector) {
+  double e[3];
+  const size_t k = nsvcd__edge_squares(t, e);
+  const size_t next = k == 2 ? 0 : k + 1;
+  const nsvcd__d3 a = t->at[k];
+  const nsvcd__d3 b = t->at[next];
+  const nsvcd__d3 c = t->at[3 - k - next];
+  if (e[k] <= limit * limit) {
+    const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_add(a, b), c);
+    const nsvcd__f3 centroid = nsvcd__d3_narrow(nsvcd__d3_over(sum, 3));
+    const uint32_t patch = nsvcd__nearest_centre(p, guess, centroid);
+    p->sums[patch].vector = nsvcd__d3_add(p->sums[patch].vector, vector);
+    for (size_t i = 0; i < 3; i++) nsvcd__reach_to(p, patch, t->at[i]);
+    p->piece_count++;
+    return patch;
+  }
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(a, b), 0.5);
+  const nsvcd__triangle near_a = {{a, middle, c}};
+  const nsvcd__triangle near_b = {{middle, b, c}};
+  vector = nsvcd__d3_scale(vector, 0.5);
+  guess = nsvcd__cover_triangle(p, limit, guess, &near_a, vector);
+  return nsvcd__cover_triangle(p, limit, guess, &near_b, vector);
+}
+
+static void nsvcd__cover(nsvcd__patches *p, const nsvcd_mesh *mesh) {
+  const double added = NSVCD__PIECES_PER_SAMPLE * (double)p->sample_count;
+  const double most = (double)mesh->triangle_count + added;
+  double pieces;
+  // Larger pieces only make larger balls.
+  double limit = 0;
+  for (size_t i = 0; i < p->count; i++) limit += (double)p->sample_radii[i] / (double)p->count;
+  limit *= NSVCD__PIECE_SIZE;
+  // otherwise all samples of each patch coincide: nothing to go by
+  limit = limit > 0 ? nsvcd__raise_limit(mesh, limit, most, &pieces) : HUGE_VAL;
+
+  uint32_t guess = 0;
+  memset(p->sums, 0, p->count * sizeof *p->sums);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    const nsvcd__d3 vector = nsvcd__area_vector(&triangle);
+    guess = nsvcd__cover_triangle(p, limit, guess, &triangle, vector);
+  }
+  for (size_t i = 0; i < p->count; i++) {
+    const nsvcd__patch_sum *sum = &p->sums[i];
+    // A piece goes to one patch as a whole, and so a patch's samples may lie beyond its pieces: its
+    // ball holds both.
+    const float radius = nsvcd__radius_above(sum->squared_reach);
+    p->radii[i] = fmaxf(radius, p->sample_radii[i]);
+    p->area_vectors[i] = nsvcd__d3_narrow(sum->vector);
+  }
+}
+
+// ---- all of it
+
+// Splits the surface of a checked mesh into at most `count` patches, 1..NSVCD_SMALL_PATCHES: fewer
+// where samples coincide or a patch loses all of its samples. MEMORY.
+static nsvcd_result nsvcd__patches_build(const nsvcd_mesh *mesh, size_t count,
+                                         nsvcd__arena *arena, nsvcd__patches *p) {
+  if (!nsvcd__patches_alloc(p, count, NSVCD__SAMPLES_PER_PATCH * count, arena))
+    return NSVCD_ERROR_MEMORY;
+  nsvcd__sample_surface(mesh, p->sample_count, p->drawn, p->drawn_normals);
+  nsvcd__farthest_points(p);
+  nsvcd__move_centres(p);
+  for (int step = 1; step < NSVCD__LLOYD_STEPS; step++) {
+    for (size_t s = 0; s < p->sample_count; s++)
+      p->owners[s] = (uint16_t)nsvcd__nearest_centre(p, p->owners[s], p->drawn[s]);
+    nsvcd__move_centres(p);
+  }
+  nsvcd__group_samples(p);
+  nsvcd__cover(p, mesh);
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_ENCODER

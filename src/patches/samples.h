@@ -1,0 +1,167 @@
+// In: a checked mesh. Out: S samples, which are oriented points of the surface; and what its N
+// patches will be: samples grouped by patch, and one ball for each patch. Everything on this floor
+// is deterministic and, up to rounding, scales and moves with the mesh.
+#pragma once
+#include "../ground/memory.h"
+
+#ifndef NSVCD_NO_ENCODER
+// on average
+#define NSVCD__SAMPLES_PER_PATCH 32
+#define NSVCD__NO_SAMPLE 0xffffffffu
+#define NSVCD__LLOYD_STEPS 3
+// of each centre, for the search of the nearest centre
+#define NSVCD__NEIGHBOURS 16
+// longest edge of a piece, in mean sample radii
+#define NSVCD__PIECE_SIZE 0.25
+// bounds the number of pieces that halving adds
+#define NSVCD__PIECES_PER_SAMPLE 64
+
+// Sums over a patch, in double, rounded once at the end.
+typedef struct nsvcd__patch_sum {
+  // of the positions of samples, or of area vectors
+  nsvcd__d3 vector;
+  double weight;  // number of samples
+  // greatest squared distance from the centre
+  double squared_reach;
+} nsvcd__patch_sum;
+
+typedef struct nsvcd__patches {
+  size_t count;         // N
+  size_t sample_count;  // S
+  // pieces of surface that the balls were fitted to
+  size_t piece_count;
+  // (N) metres: the mean of the patch's samples
+  nsvcd__f3 *centres;
+  // (N) the ball about the centre with this radius contains every piece of the patch
+  float *radii;
+  // (N) the same for the patch's samples
+  float *sample_radii;
+  // (N) area times normal, summed over the patch; over all patches it is that of the mesh
+  nsvcd__f3 *area_vectors;
+  // (N + 1) patch i has the samples offsets[i] .. offsets[i + 1] - 1
+  uint32_t *offsets;
+  nsvcd__f3 *samples;  // (S) metres
+  nsvcd__f3 *normals;  // (S) unit
+
+  // Working memory.
+  nsvcd__patch_sum *sums;  // (N)
+  // (S) the samples in the order in which they were drawn
+  nsvcd__f3 *drawn;
+  nsvcd__f3 *drawn_normals;
+  // (S) the patch of each sample drawn
+  uint16_t *owners;
+  // (S) squared, to the nearest centre so far; it lies where `samples` will be
+  float *squares;
+  // (S) lists of the samples of each centre, while centres are added; it lies there too
+  uint32_t *next_sample;
+  uint32_t *first_sample;  // (N)
+  // (N) of the samples of the centre, and its squared distance
+  uint32_t *farthest_sample;
+  float *squared_reach;
+  // (N, NEIGHBOURS) the other centres nearest to each, in order of distance
+  uint32_t *neighbours;
+  // (N, NEIGHBOURS) a quarter of their squared distance
+  float *quarter_squares;
+} nsvcd__patches;
+
+// ---- samples
+
+// Differences of floats are as good as exact in double.
+typedef struct nsvcd__triangle {
+  nsvcd__d3 at[3];
+} nsvcd__triangle;
+
+static nsvcd__triangle nsvcd__triangle_of(const nsvcd_mesh *mesh, size_t t) {
+  const float *from = mesh->positions;
+  const uint32_t *i = mesh->indices + 3 * t;
+  const nsvcd__triangle out = {
+      {nsvcd__d3_row(from, i[0]), nsvcd__d3_row(from, i[1]), nsvcd__d3_row(from, i[2])}};
+  return out;
+}
+
+// Area times unit normal.
+static nsvcd__d3 nsvcd__area_vector(const nsvcd__triangle *t) {
+  const nsvcd__d3 u = nsvcd__d3_sub(t->at[1], t->at[0]);
+  const nsvcd__d3 v = nsvcd__d3_sub(t->at[2], t->at[0]);
+  return nsvcd__d3_scale(nsvcd__d3_cross(u, v), 0.5);
+}
+
+static double nsvcd__triangle_area(const nsvcd__triangle *t) {
+  return nsvcd__d3_length(nsvcd__area_vector(t));
+}
+
+static double nsvcd__mesh_area(const nsvcd_mesh *mesh) {
+  double area = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
+    area += nsvcd__triangle_area(&triangle);
+  }
+  return area;
+}
+
+// Draws samples (count) and their unit normals (count), stratified by area: sample k lies in the
+// triangle where the area summed in triangle order passes (k + 1/2) / count of the total, where the
+// R2 sequence says (Roberts 2018: multiples of 1/g and 1/g^2, g^3 = g + 1). Where there is no area,
+// triangles count alike, and normals are 0.
+static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f3 *samples,
+                                  nsvcd__f3 *normals) {
+  const double all = nsvcd__mesh_area(mesh);
+  const double total = all > 0 ? all : (double)mesh->triangle_count;
+  nsvcd__triangle triangle;
+  double area = 0;
+  // the area up to and including the triangle
+  double passed = 0;
+  size_t next = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double target = total * (((double)k + 0.5) / (double)count);
+    // never stops at a triangle without area
+    while (passed <= target && next < mesh->triangle_count) {
+      triangle = nsvcd__triangle_of(mesh, next++);
+      area = nsvcd__triangle_area(&triangle);
+      passed += all > 0 ? area : 1;
+    }
+    double u = (double)((uint32_t)k * 3242174889u + 0x80000000u) / 4294967296.0;
+    double v = (double)((uint32_t)k * 2447445414u + 0x80000000u) / 4294967296.0;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    const nsvcd__d3 ab = nsvcd__d3_sub(triangle.at[1], triangle.at[0]);
+    const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
+    const nsvcd__d3 along = nsvcd__d3_add_scaled(triangle.at[0], u, ab);
+    samples[k] = nsvcd__d3_narrow(nsvcd__d3_add_scaled(along, v, ac));
+    normals[k] = nsvcd__f3_of(0, 0, 0);
+    if (area > 0)
+      normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
+  }
+}
+
+// Room for so many patches and samples. 0 without memory.
+static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
+                                nsvcd__arena *arena) {
+  const size_t links = NSVCD__NEIGHBOURS * count;
+  memset(p, 0, sizeof *p);
+  p->count = count;
+  p->sample_count = samples;
+  p->sums = NSVCD__TAKE(arena, nsvcd__patch_sum, count);
+  p->centres = NSVCD__TAKE(arena, nsvcd__f3, count);
+  p->radii = NSVCD__TAKE(arena, float, count);
+  p->sample_radii = NSVCD__TAKE(arena, float, count);
+  p->area_vectors = NSVCD__TAKE(arena, nsvcd__f3, count);
+  p->drawn = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->drawn_normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->samples = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->normals = NSVCD__TAKE(arena, nsvcd__f3, samples);
+  p->quarter_squares = NSVCD__TAKE(arena, float, links);
+  p->squared_reach = NSVCD__TAKE(arena, float, count);
+  p->first_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->farthest_sample = NSVCD__TAKE(arena, uint32_t, count);
+  p->neighbours = NSVCD__TAKE(arena, uint32_t, links);
+  p->offsets = NSVCD__TAKE(arena, uint32_t, count + 1);
+  p->owners = NSVCD__TAKE(arena, uint16_t, samples);
+  if (arena->failed) return 0;
+  p->squares = (float *)(void *)p->samples;
+  p->next_sample = (uint32_t *)(void *)(p->squares + samples);
+  return 1;
+}
+#endif  // NSVCD_NO_ENCODER

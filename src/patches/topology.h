@@ -1,0 +1,146 @@
+// In: a checked mesh. Out: what is learned of it: vertices at the same place are one, triangles
+// that share vertices are one component, and a component is closed or not.
+#pragma once
+#include "../ground/memory.h"
+
+#ifndef NSVCD_NO_ENCODER
+// What is learned of a mesh. Vertices at the same place are one: the first of them. A component
+// goes by its root, the least of its vertices.
+typedef struct nsvcd__topology {
+  const nsvcd_mesh *mesh;
+  size_t component_count;
+  // (vertices) the first vertex at the same place
+  uint32_t *welded;
+  // (vertices) of the union-find forest; in the end the root
+  uint32_t *parents;
+  // (vertices) of a root: its component is not closed
+  uint8_t *open;
+  // (vertices) of a root: a triangle belongs to it
+  uint8_t *seen;
+} nsvcd__topology;
+
+// Finds the first vertex at each place, in a table of open addresses. 0 without memory.
+static int nsvcd__weld(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  size_t slots = 16;
+  while (slots / 2 < mesh->vertex_count) slots *= 2;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  // 0: none, else a vertex + 1
+  uint32_t *table = NSVCD__TAKE(&arena, uint32_t, slots);
+  for (uint32_t v = 0; table && v < mesh->vertex_count; v++) {
+    const float *at = mesh->positions + 3 * (size_t)v;
+    uint32_t hash = 0;
+    for (size_t k = 0; k < 3; k++) {
+      uint32_t bits;
+      memcpy(&bits, at + k, sizeof bits);
+      // -0 is at the same place as 0
+      if (bits == 0x80000000u) bits = 0;
+      hash = (hash ^ bits) * 0x9e3779b1u;
+      hash ^= hash >> 15;
+    }
+    size_t slot = (hash * 0x85ebca6bu ^ hash >> 13) & (slots - 1);
+    for (; table[slot]; slot = (slot + 1) & (slots - 1)) {
+      const float *other = mesh->positions + 3 * (size_t)(table[slot] - 1);
+      if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2]) break;
+    }
+    if (!table[slot]) table[slot] = v + 1;
+    topology->welded[v] = table[slot] - 1;
+  }
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+
+static void nsvcd__welded_face(const nsvcd__topology *topology, size_t t, uint32_t *face) {
+  const uint32_t *corners = topology->mesh->indices + 3 * t;
+  face[0] = topology->welded[corners[0]];
+  face[1] = topology->welded[corners[1]];
+  face[2] = topology->welded[corners[2]];
+}
+
+static uint32_t nsvcd__root(uint32_t *parents, uint32_t v) {
+  while (parents[v] != v) {
+    parents[v] = parents[parents[v]];
+    v = parents[v];
+  }
+  return v;
+}
+
+// Finds the components that are not closed: those whose directed edges do not cancel. 0 without
+// memory.
+static int nsvcd__find_open(nsvcd__topology *topology, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  const size_t vertices = mesh->vertex_count;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  // where the edges of a vertex begin, which is the lesser of their ends; one more, while sorted
+  size_t *first = NSVCD__TAKE(&arena, size_t, vertices + 2);
+  // the greater end
+  uint32_t *ends = NSVCD__TAKE(&arena, uint32_t, 3 * mesh->triangle_count);
+  // 1: an edge leads to the greater end; -1: from it
+  int8_t *signs = NSVCD__TAKE(&arena, int8_t, 3 * mesh->triangle_count);
+  // sums over the edges of one vertex, by their other end; else zero
+  int32_t *balances = NSVCD__TAKE(&arena, int32_t, vertices);
+  // counting sort of the edges: they are counted, then placed
+  for (int pass = 0; !arena.failed && pass < 2; pass++) {
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+      uint32_t face[3];
+      nsvcd__welded_face(topology, t, face);
+      // then the edges cancel among themselves
+      if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+      for (size_t k = 0; k < 3; k++) {
+        const uint32_t from = face[k];
+        const uint32_t to = face[(k + 1) % 3];
+        const uint32_t low = from < to ? from : to;
+        if (pass == 0) {
+          first[low + 2]++;
+          continue;
+        }
+        // afterwards the start of the next
+        const size_t place = first[low + 1]++;
+        ends[place] = from < to ? to : from;
+        signs[place] = from < to ? 1 : -1;
+      }
+    }
+    for (size_t v = 0; pass == 0 && v < vertices; v++) first[v + 2] += first[v + 1];
+  }
+  for (size_t v = 0; !arena.failed && v < vertices; v++) {
+    for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] += signs[e];
+    for (size_t e = first[v]; e < first[v + 1]; e++) {
+      if (balances[ends[e]] != 0) topology->open[topology->parents[v]] = 1;
+    }
+    for (size_t e = first[v]; e < first[v + 1]; e++) balances[ends[e]] = 0;
+  }
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+
+// 0 without memory.
+static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
+                                 nsvcd__topology *topology) {
+  topology->mesh = mesh;
+  topology->component_count = 0;
+  topology->welded = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topology->parents = NSVCD__TAKE(arena, uint32_t, mesh->vertex_count);
+  topology->open = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  topology->seen = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  if (arena->failed || !nsvcd__weld(topology, arena->allocator)) return 0;
+
+  uint32_t *parents = topology->parents;
+  uint32_t face[3];
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = v;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__welded_face(topology, t, face);
+    for (size_t k = 1; k < 3; k++) {
+      const uint32_t a = nsvcd__root(parents, face[0]);
+      const uint32_t b = nsvcd__root(parents, face[k]);
+      parents[a > b ? a : b] = a < b ? a : b;
+    }
+  }
+  for (uint32_t v = 0; v < mesh->vertex_count; v++) parents[v] = nsvcd__root(parents, v);
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    nsvcd__welded_face(topology, t, face);
+    topology->component_count += !topology->seen[parents[face[0]]];
+    topology->seen[parents[face[0]]] = 1;
+  }
+  return nsvcd__find_open(topology, arena->allocator);
+}
+#endif  // NSVCD_NO_ENCODER

@@ -1,0 +1,282 @@
+// A plan asks about each pair in each segment, and most of these are far from a collision. This
+// rules them out for less than a query costs. It is a broad phase of whole bodies along a whole
+// trajectory; that of search/search then goes through the patches of two bodies in one segment.
+//
+// In: the poses at the moments, and of each body its bounding sphere and the box of its patches.
+// Out: for a pair, p->meets (moments): 0 where the query about the segment from there on would
+// certify it free.
+//
+// Nothing is missed, for the box about the ends of a sphere's way is grown by all that the way may
+// stray. The motion is the query's: as b sees it, a's origin goes straight, and a turns evenly
+// about one axis by an angle c, no more than what a and b turn in the world. Two tests rule out:
+//
+//   a's sphere against b's box. Its centre turns about a's origin on an arc of radius `arm` or
+//   less, and strays by no more than the arc's height, arm (1 - cos(c / 2)).
+//
+//   b's sphere against a's box. As a sees it, its centre v goes and turns at once. It strays by no
+//   more than an eighth of its acceleration, c^2 |v| + 2 c |u|: u is its way in b's axes, and no
+//   longer than its way in a's axes + c |v|. In all c (c |v| 3 / 8 + its way in a's axes / 4).
+#pragma once
+#include "../body/trust.h"
+#include "problem.h"
+
+#ifndef NSVCD_NO_OPTIMIZER
+// The shapes of all bodies.
+static void nsvcd__find_shapes(nsvcd__planner *p) {
+  for (size_t b = 0; p->problem->bodies && b < p->problem->body_count; b++) {
+    const nsvcd_body *body = p->problem->bodies[b];
+    nsvcd__shape shape = {{{0, 0, 0}, 0},
+                          {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
+    float place[3];
+    float r;
+    if (!body) continue;
+    const nsvcd_body_facts facts = nsvcd_body_describe(body);
+    shape.sphere.centre = nsvcd__f3_load(facts.centre);
+    shape.sphere.radius = facts.radius;
+    for (uint32_t i = 0; nsvcd_body_patch(body, i, place, &r); i++) {
+      const nsvcd__f3 about = nsvcd__f3_of(r, r, r);
+      const nsvcd__f3 centre = nsvcd__f3_load(place);
+      shape.box.low = nsvcd__f3_min(shape.box.low, nsvcd__f3_sub(centre, about));
+      shape.box.high = nsvcd__f3_max(shape.box.high, nsvcd__f3_add(centre, about));
+    }
+    p->shapes[b] = shape;
+  }
+}
+
+// The stances of all bodies at the moments of p->poses.
+static void nsvcd__find_stances(nsvcd__planner *p, size_t moments) {
+  const size_t bodies = p->problem->body_count;
+  for (size_t b = 0; p->problem->bodies && b < bodies; b++) {
+    if (!p->problem->bodies[b]) continue;
+    for (size_t s = 0; s < moments; s++) {
+      const nsvcd_pose *pose = &p->poses[s * bodies + b];
+      const nsvcd_pose *next = s + 1 < moments ? pose + bodies : pose;
+      const nsvcd__quat q = nsvcd__quat_load(pose->rotation);
+      const float cosine = nsvcd__quat_dot(q, nsvcd__quat_load(next->rotation));
+      const float square = 1.000001f - fabsf(cosine);
+      nsvcd__stance *stance = &p->stances[s * bodies + b];
+      stance->pose.rotation = nsvcd__mat3_of(q);
+      stance->pose.position = nsvcd__f3_load(pose->position);
+      stance->centre = nsvcd__mat3_apply(&stance->pose.rotation, p->shapes[b].sphere.centre);
+      stance->bend = sqrtf(square > 0 ? square : 0);
+    }
+  }
+}
+
+// Does the bounding sphere of `body` stay away from the box of `other`, by the clearance, from
+// moment s to s + stride? rests: `body` is the one that rests in the query, and `other` moves.
+static inline int nsvcd__passes_by(const nsvcd__planner *p, size_t body, size_t other,
+                                   int rests, size_t s, size_t stride) {
+  const nsvcd__sphere *sphere = &p->shapes[body].sphere;
+  const nsvcd__box *box = &p->shapes[other].box;
+  const nsvcd__stance *now = p->stances + s * p->problem->body_count;
+  // its centre as `other` sees it at both ends, and how far it is from that one's origin, in sum
+  nsvcd__f3 seen[2];
+  float distance = 0;
+  for (size_t k = 0; k < 2; k++) {
+    const nsvcd__stance *at = now + k * stride * p->problem->body_count;
+    const nsvcd__transform *from = &at[other].pose;
+    const nsvcd__f3 origin = nsvcd__f3_sub(at[body].pose.position, from->position);
+    const nsvcd__f3 centre = nsvcd__f3_add(origin, at[body].centre);
+    seen[k] = nsvcd__mat3_apply_transpose(&from->rotation, centre);
+    distance += nsvcd__f3_length(centre);
+  }
+
+  // That root of the sum of two angles is no more than the sum of the roots, and c < 3.15 bend.
+  const float bend = now[body].bend + now[other].bend;
+  float strays = nsvcd__f3_length(sphere->centre) * bend * bend;
+  if (rests) {
+    const nsvcd__f3 way = nsvcd__f3_sub(seen[1], seen[0]);
+    const float length = fabsf(way.x) + fabsf(way.y) + fabsf(way.z);
+    strays = (3.75f * bend * distance + 0.8f * length) * bend;
+  }
+  const float apart = 1.00001f * sphere->radius + p->options.sweep.clearance;
+  const float grown = apart + (float)stride * strays + NSVCD__ROUNDING * distance;
+  const nsvcd__f3 about = nsvcd__f3_of(grown, grown, grown);
+  const nsvcd__f3 low = nsvcd__f3_min(seen[0], seen[1]);
+  const nsvcd__f3 high = nsvcd__f3_max(seen[0], seen[1]);
+  return nsvcd__f3_exceeds(low, nsvcd__f3_add(box->high, about)) |
+         nsvcd__f3_exceeds(nsvcd__f3_sub(box->low, about), high);
+}
+
+// Marks the segments (stride 1), or the moments (stride 0), in which a pair may meet: p->meets.
+static void nsvcd__find_meetings(nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                 size_t moments, size_t stride) {
+  for (size_t s = 0; s + stride < moments; s++) {
+    p->meets[s] = !nsvcd__passes_by(p, pair->a, pair->b, 0, s, stride) &&
+                  !nsvcd__passes_by(p, pair->b, pair->a, 1, s, stride);
+  }
+}
+
+// ---- collision
+
+// The pose of a as b sees it.
+static nsvcd_pose nsvcd__relative_pose(const nsvcd_pose *a, const nsvcd_pose *b) {
+  const nsvcd__quat turned = nsvcd__quat_load(b->rotation);
+  const nsvcd__mat3 axes = nsvcd__mat3_of(turned);
+  const nsvcd__f3 from = nsvcd__f3_load(b->position);
+  const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__f3_load(a->position), from);
+  const nsvcd__quat to_b = nsvcd__quat_inverse(turned);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__mat3_apply_transpose(&axes, offset), out.position);
+  nsvcd__quat_store(nsvcd__quat_mul(to_b, nsvcd__quat_load(a->rotation)), out.rotation);
+  return out;
+}
+
+// What a logit costs: nothing below -margin, and above it its excess, but for a soft beginning.
+// *slope: the derivative by the logit.
+static float nsvcd__cost_of_logit(float logit, float margin, float *slope) {
+  const float x = logit + margin;
+  const float soft = NSVCD__SOFT_LOGITS;
+  *slope = x <= 0 ? 0 : x < soft ? x / soft : 1;
+  return x <= 0 ? 0 : x < soft ? 0.5f * x * x / soft : x - 0.5f * soft;
+}
+
+// Adds to the wrenches (B, 6) one on a that b sees, (6) in its axes, times `scale`, and what that
+// does to b. A wrench is the derivative by a pose: by the position, and by a small rotation about
+// it. poses: (B).
+static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *poses,
+                              float scale, const float *seen, float *wrenches) {
+  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(poses[pair->b].rotation));
+  const nsvcd__f3 force = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen));
+  const nsvcd__f3 torque = nsvcd__mat3_apply(&axes, nsvcd__f3_load(seen + 3));
+  const nsvcd__f3 from = nsvcd__f3_load(poses[pair->b].position);
+  const nsvcd__f3 arm = nsvcd__f3_sub(nsvcd__f3_load(poses[pair->a].position), from);
+  const nsvcd__f3 back = nsvcd__f3_add(torque, nsvcd__f3_cross(arm, force));
+  for (size_t k = 0; k < 4; k++) {
+    const float by = k < 2 ? scale : -scale;
+    float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
+    const nsvcd__f3 moment = k < 2 ? torque : back;
+    nsvcd__f3_store(nsvcd__f3_add_scaled(nsvcd__f3_load(row), by, k % 2 ? moment : force),
+                    row);
+  }
+}
+
+// The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
+// end, by the method of the options. gradient: (segments + 1, 6), or NULL.
+static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
+                               int at_end, float *gradient) {
+  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
+  for (size_t n = 0; n <= segments; n++) {
+    const nsvcd_pose *row = p->poses + (first + n) * p->problem->body_count;
+    motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
+  }
+
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.body = p->problem->bodies[pair->a];
+  question.a.poses = motion;
+  question.a.count = segments + 1;
+  question.b.body = p->problem->bodies[pair->b];
+  question.options = p->options.sweep;
+  if (!at_end) {
+    question.options.method = NSVCD_METHOD_NETWORK;
+    question.options.clearance = 0;
+    question.options.measure = 0;
+    question.options.first = 0;
+    question.options.skin = 0;
+  }
+
+  nsvcd_answer answer;
+  nsvcd_result error;
+  memset(&answer, 0, sizeof answer);
+  // of an error
+  answer.logit = -NSVCD_LOGIT_CERTAIN;
+  if (gradient)
+    error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
+  else
+    error = nsvcd_sweep(&question, p->query, p->query_size, &answer);
+  if (error) p->error = error;
+  p->sweeps++;
+  return answer;
+}
+
+// How a trajectory, p->poses, is asked about.
+typedef struct nsvcd__asking {
+  size_t moments;
+  // 1: segments are asked about, 0: moments
+  size_t stride;
+  // it is the last check
+  int at_end;
+  // a sum beyond it is not finished
+  float limit;
+  // (moments, B, 6), added to, or NULL
+  float *wrenches;
+} nsvcd__asking;
+
+// Adds what pair k costs from moment s to s + stride.
+static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
+                               const nsvcd__asking *how, nsvcd__cost *cost) {
+  const nsvcd_body_pair *pair = &p->problem->pairs[k];
+  float gradient[2 * 6];
+  float slope;
+  float *wanted = how->wrenches ? gradient : NULL;
+  const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
+  if (answer.logit > cost->logit) {
+    const float at = (float)s + (float)how->stride * answer.contact_time;
+    cost->logit = answer.logit;
+    cost->pair = k;
+    // only a proof takes work
+    cost->proven = answer.collides && answer.work > 0;
+    cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
+  }
+  cost->collides |= answer.collides;
+  cost->collision += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+  for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
+    const size_t row = (s + i) * p->problem->body_count;
+    nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
+  }
+}
+
+// Adds what pair k costs along the trajectory.
+static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *how,
+                            nsvcd__cost *cost) {
+  const int looks_ahead = how->stride && !how->at_end;
+  const size_t end = how->moments - how->stride;
+  // up to here segments have had a first look
+  size_t seen = 0;
+  nsvcd__find_meetings(p, &p->problem->pairs[k], how->moments, how->stride);
+  for (size_t s = 0; s < end && cost->collision <= how->limit && !p->error; s++) {
+    if (!p->meets[s]) continue;
+    if (looks_ahead && s >= seen) {
+      // The segments that follow in which the pair may meet, at once: if they are far from a
+      // collision, that is all.
+      size_t run = 1;
+      while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
+      seen = s + run;
+      if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
+        s += run - 1;
+        continue;
+      }
+    }
+    nsvcd__add_segment(p, k, s, how, cost);
+  }
+}
+
+// Adds the collision cost of p->poses, by the problem's own function or by the network, up to the
+// first sum above `limit`. wrenches: (moments, B, 6), added to, or NULL. at_end: of the last check.
+static void nsvcd__add_collision(nsvcd__planner *p, size_t moments, float limit,
+                                 float *wrenches, int at_end, nsvcd__cost *cost) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t stride = !p->options.discrete && moments > 1;
+  const nsvcd__asking how = {moments, stride, at_end, limit, wrenches};
+  if (problem->collision) {
+    cost->collision =
+        problem->collision(problem->user, p->poses, moments, limit, &cost->collides, wrenches);
+    cost->logit = cost->collision;
+    return;
+  }
+  nsvcd__find_stances(p, moments);
+  for (size_t n = 0; n < problem->pair_count && cost->collision <= limit; n++) {
+    const uint32_t k = p->queue[n];
+    const float before = cost->collision;
+    nsvcd__add_pair(p, k, &how, cost);
+    // what costs comes earlier next time, so that bad trajectories end early
+    if (n > 0 && cost->collision > before) {
+      p->queue[n] = p->queue[n - 1];
+      p->queue[n - 1] = k;
+    }
+  }
+}
+#endif  // NSVCD_NO_OPTIMIZER

@@ -1,0 +1,177 @@
+// In: a mean of control points. Out: a better one: smooth random changes, weighted by exp(-cost /
+// temperature).
+#pragma once
+#include "cost.h"
+
+#ifndef NSVCD_NO_OPTIMIZER
+// A normal number: splitmix64, then Box and Muller.
+static double nsvcd__normal(nsvcd__planner *p) {
+  double uniform[2];  // (0, 1]
+  for (size_t k = 0; k < 2; k++) {
+    uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    uniform[k] = (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
+  }
+  return sqrt(-2 * log(uniform[0])) * cos(6.283185307179586 * uniform[1]);
+}
+
+// A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the
+// form of the smoothness, scaled so that the greatest deviation of a joint is deviations (F).
+static void nsvcd__smooth_noise(nsvcd__planner *p, const nsvcd__stage *stage,
+                                const float *deviations, float *out) {
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
+  for (size_t j = 0; j < f; j++) {
+    for (size_t k = 0; k < via; k++) p->vector[k] = nsvcd__normal(p);
+    nsvcd__solve_upper(stage->factor, via, p->vector);
+    const double scale = (double)deviations[j] / stage->deviation;
+    for (size_t k = 0; k < via; k++) out[k * f + j] = (float)(scale * p->vector[k]);
+  }
+}
+
+// control + scale * offset (M, F), with via points taken into the limits: out (M + 2, F).
+static void nsvcd__change(const nsvcd__planner *p, const nsvcd__stage *stage,
+                          const float *control, const float *offset, float scale, float *out) {
+  const size_t f = p->problem->joints;
+  memcpy(out, control, stage->bytes);
+  for (size_t k = 0; k < stage->numbers; k++) {
+    const float x = control[f + k] + scale * offset[k];
+    const float low = p->problem->low[k % f];
+    const float high = p->problem->high[k % f];
+    // high where x is not a number
+    out[f + k] = x < low ? low : x < high ? x : high;
+  }
+}
+
+// Counts an iteration and tells the caller how far it has come, which may cancel the search.
+static void nsvcd__report(nsvcd__planner *p, size_t iteration, const nsvcd__stage *stage,
+                          const nsvcd__cost *best) {
+  const int refining = stage == &p->refine;
+  const nsvcd_plan_progress progress = {p->seed,  iteration,   stage->iterations,
+                                        refining, best->total, best->collision,
+                                        p->best,  stage->via};
+  p->iterations++;
+  if (p->problem->progress) p->cancelled = p->problem->progress(p->problem->user, &progress);
+}
+
+// The deviations (F) of the first rollouts: no more than a quarter of a joint's range.
+static void nsvcd__first_deviations(const nsvcd__planner *p, float *deviations) {
+  for (size_t j = 0; j < p->problem->joints; j++) {
+    const float quarter = 0.25f * (p->problem->high[j] - p->problem->low[j]);
+    deviations[j] = p->explore.noise < quarter ? p->explore.noise : quarter;
+  }
+}
+
+// Where MPPI is.
+typedef struct nsvcd__exploring {
+  // of the rollouts, joint by joint
+  float deviations[NSVCD_MAX_JOINTS];
+  // what they were
+  float first[NSVCD_MAX_JOINTS];
+  float temperature;  // 0 at first
+  // cost, of the last rollouts
+  float least;
+  nsvcd__cost best;  // of all
+} nsvcd__exploring;
+
+// Draws rollouts about p->control and finds what they cost; the best of all goes to p->best. The
+// first has no offset (M, F), the second is the best so far, which competes, the others are noise.
+static void nsvcd__roll_out(nsvcd__planner *p, nsvcd__exploring *at) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints;
+  at->least = INFINITY;
+  for (size_t n = 0; n < stage->draws; n++) {
+    float *offset = p->drawn + n * stage->numbers;
+    if (n > 0) nsvcd__smooth_noise(p, stage, at->deviations, offset);
+    for (size_t k = 0; n < 2 && k < stage->numbers; k++)
+      offset[k] = n > 0 ? p->best[f + k] - p->control[f + k] : 0;
+    nsvcd__change(p, stage, p->control, offset, 1, p->trial);
+    for (size_t k = 0; k < stage->numbers; k++)
+      offset[k] = p->trial[f + k] - p->control[f + k];
+
+    // The cost of one that weighs nothing need not be known exactly.
+    float limit = INFINITY;
+    if (at->temperature > 0) limit = at->least + NSVCD__WEIGHTLESS * at->temperature;
+    const nsvcd__cost cost = nsvcd__cost_of(p, stage, p->trial, limit, NULL, 0);
+    p->costs[n] = cost.total;
+    if (cost.total < at->least) at->least = cost.total;
+    if (cost.total >= at->best.total || cost.total > limit) continue;
+    at->best = cost;
+    memcpy(p->best, p->trial, stage->bytes);
+  }
+}
+
+// Turns p->costs into weights, whose sum is 1, p->sum into the mean of the offsets, and takes the
+// deviations towards those of the good rollouts about their mean, slowly.
+static void nsvcd__weigh_rollouts(nsvcd__planner *p, nsvcd__exploring *at) {
+  const nsvcd__stage *stage = &p->explore;
+  const size_t f = p->problem->joints;
+  const size_t draws = stage->draws;
+  const size_t rank = draws / NSVCD__ELITE;
+  // the cost of that rank
+  float elite = 0;
+  float total = 0;
+  for (size_t i = 0; i < draws; i++) {
+    size_t below = 0;
+    size_t not_above = 0;
+    for (size_t n = 0; n < draws; n++) {
+      below += p->costs[n] < p->costs[i];
+      not_above += p->costs[n] <= p->costs[i];
+    }
+    if (below <= rank && rank < not_above) elite = p->costs[i];
+  }
+  at->temperature = 0.5f * (elite - at->least) + 1e-6f * (1 + at->least);
+  for (size_t n = 0; n < draws; n++) {
+    p->costs[n] = expf((at->least - p->costs[n]) / at->temperature);
+    total += p->costs[n];
+  }
+  memset(p->sum, 0, stage->numbers * sizeof *p->sum);
+  for (size_t n = 0; n < draws; n++) {
+    const float weight = p->costs[n] / total;
+    p->costs[n] = weight > 1e-9f ? weight : 0;
+    for (size_t k = 0; weight > 1e-9f && k < stage->numbers; k++)
+      p->sum[k] += weight * p->drawn[n * stage->numbers + k];
+  }
+
+  for (size_t j = 0; j < f; j++) {
+    const float now = at->deviations[j];
+    const float least = 1e-3f * at->first[j] * at->first[j];
+    float square = 0;
+    for (size_t n = 0; n < draws; n++) {
+      for (size_t k = j; p->costs[n] > 0 && k < stage->numbers; k += f) {
+        const float d = p->drawn[n * stage->numbers + k] - p->sum[k];
+        square += p->costs[n] * d * d / (float)stage->via;
+      }
+    }
+    const float variance = 0.9f * now * now + 0.1f * 2 * square;
+    at->deviations[j] = sqrtf(variance > least ? variance : least);
+  }
+}
+
+// MPPI from p->control, the mean, on; leaves the best trajectory in p->best.
+static void nsvcd__explore(nsvcd__planner *p) {
+  const nsvcd__stage *stage = &p->explore;
+  nsvcd__exploring at;
+  memset(&at, 0, sizeof at);
+  at.best = nsvcd__cost_of(p, stage, p->control, INFINITY, NULL, 0);
+  memcpy(p->best, p->control, stage->bytes);
+  nsvcd__first_deviations(p, at.first);
+  memcpy(at.deviations, at.first, sizeof at.deviations);
+  float before = at.best.total;
+  size_t waited = 0;
+  for (size_t i = 0; i < stage->iterations && waited < NSVCD__PATIENCE; i++) {
+    if (p->cancelled || p->error) break;
+    nsvcd__roll_out(p, &at);
+    if (p->error) break;
+    nsvcd__weigh_rollouts(p, &at);
+    nsvcd__change(p, stage, p->control, p->sum, NSVCD__MEAN_STEP, p->trial);
+    memcpy(p->control, p->trial, stage->bytes);
+
+    const int better = at.best.total < 0.99f * before;
+    waited = !nsvcd__is_free(&at.best) || better ? 0 : waited + 1;
+    before = better ? at.best.total : before;
+    nsvcd__report(p, i, stage, &at.best);
+  }
+}
+#endif  // NSVCD_NO_OPTIMIZER

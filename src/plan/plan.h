@@ -1,0 +1,217 @@
+// In: a planning problem. Out: control points of a motion that is checked to hit nothing, or the
+// best there is.
+#pragma once
+#include "refine.h"
+
+#ifndef NSVCD_NO_OPTIMIZER
+// The smoothest control points from start to goal, (M + 2, F): where the form's derivative is zero.
+static void nsvcd__smoothest(nsvcd__planner *p, const nsvcd__stage *stage, float *control) {
+  const size_t f = p->problem->joints;
+  const size_t via = stage->via;
+  const size_t all = via + 2;
+  for (size_t j = 0; j < f; j++) {
+    const double start = (double)p->problem->start[j];
+    const double goal = (double)p->problem->goal[j];
+    for (size_t k = 0; k < via; k++) {
+      const double *row = stage->form + (k + 1) * all;
+      p->vector[k] = -row[0] * start - row[all - 1] * goal;
+    }
+    nsvcd__solve_lower(stage->factor, via, p->vector);
+    nsvcd__solve_upper(stage->factor, via, p->vector);
+    for (size_t k = 0; k < via; k++) control[(k + 1) * f + j] = (float)p->vector[k];
+  }
+  memcpy(control, p->problem->start, f * sizeof *control);
+  memcpy(control + (via + 1) * f, p->problem->goal, f * sizeof *control);
+}
+
+// Are the joints within the limits, and free of collision? Fills in the answer's facts if not.
+static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_answer *answer) {
+  const nsvcd_plan_problem *problem = p->problem;
+  nsvcd__cost cost = nsvcd__no_cost;
+  answer->logit = 0;
+  answer->pair = NSVCD_NONE;
+  for (size_t j = 0; j < problem->joints; j++) {
+    if (joints[j] < problem->low[j] || joints[j] > problem->high[j]) answer->joint = j;
+  }
+  if (answer->joint != NSVCD_NONE) return 0;
+  nsvcd__place(p, joints, 1, p->poses);
+  if (p->error) return 0;
+  nsvcd__add_collision(p, 1, INFINITY, NULL, 1, &cost);
+  answer->collides = cost.collides;
+  answer->logit = cost.logit;
+  answer->pair = cost.pair;
+  return !cost.collides;
+}
+
+NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
+                                          const nsvcd_plan_options *options) {
+  nsvcd__planner planner;
+  if (!nsvcd__planner_settings(problem, options, &planner)) return 0;
+  return nsvcd__planner_memory(&planner, NULL);
+}
+
+// What the planner knows of a problem beforehand, in its memory.
+static void nsvcd__planner_begin(nsvcd__planner *p) {
+  nsvcd__stage_init(&p->options, &p->explore);
+  nsvcd__stage_init(&p->options, &p->refine);
+  nsvcd__stage_init(&p->options, &p->check);
+  nsvcd__find_shapes(p);
+  for (size_t k = 0; k < p->problem->pair_count; k++) p->queue[k] = (uint32_t)k;
+  p->random = p->options.seed;
+}
+
+// How far a point of a's bounding sphere is, at most, from where the check has it, as b sees it,
+// some share of the way from the poses `from` (B) to the next ones, where those on the spline are
+// p->moved.
+static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
+                                const nsvcd_pose *from, double share) {
+  const nsvcd_pose *to = from + p->problem->body_count;
+  const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
+  const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
+  const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
+  const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
+  const nsvcd__d3 begin = nsvcd__d3_load(start.position);
+  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), share);
+  const nsvcd__quat q = nsvcd__quat_load(start.rotation);
+  const nsvcd__quat r = nsvcd__quat_load(end.rotation);
+  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)share);
+  const nsvcd__quat is = nsvcd__quat_load(there.rotation);
+  const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
+  const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
+  const nsvcd__f3 x = nsvcd__f3_transform(&at, sphere->centre);
+  const nsvcd__f3 y = nsvcd__f3_transform(&was, sphere->centre);
+  const float way = nsvcd__f3_length(nsvcd__f3_sub(x, y));
+  return way + 2 * nsvcd__f3_length(nsvcd__quat_turn(checked, is)) * sphere->radius;
+}
+
+// How far the spline strays from the motion of the last check, whose poses p->poses are: of all
+// pairs whose a is given. A smooth curve strays most half way between two of these: there it is
+// looked at, beside every so many of them. Where they are few, it is looked at in more places, for
+// an S crosses its chord half way. It is no bound: nothing is known of `place` but what it says.
+static float nsvcd__stray(nsvcd__planner *p, const float *control) {
+  const nsvcd_plan_problem *problem = p->problem;
+  const size_t segments = p->check.moments - 1;
+  const size_t wanted = NSVCD__STRAY_LOOKS * (p->check.via + 1);
+  const size_t stride = wanted < segments ? segments / wanted : 1;
+  const size_t looks = 2 * (wanted / segments) + 1;
+  float joints[NSVCD_MAX_JOINTS];
+  float most = 0;
+  for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
+    const size_t s = n / looks * stride;
+    const double share = (double)(n % looks + 1) / (double)(looks + 1);
+    const double t = ((double)s + share) / (double)segments;
+    nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
+    nsvcd__place(p, joints, 1, p->moved);
+    if (p->error) break;
+    for (size_t k = 0; k < problem->pair_count; k++) {
+      const nsvcd_body_pair *pair = &problem->pairs[k];
+      const nsvcd_pose *from = p->poses + s * problem->body_count;
+      if (problem->bodies[pair->a])
+        most = fmaxf(nsvcd__pair_strays(p, pair, from, share), most);
+    }
+  }
+  return most;
+}
+
+// Searches from one more start; keeps what it finds in p->result if that is the best so far.
+// Returns 1 if there is reason to go on.
+static int nsvcd__try_seed(nsvcd__planner *p, nsvcd_plan_answer *found) {
+  const size_t f = p->problem->joints;
+  const float margin = p->options.margin;
+  float deviations[NSVCD_MAX_JOINTS];
+  nsvcd__cost cost = nsvcd__no_cost;
+  // from the smoothest way, then from random ones
+  p->seed = found->seeds;
+  nsvcd__smoothest(p, &p->explore, p->control);
+  if (p->seed > 0) {
+    nsvcd__first_deviations(p, deviations);
+    nsvcd__smooth_noise(p, &p->explore, deviations, p->offset);
+    nsvcd__change(p, &p->explore, p->control, p->offset, 1, p->trial);
+    memcpy(p->control, p->trial, p->explore.bytes);
+  }
+  nsvcd__explore(p);
+
+  // Nearly the same curve through another number of via points. These are taken into the limits,
+  // for a curve may leave them between two points.
+  if (p->explore.via != p->refine.via) {
+    for (size_t k = 0; k < p->refine.via + 2; k++) {
+      const float t = (float)k / (float)(p->refine.via + 1);
+      nsvcd_spline(p->best, p->explore.via, f, t, 0, p->trial + k * f);
+    }
+    nsvcd__change(p, &p->refine, p->trial, p->trial, 0, p->best);
+  }
+
+  // until the last check finds it free, with a wider margin each time that the proof finds a hit
+  for (size_t push = 0; push <= NSVCD__PUSHES; push++) {
+    nsvcd__refine(p);
+    cost = nsvcd__cost_of(p, &p->check, p->best, INFINITY, NULL, 1);
+    if (nsvcd__is_free(&cost) || p->cancelled || p->error || !cost.proven) break;
+    p->options.margin = 2 * p->options.margin + 0.5f;
+  }
+  p->options.margin = margin;
+  const int good = nsvcd__is_free(&cost);
+  if (found->seeds == 0 || good || cost.total < found->cost) {
+    memcpy(p->result, p->best, p->refine.bytes);
+    found->cost = cost.total;
+    found->smoothness = cost.smoothness;
+    found->stray = nsvcd__stray(p, p->result);
+    found->collides = cost.collides;
+    found->joint = cost.joint;
+    found->logit = cost.logit;
+    found->time = cost.time;
+    found->pair = cost.pair;
+  }
+  found->seeds++;
+  found->status = NSVCD_PLAN_LIMIT;
+  if (good) found->status = NSVCD_PLAN_CONVERGED;
+  if (p->cancelled) found->status = NSVCD_PLAN_CANCELLED;
+  return !good && !p->cancelled && !p->error && found->seeds < p->options.seeds;
+}
+
+NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
+                                 const nsvcd_plan_options *options, void *workspace,
+                                 size_t workspace_size, float *control,
+                                 nsvcd_plan_answer *answer) {
+  const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
+  nsvcd__planner p;
+  nsvcd_plan_answer found;
+  if (!nsvcd__planner_settings(problem, options, &p)) return NSVCD_ERROR_ARGUMENT;
+  if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
+  const size_t needed = nsvcd__planner_memory(&p, NULL);
+  if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  if (workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  for (size_t j = 0; j < problem->joints; j++) {
+    const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
+                           problem->goal[j]};
+    for (size_t k = 0; k < 4; k++) {
+      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_NUMBER;
+    }
+    if (ends[0] > ends[1]) return NSVCD_ERROR_ARGUMENT;
+  }
+
+  (void)nsvcd__planner_memory(&p, (char *)workspace);
+  nsvcd__planner_begin(&p);
+  memset(&found, 0, sizeof found);
+  found.joint = NSVCD_NONE;
+  found.pair = NSVCD_NONE;
+  found.via_points = p.refine.via;
+  if (!nsvcd__is_good(&p, problem->start, &found)) {
+    found.status = NSVCD_PLAN_START;
+  } else if (!nsvcd__is_good(&p, problem->goal, &found)) {
+    found.status = NSVCD_PLAN_GOAL;
+    found.time = 1;
+  }
+  nsvcd__smoothest(&p, &p.refine, p.best);
+  int more = found.status == NSVCD_PLAN_CONVERGED && !p.error;
+  while (more) more = nsvcd__try_seed(&p, &found);
+  if (p.error) return p.error;
+
+  memcpy(control, found.seeds ? p.result : p.best, p.refine.bytes);
+  found.iterations = p.iterations;
+  found.trajectories = p.trajectories;
+  found.sweeps = p.sweeps;
+  *answer = found;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_OPTIMIZER

@@ -1,0 +1,342 @@
+// In: a problem. Out: a planner: everything in the caller's workspace. The floor, top to bottom:
+//
+//   problem     everything in the caller's workspace
+//   culling     which bodies may meet in which segments: a broad phase of whole bodies; poses along
+//               a trajectory -> cost, and its derivative by the poses (wrenches)
+//   cost        control points -> smoothness + limits + collision, and the derivative by the
+//               control points
+//   explore     MPPI: smooth random changes of a mean, weighted by exp(-cost / temperature)
+//   refine      L-BFGS with bundled gradients, in the metric of the smoothness
+//   plan        start and goal, several seeds, and the last check
+//
+// The planner asks as any program does, by the public functions. Of what is private to the floors
+// above entry it uses nsvcd__settings_of, nsvcd__poses_are_valid and nsvcd__is_aligned, to refuse
+// what a query would, and NSVCD__ROUNDING.
+//
+// A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
+// between two of them. A *rollout* is one of MPPI's random trajectories; a *bundle* is the random
+// changes over which L-BFGS takes the mean of a gradient. Letters of shapes: M via points, F
+// joints, B bodies, P pairs.
+#pragma once
+#include "../ground/memory.h"
+#include "../ground/rotations.h"
+#include "../entry/processor.h"
+#include "spline.h"
+
+#ifndef NSVCD_NO_OPTIMIZER
+// The schedule of the search.
+// cost: of joints out of their limits, per radian^2 or metre^2, mean over the moments
+#define NSVCD__LIMIT_COST 1e5f
+// cost: of a joint's range, kept free at both limits
+#define NSVCD__LIMIT_MARGIN 0.005f
+// collision: logits over which the cost grows from a slope of 0 to one of 1
+#define NSVCD__SOFT_LOGITS 2
+// collision: segments that one query asks about, where a first look may do
+#define NSVCD__FIRST_LOOK_SEGMENTS 8
+// gradient by differences: a joint's step, and what it grows by with the joint's value
+#define NSVCD__JOINT_STEP 1e-3f
+#define NSVCD__JOINT_STEP_SHARE 1e-6f
+// explore: temperatures above the least cost at which a rollout weighs nothing
+#define NSVCD__WEIGHTLESS 10
+// explore: one in so many rollouts costs less than the least cost and two temperatures
+#define NSVCD__ELITE 10
+// explore: how far the mean goes towards that of the rollouts
+#define NSVCD__MEAN_STEP 0.9f
+// explore: it ends after so many iterations without a gain of 1 %, once the best is free
+#define NSVCD__PATIENCE 3
+// refine: steps of L-BFGS that are remembered; step lengths that are tried
+#define NSVCD__HISTORY 8
+#define NSVCD__STEPS 5
+// plan: refinements more, with a wider margin, where the proof finds a hit
+#define NSVCD__PUSHES 3
+// plan: segments of the last check to one of the finest stage
+#define NSVCD__CHECKS 16
+// plan: looks, at least, at how far a piece of the spline strays
+#define NSVCD__STRAY_LOOKS 16
+
+// A body, in its own axes: its bounding sphere, and the box of its patches.
+typedef struct nsvcd__shape {
+  nsvcd__sphere sphere;
+  nsvcd__box box;
+} nsvcd__shape;
+
+// A body at a moment.
+typedef struct nsvcd__stance {
+  nsvcd__transform pose;
+  nsvcd__f3 centre;  // of its bounding sphere, from its origin, in the world's axes
+  // of its turn to the next moment: the root of 1 - cos of half the angle
+  float bend;
+} nsvcd__stance;
+
+// One way of looking at trajectories: while exploring, refining, or for the last check.
+typedef struct nsvcd__stage {
+  size_t via, moments;  // M; segments + 1
+  // of the via points, M F
+  size_t numbers;
+  // of all control points
+  size_t bytes;
+  size_t iterations;
+  // rollouts of an iteration, or gradients in a bundle
+  size_t draws;
+  // their standard deviation, radians or metres
+  float noise;
+  double *form;  // (M + 2, M + 2): smoothness
+  // (M, M): Cholesky's, of the rows and columns of the via points
+  double *factor;
+  // of factor^-T times normal numbers: the greatest of a via point
+  double deviation;
+  // (moments, M + 2): of the control points, in the joints
+  float *weights;
+} nsvcd__stage;
+
+typedef struct nsvcd__planner {
+  const nsvcd_plan_problem *problem;
+  // with the defaults filled in
+  nsvcd_plan_options options;
+  nsvcd__stage explore, refine, check;
+  // workspace of queries
+  void *query;
+  size_t query_size;
+  uint64_t random;  // the state of the random numbers
+  // the first that a query or a pose gave
+  nsvcd_result error;
+  size_t trajectories, sweeps;
+  // the one that is searched from
+  size_t seed;
+  // of all seeds, both stages
+  size_t iterations;
+  // by the progress callback
+  int cancelled;
+
+  // the trajectory that is looked at
+  float *path;  // (moments, F)
+  // (moments, B)
+  nsvcd_pose *poses;
+  // (moments, B)
+  nsvcd__stance *stances;
+  nsvcd__shape *shapes;  // (B)
+  // (moments): may the pair at hand meet there?
+  unsigned char *meets;
+  // (P): pairs, in the order in which they are looked at
+  uint32_t *queue;
+  float *wrenches;  // (moments, B, 6)
+  // (B): at a moment, with one joint moved
+  nsvcd_pose *moved;
+  float *jacobian;  // (B, 6, F)
+  // (F): derivative by the joints of a moment
+  float *by_path;
+
+  // control points, (M + 2, F) each; the gradient's and those below have rows for via points only
+  float *result;  // the best of all seeds
+  // where the search is: MPPI's mean, L-BFGS's last point
+  float *control;
+  float *best;  // of this seed
+  // the one that is costed
+  float *trial;
+  float *gradient;  // at `trial`, (M + 2, F)
+  // means of offsets, or of gradients
+  float *sum;
+  // a change, or a direction
+  float *offset;
+  float *drawn;  // (draws, M, F): the random changes
+  // (draws): of rollouts, then their weights
+  float *costs;
+  float *steps;  // (HISTORY, M, F): of L-BFGS,
+  // (HISTORY, M, F): and what they changed in the gradient
+  float *changes;
+  // (M + 2): scratch
+  double *vector;
+} nsvcd__planner;
+
+// What a trajectory costs.
+typedef struct nsvcd__cost {
+  float total, smoothness, collision;
+  int collides;  // in what was looked at
+  // that leaves its limits, or NSVCD_NONE
+  size_t joint;
+  // of the last check, which looks closer: the most suspicious moment, and who is suspected
+  float logit, time;
+  size_t pair;
+  // a proof has found it, INSIDE too, or could not rule it out
+  int proven;
+} nsvcd__cost;
+
+static const nsvcd__cost nsvcd__no_cost = {
+    0, 0, 0, 0, NSVCD_NONE, -NSVCD_LOGIT_CERTAIN, 0, NSVCD_NONE, 0};
+
+static int nsvcd__is_free(const nsvcd__cost *cost) {
+  return !cost->collides && cost->joint == NSVCD_NONE;
+}
+
+// ---- memory
+
+static size_t nsvcd__larger(size_t a, size_t b) {
+  return a > b ? a : b;
+}
+
+// A weight: the default where 0 is given, 0 where it is negative.
+static float nsvcd__weight_of(float given, float otherwise) {
+  return given > 0 ? given : given < 0 ? 0 : otherwise;
+}
+
+// A stage of what the caller gave, and the defaults where that is 0. Returns 0 for what cannot be.
+static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defaults,
+                           nsvcd__stage *stage) {
+  const size_t segments = given->segments ? given->segments : defaults.segments;
+  stage->via = given->via_points ? given->via_points : defaults.via_points;
+  stage->moments = segments + 1;
+  stage->iterations = given->iterations ? given->iterations : defaults.iterations;
+  if (given->iterations == NSVCD_NONE) stage->iterations = 0;
+  stage->draws = given->draws ? given->draws : defaults.draws;
+  stage->noise = nsvcd__weight_of(given->noise, defaults.noise);
+  if (stage->via > NSVCD_MAX_VIA_POINTS || segments > NSVCD_MAX_PLAN_SEGMENTS) return 0;
+  return stage->draws <= 10000 && stage->iterations <= 100000;
+}
+
+// Is the problem one that can be stated?
+static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
+  if (!problem || !problem->place) return 0;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return 0;
+  if (problem->body_count > 65536) return 0;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
+  const int by_network = !problem->collision;
+  if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
+    return 0;
+  for (size_t k = 0; k < problem->pair_count; k++) {
+    const size_t a = problem->pairs[k].a;
+    const size_t b = problem->pairs[k].b;
+    if (a >= problem->body_count || b >= problem->body_count || a == b) return 0;
+    if (by_network && (!problem->bodies[a] || !problem->bodies[b])) return 0;
+  }
+  return 1;
+}
+
+// Fills in the defaults. Returns 0 for what cannot be.
+static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
+                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
+  // via points, segments, iterations, draws, noise
+  static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
+  static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
+  nsvcd__settings unused;
+  memset(p, 0, sizeof *p);
+  if (!nsvcd__problem_is_whole(problem)) return 0;
+  p->problem = problem;
+  if (options) p->options = *options;
+  nsvcd_plan_options *o = &p->options;
+  const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
+                          o->duration, o->margin,       o->explore.noise, o->refine.noise};
+  for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
+    if (!nsvcd__is_finite(floats[k])) return 0;
+  }
+  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
+  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
+  if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
+
+  o->seeds = o->seeds ? o->seeds : 6;
+  o->velocity = nsvcd__weight_of(o->velocity, 10);
+  o->acceleration = nsvcd__weight_of(o->acceleration, 2);
+  o->jerk = nsvcd__weight_of(o->jerk, 10);
+  // something must be least
+  if (!(o->velocity > 0 || o->acceleration > 0 || o->jerk > 0)) o->velocity = 1e-3f;
+  o->collision = nsvcd__weight_of(o->collision, 20);
+  o->duration = o->duration > 0 ? o->duration : 20;
+  o->margin = nsvcd__weight_of(o->margin, 2);
+
+  p->check = p->refine;
+  const size_t finest = nsvcd__larger(p->explore.moments, p->refine.moments);
+  const size_t most = 4 * NSVCD_MAX_PLAN_SEGMENTS;
+  const size_t dense = NSVCD__CHECKS * (finest - 1);
+  o->check = o->check ? o->check : dense < most ? dense : most;
+  p->check.moments = o->check + 1;
+  return o->check <= most && o->seeds <= 1000;
+}
+
+// The next rows of so many floats of a workspace: nsvcd__take.
+static float *nsvcd__take_floats(char *base, uint64_t *used, size_t rows, size_t floats) {
+  return (float *)nsvcd__take(base, used, rows, floats * sizeof(float));
+}
+
+// Lays the planner's memory out in base, or, where that is NULL, only measures. Returns the bytes;
+// 0 if they are more than can be counted.
+static size_t nsvcd__planner_memory(nsvcd__planner *p, char *base) {
+  nsvcd__stage *const stages[3] = {&p->explore, &p->refine, &p->check};
+  float **const points[7] = {&p->result,   &p->control, &p->best,  &p->trial,
+                             &p->gradient, &p->sum,     &p->offset};
+  const size_t f = p->problem->joints;
+  const size_t bodies = p->problem->body_count;
+  const size_t via = nsvcd__larger(p->explore.via, p->refine.via);
+  const size_t draws = nsvcd__larger(p->explore.draws, p->refine.draws);
+  const size_t searched = nsvcd__larger(p->explore.moments, p->refine.moments);
+  const size_t moments = nsvcd__larger(p->check.moments, searched);
+  const size_t placed = moments * bodies;
+  const size_t point = (via + 2) * f;
+  uint64_t used = 0;
+
+  p->query_size = nsvcd_sweep_workspace_size(NULL);
+  p->query = nsvcd__take(base, &used, 1, p->query_size);
+  for (size_t k = 0; k < 3; k++) {
+    nsvcd__stage *stage = stages[k];
+    const size_t all = stage->via + 2;
+    stage->numbers = stage->via * f;
+    stage->bytes = all * f * sizeof(float);
+    stage->form = (double *)nsvcd__take(base, &used, all, all * sizeof(double));
+    stage->factor =
+        (double *)nsvcd__take(base, &used, stage->via, stage->via * sizeof(double));
+    stage->weights = nsvcd__take_floats(base, &used, stage->moments, all);
+  }
+
+  p->path = nsvcd__take_floats(base, &used, moments, f);
+  p->poses = (nsvcd_pose *)nsvcd__take(base, &used, placed, sizeof(nsvcd_pose));
+  p->stances = (nsvcd__stance *)nsvcd__take(base, &used, placed, sizeof(nsvcd__stance));
+  p->shapes = (nsvcd__shape *)nsvcd__take(base, &used, bodies, sizeof(nsvcd__shape));
+  p->meets = (unsigned char *)nsvcd__take(base, &used, moments, 1);
+  p->queue = (uint32_t *)nsvcd__take(base, &used, p->problem->pair_count, sizeof(uint32_t));
+  p->wrenches = nsvcd__take_floats(base, &used, placed, 6);
+  p->moved = (nsvcd_pose *)nsvcd__take(base, &used, bodies, sizeof(nsvcd_pose));
+  p->jacobian = nsvcd__take_floats(base, &used, bodies, 6 * f);
+  p->by_path = nsvcd__take_floats(base, &used, 1, f);
+
+  for (size_t k = 0; k < 7; k++) *points[k] = nsvcd__take_floats(base, &used, 1, point);
+  p->drawn = nsvcd__take_floats(base, &used, draws, point);
+  p->costs = nsvcd__take_floats(base, &used, 1, draws);
+  p->steps = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
+  p->changes = nsvcd__take_floats(base, &used, NSVCD__HISTORY, point);
+  p->vector = (double *)nsvcd__take(base, &used, 1, (via + 2) * sizeof(double));
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+// Fills in what a stage knows beforehand.
+static void nsvcd__stage_init(const nsvcd_plan_options *o, nsvcd__stage *stage) {
+  const double weights[3] = {(double)o->velocity, (double)o->acceleration, (double)o->jerk};
+  const size_t via = stage->via;
+  const size_t all = via + 2;
+  double w[NSVCD_MAX_VIA_POINTS + 2];
+  double rate = 1;
+  for (size_t k = 0; k < all * all; k++) stage->form[k] = 0;
+  for (size_t d = 1; d <= 3; d++) {
+    rate /= (double)o->duration * (double)o->duration;
+    nsvcd__add_mean_square(via, d, rate * weights[d - 1], stage->form);
+  }
+  for (size_t k = 0; k < via * via; k++)
+    stage->factor[k] = stage->form[(k / via + 1) * all + k % via + 1];
+  // in place: row i is read before it is written
+  nsvcd__cholesky(stage->factor, via, stage->factor);
+
+  stage->deviation = 0;
+  // the variance of via point k is |L^-1 e_k|^2
+  for (size_t k = 0; k < via; k++) {
+    double square = 0;
+    for (size_t i = 0; i < via; i++) w[i] = i == k;
+    nsvcd__solve_lower(stage->factor, via, w);
+    for (size_t i = 0; i < via; i++) square += w[i] * w[i];
+    stage->deviation = fmax(sqrt(square), stage->deviation);
+  }
+
+  const size_t last = stage->moments - 1;
+  for (size_t s = 0; s <= last; s++) {
+    nsvcd__spline_weights(via, last > 0 ? (double)s / (double)last : 0, 0, w);
+    for (size_t k = 0; k < all; k++) stage->weights[s * all + k] = (float)w[k];
+  }
+}
+#endif  // NSVCD_NO_OPTIMIZER

@@ -1,0 +1,263 @@
+// In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
+#pragma once
+#include "hulls.h"
+
+#ifndef NSVCD_NO_PROOF
+// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one
+// repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
+static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
+                                 size_t count, size_t k, uint16_t *vertices) {
+  const size_t bytes =
+      nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
+  const size_t at = 3 * (first - f->first_triangle[patch]) + k;
+  const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
+  const size_t last = count - 1;
+  if (bytes == 1) {
+    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
+    return;
+  }
+  for (size_t l = 0; l < NSVCD__LANES; l++)
+    memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
+}
+
+// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
+static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
+                              nsvcd__block *out) {
+  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
+  const int16_t *y = x + all;
+  const int16_t *z = y + all;
+  const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  out->first = first;
+  out->count = count;
+  for (size_t k = 0; k < 3; k++) {
+    uint16_t vertices[NSVCD__LANES];
+    int16_t places[3][NSVCD__LANES];
+    nsvcd__block_corners(f, patch, first, count, k, vertices);
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      places[0][l] = x[vertices[l]];
+      places[1][l] = y[vertices[l]];
+      places[2][l] = z[vertices[l]];
+    }
+    NSVCD__EACH_SLICE(l) {
+      nsvcd__v3 integers;
+      integers.x = nsvcd__v_load_int16(places[0] + l);
+      integers.y = nsvcd__v_load_int16(places[1] + l);
+      integers.z = nsvcd__v_load_int16(places[2] + l);
+      const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
+      const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre));
+      nsvcd__v3_store(out->corners[k], l, corner);
+    }
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
+    const nsvcd__v3 b = nsvcd__v3_load(out->corners[1], l);
+    const nsvcd__v3 c = nsvcd__v3_load(out->corners[2], l);
+    nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_min(a, b), c));
+    nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_max(a, b), c));
+  }
+}
+
+// Poses the corners of the moving block, into p->posed[which].
+static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+                                           size_t which) {
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
+      nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, corner));
+    }
+  }
+}
+
+// Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
+static void nsvcd__block_box(nsvcd__proof *p, size_t ends) {
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v3 low = nsvcd__v3_load(p->posed[0][0], l);
+    nsvcd__v3 high = low;
+    for (size_t n = 1; n < 3 * ends; n++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[n / 3][n % 3], l);
+      low = nsvcd__v3_min(low, corner);
+      high = nsvcd__v3_max(high, corner);
+    }
+    nsvcd__v3_store(p->moving_block.low, l, low);
+    nsvcd__v3_store(p->moving_block.high, l, high);
+  }
+}
+
+// The box about a block's boxes.
+static nsvcd__box nsvcd__block_bounds(const nsvcd__block *block) {
+  float low[3], high[3];
+  for (size_t k = 0; k < 3; k++) {
+    float least = HUGE_VALF;
+    float negated = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v above = nsvcd__v_negate(nsvcd__v_load(block->high[k] + l));
+      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v_load(block->low[k] + l)));
+      negated = nsvcd__least_of(negated, nsvcd__v_least(above));
+    }
+    low[k] = least;
+    high[k] = -negated;
+  }
+  const nsvcd__box out = {nsvcd__f3_load(low), nsvcd__f3_load(high)};
+  return out;
+}
+
+// Loads up to NSVCD__WINDOW blocks of resting patch j, from listing `first` on, and what they
+// extend to. The same patch is often asked for again.
+static void nsvcd__window_load(nsvcd__proof *p, size_t j, size_t first) {
+  const size_t end = p->fixed.first_triangle[j + 1];
+  if (p->memo.window > 0 && p->fixed_blocks[0].first == first) return;
+  p->memo.window = 0;
+  for (size_t n = first; n < end && p->memo.window < NSVCD__WINDOW; n += NSVCD__LANES) {
+    nsvcd__block *block = &p->fixed_blocks[p->memo.window];
+    nsvcd__block_load(&p->fixed, j, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+    p->bounds[p->memo.window] = nsvcd__block_bounds(block);
+    p->memo.window++;
+  }
+}
+
+// The lanes of a block that are listings of their own.
+static inline uint32_t nsvcd__block_lanes(const nsvcd__block *block) {
+  return ((uint32_t)1 << (block->count - 1) << 1) - 1;
+}
+
+// Lanes of a block whose boxes come within `margin` of a box along every axis.
+NSVCD__INLINE uint32_t nsvcd__lanes_near(const nsvcd__block *block, nsvcd__box box,
+                                         float margin) {
+  const nsvcd__f3 around = nsvcd__f3_of(margin, margin, margin);
+  float low[3], high[3];
+  nsvcd__f3_store(nsvcd__f3_sub(box.low, around), low);
+  nsvcd__f3_store(nsvcd__f3_add(box.high, around), high);
+  uint32_t lanes = 0;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t slice = NSVCD__SLICE_MASK;
+    for (size_t k = 0; k < 3; k++) {
+      slice &= nsvcd__v_le(nsvcd__v_load(block->low[k] + l), nsvcd__v_set(high[k]));
+      slice &= nsvcd__v_le(nsvcd__v_set(low[k]), nsvcd__v_load(block->high[k] + l));
+    }
+    lanes |= slice << l;
+  }
+  return lanes & nsvcd__block_lanes(block);
+}
+
+static nsvcd__box nsvcd__box_of_lane(nsvcd__block *block, size_t l) {
+  const nsvcd__box out = {nsvcd__lane_of(block->low, l), nsvcd__lane_of(block->high, l)};
+  return out;
+}
+
+// A margin along normals of any length. Where their squares underflow it is so large that nothing
+// is beyond it.
+static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
+  const nsvcd__v square = nsvcd__v3_dot(n, n);
+  const nsvcd__v limit = nsvcd__v_scale(nsvcd__v_sqrt(square), margin);
+  return nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit);
+}
+
+// Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
+// on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
+// the moving one is on the side that the normal points from.
+NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                           size_t s, size_t ends, float margin, nsvcd__v3 n,
+                                           uint32_t *below) {
+  const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
+  const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
+  const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
+  const nsvcd__v height1 = nsvcd__v3_dot(n, edge1);
+  const nsvcd__v height2 = nsvcd__v3_dot(n, edge2);
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v low = nsvcd__v_min(zero, nsvcd__v_min(height1, height2));
+  const nsvcd__v high = nsvcd__v_max(zero, nsvcd__v_max(height1, height2));
+  nsvcd__v lowest = nsvcd__v_set(HUGE_VALF);
+  nsvcd__v highest = nsvcd__v_set(-HUGE_VALF);
+  for (size_t k = 0; k < 3 * ends; k++) {
+    const nsvcd__v3 a = nsvcd__v3_set(nsvcd__lane_of(p->posed[k / 3][k % 3], l));
+    const nsvcd__v height = nsvcd__v3_dot(n, nsvcd__v3_sub(a, b0));
+    lowest = nsvcd__v_min(lowest, height);
+    highest = nsvcd__v_max(highest, height);
+  }
+  const nsvcd__v limit = nsvcd__margin_along(n, margin);
+  *below = nsvcd__v_lt(highest, nsvcd__v_sub(low, limit));
+  return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
+}
+
+// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of
+// the moving one, and of an edge of each.
+#define NSVCD__NORMALS 11
+NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                             size_t s, size_t k) {
+  if (k == 1) {
+    const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
+    const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
+    const nsvcd__f3 v = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][2], l), a);
+    return nsvcd__v3_set(nsvcd__f3_cross(u, v));
+  }
+  const size_t fixed_edge = k == 0 ? 0 : (k - 2) % 3;
+  const size_t moving_edge = k == 0 ? 0 : (k - 2) / 3;
+  const nsvcd__v3 b = nsvcd__v3_load(fixed->corners[fixed_edge], s);
+  const nsvcd__v3 next = nsvcd__v3_load(fixed->corners[(fixed_edge + 1) % 3], s);
+  const nsvcd__v3 edge = nsvcd__v3_sub(next, b);
+  if (k == 0)
+    return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
+  const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
+  const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
+  const nsvcd__f3 other = nsvcd__f3_sub(after, a);
+  return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
+}
+
+#ifdef NSVCD__CERTIFIES
+// All couples of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
+// or, where that is NULL, by their boxes.
+static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                 const nsvcd__block *b, const nsvcd__span *span,
+                                 uint32_t apart, size_t s, const nsvcd__v3 *plane,
+                                 uint32_t below) {
+  float lanes[3][NSVCD__LANES];
+  const nsvcd__block *a = &p->moving_block;
+  if (plane) nsvcd__v3_store(lanes, s, *plane);
+  for (size_t n = 0; n < b->count; n++) {
+    float normal[3] = {0, 0, 0};
+    float widest = -HUGE_VALF;
+    const float sign = below >> n & 1 ? -1.0f : 1.0f;
+    if (!(apart >> n & 1)) continue;
+    for (size_t k = 0; k < 3; k++) {
+      if (plane) normal[k] = sign * lanes[k][n];
+      const float above = a->low[k][l] - b->high[k][n];
+      const float under = b->low[k][n] - a->high[k][l];
+      if (plane || (above <= widest && under <= widest)) continue;
+      widest = above > under ? above : under;
+      normal[0] = normal[1] = normal[2] = 0;
+      normal[k] = above > under ? 1.0f : -1.0f;
+    }
+    NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, i, j, a->first + l, b->first + n, span->t_start,
+                   span->t_end, normal);
+  }
+}
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) \
+  nsvcd__certify_block(p, i, j, l, b, span, apart, s, plane, below)
+#else
+#define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
+#endif
+
+// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
+// `ends` poses. span: of patches i and j, for the certificates; NULL for none.
+static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                             nsvcd__block *fixed, size_t ends,
+                                             const nsvcd__span *span, float margin) {
+  uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
+  if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
+    NSVCD__EACH_SLICE(s) {
+      uint32_t below;
+      if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
+      const uint32_t apart =
+          nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+      if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      met &= ~apart;
+    }
+  }
+  (void)i;
+  (void)j;
+  return met;
+}
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,406 @@
+// In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
+// in double.
+#pragma once
+#include "couples.h"
+#include "blocks.h"
+
+#ifndef NSVCD_NO_PROOF
+// A ray from a place of a body's frame, in that frame: does the body enclose the place?
+typedef struct nsvcd__ray {
+  nsvcd__d3 from, direction;
+  // a ray that passes an edge within this tells nothing; and that, with what rounding may add
+  double margin;
+  float rounding;
+} nsvcd__ray;
+
+// +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses it; *unclear if it
+// passes an edge.
+static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double margin,
+                              int *unclear) {
+  double around[3];
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  double nearest = HUGE_VAL;
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  // the signed volumes of the edges and the ray: all alike if it passes within
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
+    const double length = nsvcd__d3_length(across);
+    around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
+    least = fmin(least, around[k]);
+    most = fmax(most, around[k]);
+    nearest = fmin(nearest, length > 0 ? fabs(around[k]) / length : 0);
+  }
+  const double slope = nsvcd__d3_dot(n, ray->direction);
+  const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
+  const double size = nsvcd__d3_length(n);
+  const int behind = height * slope < 0 && fabs(height) > margin * size;
+  if (behind) return 0;
+  if (nearest <= margin) {
+    // Near the line of an edge, but is it near the triangle?
+    nsvcd__d3 far_end = nsvcd__d3_add(ray->from, nsvcd__d3_scale(ray->direction, 4 * 1.6e7));
+    nsvcd__nearest near_edge = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+    for (size_t k = 0; k < 3; k++)
+      nsvcd__edges_nearest(ray->from, far_end, t[k], t[(k + 1) % 3], &near_edge);
+    if (near_edge.square <= 4 * margin * margin) *unclear = 1;
+    if (least < 0 && most > 0) return 0;
+  }
+  if (least <= 0 && most >= 0) return 0;
+  if (fabs(height) <= margin * size) *unclear = 1;
+  return slope > 0 ? 1 : slope < 0 ? -1 : 0;
+}
+
+// Lanes of 16 spheres, in the body's frame, that the ray meets; a filter of a walk.
+static uint32_t nsvcd__is_on_ray(const void *what, nsvcd__spheres all) {
+  const nsvcd__ray *ray = (const nsvcd__ray *)what;
+  const nsvcd__f3 from = nsvcd__f3_round(ray->from);
+  const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
+    const nsvcd__v3 n = nsvcd__v3_set(direction);
+    const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
+    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), ray->rounding);
+    const nsvcd__v square = nsvcd__v3_dot(off, off);
+    const uint32_t near_line = nsvcd__v_le(square, nsvcd__v_signed_square(reach));
+    met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
+  }
+  return met;
+}
+
+// Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
+// there is no room.
+static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
+  for (size_t k = 0; k < *count; k++) {
+    if (p->crossed[k] == number) return 0;
+  }
+  if (*count == NSVCD__CROSSED) *unclear = 1;
+  if (*count < NSVCD__CROSSED) p->crossed[(*count)++] = number;
+  return 1;
+}
+
+// Lanes of a block whose triangles the ray crosses, or passes within the margin, and some more. The
+// signed volumes of the edges and the ray are products of an edge and a place on it, off by no more
+// than `rounding`, square metres: see nsvcd__crossings.
+static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, float margin,
+                                    float rounding) {
+  const nsvcd__f3 start = nsvcd__f3_round(ray->from);
+  const nsvcd__f3 way = nsvcd__f3_round(ray->direction);
+  uint32_t missed = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 from = nsvcd__v3_set(start);
+    const nsvcd__v3 direction = nsvcd__v3_set(way);
+    const nsvcd__v3 a = nsvcd__v3_load(block->corners[0], l);
+    const nsvcd__v3 b = nsvcd__v3_load(block->corners[1], l);
+    const nsvcd__v3 c = nsvcd__v3_load(block->corners[2], l);
+    const nsvcd__v3 ab = nsvcd__v3_cross(nsvcd__v3_sub(b, a), direction);
+    const nsvcd__v3 bc = nsvcd__v3_cross(nsvcd__v3_sub(c, b), direction);
+    const nsvcd__v3 ca = nsvcd__v3_cross(nsvcd__v3_sub(a, c), direction);
+    const nsvcd__v by_ab = nsvcd__v3_dot(ab, nsvcd__v3_sub(a, from));
+    const nsvcd__v by_bc = nsvcd__v3_dot(bc, nsvcd__v3_sub(b, from));
+    const nsvcd__v by_ca = nsvcd__v3_dot(ca, nsvcd__v3_sub(c, from));
+    const nsvcd__v least = nsvcd__v_min(by_ab, nsvcd__v_min(by_bc, by_ca));
+    const nsvcd__v most = nsvcd__v_max(by_ab, nsvcd__v_max(by_bc, by_ca));
+    const nsvcd__v longer = nsvcd__v_max(nsvcd__v3_length(bc), nsvcd__v3_length(ca));
+    const nsvcd__v longest = nsvcd__v_max(nsvcd__v3_length(ab), longer);
+    const nsvcd__v allowed =
+        nsvcd__v_fma(nsvcd__v_set(margin), longest, nsvcd__v_set(rounding));
+    missed |= (nsvcd__v_lt(least, nsvcd__v_negate(allowed)) & nsvcd__v_lt(allowed, most)) << l;
+  }
+  return nsvcd__block_lanes(block) & ~missed;
+}
+
+// How often the surface of the closed components winds about a point, by one ray; *unclear if it
+// cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+//
+// How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
+// and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
+// off by 2 u E. An edge, of up to 2 E, by two corners and its own rounding, 6 u E; its product with
+// the direction, rounded as well, by 6 + 2 + 2.31 x 2 (|a_y b_z| + |a_z b_y| and so on are no more
+// than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
+// volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
+// 1.5e-6 E R. NSVCD__ROUNDING is more.
+static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
+                            int *unclear) {
+  nsvcd__block *block = &p->fixed_blocks[0];
+  p->memo.window = 0;
+  const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
+  const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
+  int sum = 0;
+  size_t count = 0;
+  size_t g;
+  nsvcd__walk walk;
+  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_ray, ray);
+  while (!*unclear && nsvcd__walk_next(&walk, &g)) {
+    const nsvcd__spheres all = nsvcd__body_patches(f->body);
+    uint32_t patches = nsvcd__is_on_ray(ray, nsvcd__spheres_from(all, NSVCD__GROUP * g));
+    for (; patches && !*unclear; patches &= patches - 1) {
+      const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
+      if (i >= f->body->patches) break;
+      const double margin = (double)f->quanta[i] + ray->margin;
+      const size_t end = f->first_triangle[i + 1];
+      nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
+      for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
+        nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+        p->work++;
+        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
+        for (; lanes; lanes &= lanes - 1) {
+          const size_t listing = n + nsvcd__lowest_bit(lanes);
+          nsvcd__d3 corners[3];
+          nsvcd__read_number(&numbers, listing);
+          if (!numbers.encloses) continue;
+          p->work++;
+          nsvcd__facet_triangle(f, i, listing, corners);
+          const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+// A place in a body's frame, and a distance from it.
+typedef struct nsvcd__surroundings {
+  nsvcd__f3 place;
+  float distance;
+} nsvcd__surroundings;
+
+// Lanes of 16 spheres that come within that; a filter of a walk.
+static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
+  const nsvcd__surroundings *here = (const nsvcd__surroundings *)what;
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), nsvcd__v3_set(here->place));
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), here->distance);
+    met |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+  }
+  return met;
+}
+
+// Is a stored triangle so close to the place that the true surface may be on its other side?
+static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
+                                  double tolerance) {
+  const nsvcd_body *b = f->body;
+  const nsvcd__d3 point[3] = {place, place, place};
+  const nsvcd__f3 rounded = nsvcd__f3_round(place);
+  const nsvcd__box at = {rounded, rounded};
+  const float remote = nsvcd__f3_length(rounded) + b->extent;
+  const float distance =
+      2 * nsvcd__widest_quantum(f) + (float)tolerance * 1.0001f + 4 * NSVCD__ROUNDING * remote;
+  const nsvcd__surroundings here = {rounded, distance};
+  nsvcd__block *block = &p->fixed_blocks[0];
+  size_t g;
+  nsvcd__walk walk;
+  p->memo.window = 0;
+  nsvcd__walk_begin(&walk, b, nsvcd__is_around, &here);
+  while (nsvcd__walk_next(&walk, &g)) {
+    const size_t first = NSVCD__GROUP * g;
+    const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
+    for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
+      const size_t i = first + nsvcd__lowest_bit(met);
+      if (i >= b->patches) break;
+      const double limit = 2 * (double)f->quanta[i] + tolerance;
+      const size_t end = f->first_triangle[i + 1];
+      for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
+        nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
+        p->work++;
+        uint32_t lanes = nsvcd__lanes_near(block, at, distance);
+        for (; lanes; lanes &= lanes - 1) {
+          nsvcd__d3 corners[3];
+          nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
+          if (nsvcd__triangles_nearest(point, corners).square <= limit * limit) return 1;
+        }
+      }
+    }
+  }
+  return 0;
+}
+
+// Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
+// directions that no mesh is likely to be aligned with, the first one on the side of the body on
+// which the place is. unit: of its frame.
+static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
+                              nsvcd__d3 place) {
+  static const double directions[8][3] = {
+      {0.5359, 0.6013, 0.5927},   {-0.5741, 0.6229, 0.5314},  {0.6127, -0.5531, 0.5644},
+      {-0.5477, -0.5923, 0.5909}, {0.6311, 0.5573, -0.5396},  {-0.6053, 0.5297, -0.5941},
+      {0.5623, -0.6217, -0.5452}, {-0.5849, -0.5407, -0.6047}};
+  const nsvcd__d3 centre = nsvcd__d3_load(f->body->centre);
+  const nsvcd__d3 off = nsvcd__d3_sub(place, centre);
+  const double radius = (double)f->body->radius;
+  if (f->body->open || nsvcd__d3_dot(off, off) > 1.00001 * radius * radius) return 0;
+  const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
+  nsvcd__ray ray;
+  ray.from = place;
+  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
+  for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
+    const double *d = directions[best ^ n];
+    int unclear = 0;
+    ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
+    ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
+    const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
+    if (unclear) continue;
+    return crossings != 0;
+  }
+  p->unclear = 1;
+  return 0;
+}
+
+// Does some surface of a body lie outside of a sphere about the other? start: from the frame of the
+// first to that of the second, in which the first is of this scale.
+static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform *start,
+                             float scale, const nsvcd_body *outer) {
+  const nsvcd_body *b = inner->body;
+  const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
+  const float rounding = 4 * NSVCD__ROUNDING * (scale * b->extent + outer->extent);
+  const nsvcd__v radius = nsvcd__v_set(outer->radius + rounding);
+  for (size_t first = 0; first < b->padded; first += NSVCD__LANES) {
+    const nsvcd__spheres patches = nsvcd__spheres_from(nsvcd__body_patches(b), first);
+    uint32_t out = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 own = nsvcd__v3_centres(patches, l);
+      const nsvcd__v3 posed = nsvcd__v3_transform(start, own);
+      const nsvcd__v3 d = nsvcd__v3_sub(posed, centre);
+      const nsvcd__v own_radius = nsvcd__v_load(patches.r + l);
+      const nsvcd__v limit = nsvcd__v_fma(nsvcd__v_set(scale), own_radius, radius);
+      out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
+    }
+    for (; out; out &= out - 1) {
+      const size_t i = first + nsvcd__lowest_bit(out);
+      if (i < inner->body->patches && inner->hull_counts[i]) return 1;
+    }
+  }
+  return 0;
+}
+
+// Seeds first .. first + 15 that may be in the sphere and in the box about the other body.
+static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
+                                  const nsvcd__transform *start, float scale,
+                                  const nsvcd__facets *outer) {
+  const nsvcd_body *o = outer->body;
+  const size_t left = inner->components - first;
+  float lanes[3][NSVCD__LANES];
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const float *seed = inner->seeds + 3 * (first + (l < left ? l : 0));
+    for (size_t k = 0; k < 3; k++) lanes[k][l] = seed[k];
+  }
+  const nsvcd__f3 centre = nsvcd__f3_of(o->centre[0], o->centre[1], o->centre[2]);
+  const float remote =
+      nsvcd__f3_length(start->position) + scale * inner->body->extent + o->extent;
+  const float rounding = 4 * NSVCD__ROUNDING * remote;
+  uint32_t nearby = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 seen = nsvcd__v3_transform(start, nsvcd__v3_load(lanes, l));
+    const nsvcd__v3 d = nsvcd__v3_sub(seen, nsvcd__v3_set(centre));
+    const nsvcd__v radius = nsvcd__v_set(o->radius + rounding);
+    const nsvcd__v at[3] = {seen.x, seen.y, seen.z};
+    uint32_t slice = nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_mul(radius, radius));
+    for (size_t k = 0; k < 3; k++) {
+      slice &= nsvcd__v_le(nsvcd__v_set(outer->box[k] - rounding), at[k]);
+      slice &= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));
+    }
+    nearby |= slice << l;
+  }
+  return nearby;
+}
+
+// The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
+// those of the inverse rotation, over it.
+static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
+  const double inverse = 1 / (scale * scale);
+  nsvcd__placement out;
+  const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
+  out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
+  out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
+  return out;
+}
+
+// One body at the start of the motion, as the other sees it.
+typedef struct nsvcd__enclosure {
+  const nsvcd__facets *inner, *outer;
+  // of the inner body in the outer one's frame, the same rounded, and the other way round
+  nsvcd__placement start;
+  nsvcd__transform rounded;
+  nsvcd__placement back;
+  float scale;  // of the inner body, in that frame
+  // of that frame: the fixed body's units
+  double unit;
+  // it is the motion's moving body
+  int inner_moves;
+} nsvcd__enclosure;
+
+// Are some of the inner body's components, those with seeds from `first` to `end`, within the outer
+// one? Then p->enclosed has the point, and p->within is set; 1 if that is certain.
+static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, size_t first,
+                                 size_t end) {
+  uint32_t nearby = 0;
+  for (size_t n = first; n < end; n++) {
+    const size_t l = (n - first) % NSVCD__LANES;
+    if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
+    if (!(nearby >> l & 1)) continue;
+    if (nsvcd__is_spent(p)) {
+      p->unclear = 1;
+      return 0;
+    }
+    const nsvcd__d3 seed = nsvcd__d3_load(e->inner->seeds + 3 * n);
+    const nsvcd__d3 seen = nsvcd__place_point(&e->start, seed);
+    if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
+    p->enclosed = e->inner_moves ? seen : seed;
+    p->within = 1;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, p->given.tolerance / e->unit)) return 1;
+  }
+  return 0;
+}
+
+// The same of all components. Where they are many, only those of groups that come near the outer
+// body are asked for.
+static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
+  const nsvcd_body *inner = e->inner->body;
+  const nsvcd_body *outer = e->outer->body;
+  if (outer->open) return 0;
+  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
+    return 0;
+  if (e->inner->components <= NSVCD__LANES)
+    return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
+  const nsvcd__f3 centre =
+      nsvcd__f3_round(nsvcd__place_point(&e->back, nsvcd__d3_load(outer->centre)));
+  const float remote = nsvcd__f3_length(centre) + inner->extent + outer->extent / e->scale;
+  const nsvcd__surroundings here = {centre,
+                                    outer->radius / e->scale + 4 * NSVCD__ROUNDING * remote};
+  size_t g;
+  nsvcd__walk walk;
+  nsvcd__walk_begin(&walk, inner, nsvcd__is_around, &here);
+  while (!p->unclear && nsvcd__walk_next(&walk, &g)) {
+    if (nsvcd__encloses_seeds(p, e, e->inner->first_seed[g], e->inner->first_seed[g + 1]))
+      return 1;
+  }
+  return 0;
+}
+
+// Is a component of one body within the other at the start of the motion? Then p->enclosed is its
+// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
+// set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
+// patch by patch on one side of a plane, agree, and it is within.
+static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
+  nsvcd__enclosure moving, fixed;
+  moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  moving.back = nsvcd__inverse_placement(&moving.start, p->memo.arc.scale);
+  moving.rounded = nsvcd__transform_of(&moving.start);
+  moving.inner = fixed.outer = &p->moving;
+  moving.outer = fixed.inner = &p->fixed;
+  moving.scale = p->ask.motion->scale;
+  moving.unit = 1;
+  moving.inner_moves = 1;
+  fixed.start = moving.back;
+  fixed.back = moving.start;
+  fixed.rounded = nsvcd__transform_of(&fixed.start);
+  fixed.scale = 1 / p->ask.motion->scale;
+  fixed.unit = p->memo.arc.scale;
+  fixed.inner_moves = 0;
+  return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
+}
+#endif  // NSVCD_NO_PROOF

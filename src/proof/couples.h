@@ -1,0 +1,452 @@
+// In: two triangles and a span. Out: parted, or in contact, or neither as long as it is halved.
+#pragma once
+#include "spans.h"
+
+#ifndef NSVCD_NO_PROOF
+// The normal of a triangle (3 corners); its length is twice the area.
+static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
+  return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+}
+
+// The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
+// makes of such a triangle's normal is some 1e-16 of its longest edge squared.
+static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  double longest = 0;
+  for (size_t k = 0; k < 3; k++)
+    longest = fmax(longest, nsvcd__d3_squared_distance(t[k], t[(k + 1) % 3]));
+  const double length = nsvcd__d3_length(n);
+  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
+}
+
+typedef struct nsvcd__nearest {
+  double square;  // of the distance
+  nsvcd__d3 on_a, on_b;
+} nsvcd__nearest;
+
+static double nsvcd__clamp_share(double x) {
+  return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 d = nsvcd__d3_sub(a, b);
+  const double square = nsvcd__d3_dot(d, d);
+  if (square >= best->square) return;
+  best->square = square;
+  best->on_a = a;
+  best->on_b = b;
+}
+
+// The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
+static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1,
+                                 nsvcd__nearest *best) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a1, a0);
+  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 w = nsvcd__d3_sub(a0, b0);
+  const double uu = nsvcd__d3_dot(u, u);
+  const double vv = nsvcd__d3_dot(v, v);
+  const double uv = nsvcd__d3_dot(u, v);
+  const double uw = nsvcd__d3_dot(u, w);
+  const double vw = nsvcd__d3_dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  double s = 0;
+  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
+  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
+}
+
+// The foot of x on the plane of a triangle, if it is within the triangle.
+static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const double square = nsvcd__d3_dot(n, n);
+  if (!(square > 0)) return 0;
+  const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(x, t[0])) / square;
+  *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    if (nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(*foot, t[k]))) < -1e-12 * square)
+      return 0;
+  }
+  return 1;
+}
+
+// Do two triangles meet where an edge of one passes through the other? Heights of corners over the
+// other's plane are in units of the length of its normal, which is not made unit.
+static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
+  const nsvcd__d3 *of[2] = {a, b};
+  double heights[2][3];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__d3 *other = of[1 - n];
+    const nsvcd__d3 normal = nsvcd__face_normal(other);
+    size_t above = 0;
+    size_t below = 0;
+    for (size_t k = 0; k < 3; k++) {
+      heights[n][k] = nsvcd__d3_dot(normal, nsvcd__d3_sub(of[n][k], other[0]));
+      above += heights[n][k] > 0;
+      below += heights[n][k] < 0;
+    }
+    if (above == 3 || below == 3) return 0;
+  }
+  for (size_t n = 0; n < 6; n++) {
+    const nsvcd__d3 *edges = of[n / 3];
+    const size_t k = n % 3;
+    const double h0 = heights[n / 3][k];
+    const double h1 = heights[n / 3][(k + 1) % 3];
+    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
+    const nsvcd__d3 through = nsvcd__d3_mix(edges[k], edges[(k + 1) % 3], h0 / (h0 - h1));
+    if (nsvcd__foot_within(through, of[1 - n / 3], point)) return 1;
+  }
+  return 0;
+}
+
+// The nearest points of two triangles; the distance is 0 where they meet.
+static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+  nsvcd__d3 point;
+  if (nsvcd__triangles_meet(a, b, &point)) {
+    best.square = 0;
+    best.on_a = point;
+    best.on_b = point;
+    return best;
+  }
+  for (size_t k = 0; k < 3; k++) {
+    for (size_t n = 0; n < 3; n++)
+      nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
+  }
+  return best;
+}
+
+static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
+                                  nsvcd__d3 *out) {
+  for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
+}
+
+// Two listed triangles, one of each body, in their frames.
+typedef struct nsvcd__couple {
+  size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
+  nsvcd__d3 moving[3], fixed[3];
+  // of the moving one, from its body's origin, in its body's units
+  double reach;
+  // quanta, and rounding in double
+  double slack;
+  double rounding;
+} nsvcd__couple;
+
+static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                      size_t b) {
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
+  nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
+  nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
+  for (size_t k = 0; k < 3; k++) {
+    const double reach = nsvcd__d3_length(couple.moving[k]);
+    couple.reach = reach > couple.reach ? reach : couple.reach;
+  }
+  couple.rounding =
+      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->memo.arc.from));
+  const double moving_quantum = p->memo.arc.scale * (double)p->moving.quanta[i];
+  couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
+  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->memo.arc.moved);
+  return couple;
+}
+
+// What is said of two triangles a share u of the arc later than its start.
+static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                        double u, const nsvcd__nearest *nearest) {
+  const nsvcd__d3 face = nsvcd__face_direction(couple->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
+  const double distance = sqrt(nearest->square);
+  const int touches = distance <= couple->rounding;
+  nsvcd__contact out;
+  out.tick = (double)p->memo.arc.first + u * (double)p->memo.arc.ticks;
+  out.distance = touches ? 0 : distance;
+  out.point = nearest->on_b;
+  out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
+  out.moving_triangle =
+      nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
+  out.fixed_triangle =
+      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_patch = (uint16_t)couple->moving_patch;
+  out.fixed_patch = (uint16_t)couple->fixed_patch;
+  return out;
+}
+
+// Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
+// that is an answer, SHRUNK if there may be a better one.
+static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u, const nsvcd__nearest *nearest) {
+  p->known.has_contact = 1;
+  p->known.found = nsvcd__contact_at(p, couple, u, nearest);
+  if (p->ask.measure > 0) {
+    p->high = p->known.found.distance;
+    p->ask.clearance = fmax(p->low, p->high - p->ask.measure);
+    return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  }
+  if (p->ask.first > 0) {
+    p->ask.end = p->known.found.tick - p->ask.first;
+    return p->ask.end > 0 ? NSVCD__SHRUNK : NSVCD__ANSWERED;
+  }
+  return NSVCD__ANSWERED;
+}
+
+// Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
+static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
+                                           double u0, double u1) {
+  const double tick = (double)p->memo.arc.first + u0 * (double)p->memo.arc.ticks;
+  const double middle = 0.5 * (u0 + u1);
+  nsvcd__d3 posed[3];
+  const size_t left = p->ask.in_doubt;
+  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->ask.limit)
+    p->ask.limit = p->work + left;
+  if (!(tick < p->known.unsure)) return;
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
+  p->known.unsure = tick;
+  if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
+}
+
+// What of the arc matters: the share of it at which the rest does not.
+static double nsvcd__arc_limit(const nsvcd__proof *p) {
+  return (p->ask.end - (double)p->memo.arc.first) / (double)p->memo.arc.ticks;
+}
+
+// Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
+// times a point at r metres is off its chord by (u1 - u0)^2 (bulge r + drift), of the whole arc;
+// along a direction n, where the arc is a turn about one axis a, by |n x a| of that bulge: see
+// motion/segments.
+static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
+                              double u1, nsvcd__d3 normal) {
+  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__placement *start = nsvcd__placed_at(p, u0);
+  const nsvcd__placement *end = nsvcd__placed_at(p, u1);
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_start));
+    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));
+    highest = fmax(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
+  }
+  double off_axis = 1;
+  if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
+  const double bulge = arc->bulge * couple->reach * off_axis;
+  const double deviation = (u1 - u0) * (u1 - u0) * (bulge + arc->drift);
+  return lowest - highest > p->ask.clearance + couple->slack + deviation;
+}
+
+// Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
+static int nsvcd__foot_well_within(nsvcd__d3 x, const nsvcd__d3 *t, double margin) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const double size = nsvcd__d3_length(n);
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    const double within = nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(x, t[k])));
+    if (!(within > margin * size * nsvcd__d3_length(edge))) return 0;
+  }
+  return 1;
+}
+
+// Have two heights different signs, clear of 0 by their margins?
+static int nsvcd__are_opposed(double before, double least_before, double after,
+                              double least_after) {
+  const int falls = before > least_before && after < -least_after;
+  const int rises = before < -least_before && after > least_after;
+  return falls || rises;
+}
+
+// Is x on different sides of a triangle's plane, farther than `margin` from it, at two times?
+static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
+                                const nsvcd__d3 *t1, double margin) {
+  const nsvcd__d3 n0 = nsvcd__face_normal(t0);
+  const nsvcd__d3 n1 = nsvcd__face_normal(t1);
+  const double before = nsvcd__d3_dot(n0, nsvcd__d3_sub(x0, t0[0]));
+  const double after = nsvcd__d3_dot(n1, nsvcd__d3_sub(x1, t1[0]));
+  return nsvcd__are_opposed(before, margin * nsvcd__d3_length(n0), after,
+                            margin * nsvcd__d3_length(n1));
+}
+
+// A couple at three times: the moving triangle's corners.
+typedef struct nsvcd__passage {
+  nsvcd__d3 corners[3][3];
+  // no point of it moves farther between these times, seen from the fixed one
+  double way;
+} nsvcd__passage;
+
+// Do two edges pass through each other: do they change sides, and are their lines nearest to each
+// other well within both? The side is the sign of the volume of the tetrahedron of both.
+static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3 b0,
+                              nsvcd__d3 b1, double margin) {
+  const size_t next = (k + 1) % 3;
+  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  nsvcd__d3 across[3], from[3];
+  double volumes[3];
+  for (size_t n = 0; n < 3; n++) {
+    const nsvcd__d3 *a = passage->corners[n];
+    across[n] = nsvcd__d3_cross(nsvcd__d3_sub(a[next], a[k]), v);
+    from[n] = nsvcd__d3_sub(b0, a[k]);
+    volumes[n] = nsvcd__d3_dot(across[n], from[n]);
+  }
+  const nsvcd__d3 u = nsvcd__d3_sub(passage->corners[1][next], passage->corners[1][k]);
+  const double size = nsvcd__d3_length(across[1]);
+  const double lengths = nsvcd__d3_length(u) * nsvcd__d3_length(v);
+  if (!(size > 0.01 * lengths)) return 0;
+  if (!nsvcd__are_opposed(volumes[0], margin * size, volumes[2], margin * size)) return 0;
+  const double square = size * size;
+  const double s = nsvcd__d3_dot(nsvcd__d3_cross(from[1], v), across[1]) / square;
+  const double t = nsvcd__d3_dot(nsvcd__d3_cross(from[1], u), across[1]) / square;
+  // the lines' nearest points move no farther along them
+  const double room = 4 * passage->way * lengths / size;
+  const double room_s = room / nsvcd__d3_length(u);
+  const double room_t = room / nsvcd__d3_length(v);
+  return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
+}
+
+// Has a couple met between u0 and u1 of the arc, at that speed, since a corner has passed through
+// the other triangle, or an edge through an edge? That is how faces meet which are parallel then:
+// at no single time can it be seen in rounded numbers.
+static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
+                                double u1, double speed) {
+  const nsvcd__d3 *fixed = couple->fixed;
+  const double margin = couple->rounding;
+  const double times[3] = {u0, 0.5 * (u0 + u1), u1};
+  nsvcd__passage passage;
+  for (size_t n = 0; n < 3; n++)
+    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), couple->moving, passage.corners[n]);
+  const nsvcd__d3 *start = passage.corners[0];
+  const nsvcd__d3 *middle = passage.corners[1];
+  const nsvcd__d3 *end = passage.corners[2];
+  passage.way = speed * (u1 - u0);
+  const double room = 2 * passage.way;
+  for (size_t k = 0; k < 3; k++) {
+    const int is_over = nsvcd__foot_well_within(middle[k], fixed, room);
+    if (is_over && nsvcd__changes_sides(start[k], fixed, end[k], fixed, margin)) return 1;
+    const int is_under = nsvcd__foot_well_within(fixed[k], middle, room);
+    if (is_under && nsvcd__changes_sides(fixed[k], start, fixed[k], end, margin)) return 1;
+    for (size_t n = 0; n < 3; n++) {
+      if (nsvcd__edges_cross(&passage, k, fixed[n], fixed[(n + 1) % 3], margin)) return 1;
+    }
+  }
+  return 0;
+}
+
+static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                  double u0, double u1) {
+  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.parting);
+  const float normal[3] = {plane.x, plane.y, plane.z};
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
+                 couple->moving_listing, couple->fixed_listing, nsvcd__time_in_arc(p, u0),
+                 nsvcd__time_in_arc(p, u1), normal);
+  (void)couple;
+  (void)normal;
+  (void)u0;
+  (void)u1;
+}
+
+// A share u of the arc later than its start: the nearest points of a couple.
+static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
+                                            double u) {
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  return nsvcd__triangles_nearest(posed, couple->fixed);
+}
+
+// What becomes of a part of the arc that is too short to be halved. Where the couple has met by
+// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
+// where distances are measured, less is said, for certain: these come no nearer than that. Then the
+// part is to be looked at again: SHRUNK, or TOO_LONG if there is no contact.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
+                                                            const nsvcd__couple *couple,
+                                                            double u0, double u1,
+                                                            double speed) {
+  int passes = nsvcd__couple_passes(p, couple, u0, u1, speed);
+  const int has_met = passes;
+  for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
+    const double middle = 0.5 * (u0 + u1);
+    p->work++;
+    const int in_first = nsvcd__couple_passes(p, couple, u0, middle, speed);
+    passes = in_first || nsvcd__couple_passes(p, couple, middle, u1, speed);
+    if (!passes) break;
+    u0 = in_first ? u0 : middle;
+    u1 = in_first ? middle : u1;
+  }
+  const double when = 0.5 * (u0 + u1);
+  if (has_met) {
+    nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+    nearest.square = 0;
+    return nsvcd__take_contact(p, couple, when, &nearest);
+  }
+  if (!(p->ask.measure > 0)) {
+    nsvcd__take_doubt(p, couple, u0, u1);
+    return NSVCD__SETTLED;
+  }
+  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  const double distance = sqrt(nearest.square);
+  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
+  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  p->ask.clearance = fmax(p->low, fmin(p->ask.clearance, parted));
+  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+}
+
+// Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
+// triangles, or there is a contact, or they come too close to tell. After each doubt parts need be
+// less short: what is still asked is whether they meet. The planes tried are the one that parted a
+// couple last, and one at the nearest points of the middle.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
+                                                        const nsvcd__couple *couple, double u0,
+                                                        double u1) {
+  const nsvcd__arc *arc = &p->memo.arc;
+  const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
+  const double close = couple->slack + p->given.tolerance;
+  nsvcd__d3 *plane = &p->memo.parting;
+  double *ends = p->couple_ends;
+  size_t left = 1;
+  size_t doubts = 0;
+  int shrunk = 0;
+  ends[0] = u1;
+  for (double u = u0; left > 0;) {
+    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+    // a doubt may be the end
+    if (!(u < end)) break;
+    const double middle = 0.5 * (u + end);
+    p->work++;
+    NSVCD__TALLY(pairs, 1);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    int apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+    if (!apart) {
+      const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+      const double distance = sqrt(nearest.square);
+      if (distance <= p->ask.clearance + couple->rounding) {
+        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+          return NSVCD__ANSWERED;
+        shrunk = 1;
+        continue;
+      }
+      *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+      apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+    }
+    if (apart) {
+      nsvcd__certify_couple(p, couple, u, end);
+    } else {
+      const double least = 0.25 * close * (double)(1 + doubts);
+      const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
+      if (!is_short) {
+        ends[left++] = middle;
+        p->parts++;
+        continue;
+      }
+      const nsvcd__outcome part = nsvcd__settle_short_part(p, couple, u, end, speed);
+      if (part == NSVCD__ANSWERED) return part;
+      shrunk |= part == NSVCD__SHRUNK;
+      if (part != NSVCD__SETTLED) continue;
+      doubts++;
+    }
+    u = end;
+    left--;
+  }
+  return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+}
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,272 @@
+// In: items, a slice at a time. Out: those that a plane along a disc's normal does not part.
+#pragma once
+#include "../interface/plans.h"
+#include "../search/search.h"
+#include "spans.h"
+
+#ifndef NSVCD_NO_PROOF
+// A slice of discs.
+typedef struct nsvcd__v_disc {
+  nsvcd__v3 normal;
+  nsvcd__v low, high, across;
+} nsvcd__v_disc;
+
+NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_set(const nsvcd__disc *disc) {
+  nsvcd__v_disc out;
+  out.normal = nsvcd__v3_set(disc->normal);
+  out.low = nsvcd__v_set(disc->low);
+  out.high = nsvcd__v_set(disc->high);
+  out.across = nsvcd__v_set(disc->across);
+  return out;
+}
+// From (6, stride).
+NSVCD__INLINE nsvcd__v_disc nsvcd__v_disc_load(const float *discs, size_t stride) {
+  nsvcd__v_disc out;
+  out.normal = nsvcd__v3_load_rows(discs, stride);
+  out.low = nsvcd__v_load(discs + 3 * stride);
+  out.high = nsvcd__v_load(discs + 4 * stride);
+  out.across = nsvcd__v_load(discs + 5 * stride);
+  return out;
+}
+
+// What is reached along a direction.
+typedef struct nsvcd__v_range {
+  nsvcd__v low, high;
+} nsvcd__v_range;
+
+// By discs, from their centres, along directions whose parts along the discs' normals are `along`,
+// and whose lengths across these are `across`.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_along(const nsvcd__v_disc *disc, nsvcd__v along,
+                                                 nsvcd__v across) {
+  const nsvcd__v a = nsvcd__v_mul(disc->low, along);
+  const nsvcd__v b = nsvcd__v_mul(disc->high, along);
+  const nsvcd__v side = nsvcd__v_mul(disc->across, across);
+  nsvcd__v_range out;
+  out.low = nsvcd__v_sub(nsvcd__v_min(a, b), side);
+  out.high = nsvcd__v_add(nsvcd__v_max(a, b), side);
+  return out;
+}
+
+// By discs along directions in their own frame.
+NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc,
+                                                 nsvcd__v3 direction) {
+  const nsvcd__v along = nsvcd__v3_dot(direction, disc->normal);
+  const nsvcd__v across = nsvcd__v3_length(nsvcd__v3_cross(direction, disc->normal));
+  return nsvcd__v_disc_along(disc, along, across);
+}
+
+// Moving discs that approach resting ones over a span; either of them, and the span, may be one in
+// all lanes.
+typedef struct nsvcd__v_approach {
+  // in its body's frame and units
+  nsvcd__v_disc moving;
+  nsvcd__v_disc fixed;
+  // from the resting centre to the moving one, and its way
+  nsvcd__v3 from, chord;
+  // the resting disc's normal in the moving body's frame, at both ends
+  nsvcd__v3 at_start, at_end;
+  // the mean of the moving disc's normals at both ends, and half of what they differ by
+  nsvcd__v3 mean, turned;
+  // of the moving body
+  nsvcd__v scale;
+  nsvcd__v_span span;
+  float clearance;
+  // no point of the moving side is farther from its body's origin, in its body's units
+  float reach;
+} nsvcd__v_approach;
+
+// Lanes in which planes part two bodies: the moving side is below, or above.
+typedef struct nsvcd__v_parted {
+  nsvcd__v3 plane;  // its normal
+  uint32_t below, above;
+} nsvcd__v_parted;
+
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(const nsvcd__v_approach *a, nsvcd__v3 plane,
+                                            nsvcd__v_range moving, nsvcd__v_range fixed) {
+  const nsvcd__v allowed = nsvcd__v_plus(a->span.rounding, a->clearance);
+  const nsvcd__v off = nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
+  nsvcd__v_parted out;
+  out.plane = plane;
+  out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
+  out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
+  return out;
+}
+
+// By planes normal to the resting discs.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a) {
+  const nsvcd__v3 plane = a->fixed.normal;
+  const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
+  const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, a->at_start);
+  const nsvcd__v_range end = nsvcd__v_disc_range(&a->moving, a->at_end);
+  const nsvcd__v height = nsvcd__v3_dot(plane, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(plane, a->chord));
+  nsvcd__v_range moving;
+  moving.low =
+      nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
+  moving.high =
+      nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
+  return nsvcd__v_part(a, plane, moving, fixed);
+}
+
+// By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
+// angle with w: along it they are |w|^2, across it no more than |turned|.
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a) {
+  const nsvcd__v3 w = a->mean;
+  const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
+  const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
+  const nsvcd__v_range own = nsvcd__v_disc_along(&a->moving, along, across);
+  const nsvcd__v height = nsvcd__v3_dot(w, a->from);
+  const nsvcd__v height_end = nsvcd__v_add(height, nsvcd__v3_dot(w, a->chord));
+  nsvcd__v_range moving;
+  moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
+  moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
+  return nsvcd__v_part(a, w, moving, nsvcd__v_disc_range(&a->fixed, w));
+}
+
+#ifdef NSVCD__CERTIFIES
+// Patches i and j, by the plane in lane l of a slice.
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parted, size_t l,
+                                const nsvcd__span *span) {
+  float lanes[3][NSVCD__LANES];
+  float normal[3];
+  nsvcd__v3_store(lanes, 0, parted->plane);
+  const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
+  nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
+  NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
+                 normal);
+}
+// All pairs of members of groups g and h, in the segments `apart` of a slice that begins with
+// segment `first`.
+static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                  size_t h, size_t first, uint32_t apart,
+                                  const nsvcd__v_parted *by_fixed,
+                                  const nsvcd__v_parted *by_moving) {
+  for (; apart; apart &= apart - 1) {
+    const size_t l = nsvcd__lowest_bit(apart);
+    const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
+    const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
+    for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
+      const size_t i = NSVCD__GROUP * g + k / NSVCD__GROUP;
+      const size_t j = NSVCD__GROUP * h + k % NSVCD__GROUP;
+      if (i < p->moving.body->patches && j < p->fixed.body->patches)
+        nsvcd__certify_disc(i, j, is_fixed ? by_fixed : by_moving, l, &span);
+    }
+  }
+}
+#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) nsvcd__certify_disc(i, j, parted, l, span)
+#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
+  nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
+#else
+#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) ((void)0)
+#define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
+#endif
+
+// The lanes of a slice among 16.
+static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
+  return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
+}
+
+// Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
+// patch j. c: the chords of the group's patches; reach: no point of the group is farther from the
+// body's origin.
+static NSVCD__APART uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
+                                               size_t g, size_t j, const nsvcd__span *span,
+                                               float reach, uint32_t met) {
+  const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
+  const nsvcd__f3 centre = nsvcd__facet_centre(&p->fixed, j);
+  const nsvcd__mat3 *from = &span->start.rotation;
+  const nsvcd__mat3 *to = &span->end.rotation;
+  // rotations in a span are times the scale
+  const float half = 0.5f * p->ask.motion->per_scale;
+  const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
+  const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
+  uint32_t left = 0;
+  nsvcd__v_approach a;
+  a.fixed = nsvcd__v_disc_set(&fixed);
+  a.at_start = nsvcd__v3_set(nsvcd__mat3_apply_transpose(from, fixed.normal));
+  a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
+  a.scale = nsvcd__v_set(p->ask.motion->scale);
+  a.span = nsvcd__v_span_set(span);
+  a.clearance = nsvcd__clearance_of(p);
+  a.reach = reach;
+  NSVCD__EACH_SLICE(l) {
+    uint32_t wanted = nsvcd__lanes_of_slice(met, l);
+    if (!wanted) continue;
+    const nsvcd__v3 start = nsvcd__chords_start(c, l);
+    a.from = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
+    a.chord = nsvcd__chords_way(c, l);
+    a.moving =
+        nsvcd__v_disc_load(p->moving.discs + NSVCD__GROUP * g + l, p->moving.body->padded);
+    for (size_t way = 0; way < 2 && wanted; way++) {
+      if (way == 1) {
+        a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
+        a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
+      }
+      const nsvcd__v_parted parted =
+          way == 0 ? nsvcd__v_part_by_fixed(&a) : nsvcd__v_part_by_moving(&a);
+      uint32_t apart = (parted.above | parted.below) & wanted;
+      wanted &= ~apart;
+      for (; apart; apart &= apart - 1) {
+        NSVCD__CERTIFY_DISC(NSVCD__GROUP * g + l + nsvcd__lowest_bit(apart), j, &parted,
+                            nsvcd__lowest_bit(apart), span);
+      }
+    }
+    left |= wanted << l;
+  }
+  return left;
+}
+
+// Clears the segments in which discs part the moving group that is searched, whose chords are in
+// search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
+// of single discs, with all in lanes but the discs.
+static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const size_t next = search->order[search->step];
+  const size_t g = search->moving_tile.groups[next];
+  const nsvcd__disc own =
+      nsvcd__disc_at(p->moving.group_discs, nsvcd__group_slots(moving->padded), g);
+  nsvcd__v_approach a;
+  a.moving = nsvcd__v_disc_set(&own);
+  a.scale = nsvcd__v_set(search->scale);
+  a.clearance = nsvcd__clearance_of(p);
+  a.reach = nsvcd__group_reach(moving, g);
+  for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
+    const size_t at = nsvcd__lowest_bit(waiting);
+    const size_t h = search->fixed_tile.groups[at];
+    const nsvcd__disc other =
+        nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
+    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
+    uint64_t *met = &nsvcd__nearby(search, next)[at];
+    a.fixed = nsvcd__v_disc_set(&other);
+    for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
+      const uint32_t wanted = nsvcd__lanes_of_slice((uint32_t)(*met >> first & 0xffff), 0);
+      nsvcd__segments *block = &search->blocks[first / NSVCD__LANES];
+      const nsvcd__chords *c = &search->group[first / NSVCD__LANES];
+      const size_t l = first % NSVCD__LANES;
+      if (l == 0 && (*met >> first & 0xffff)) NSVCD__TALLY(tests, 1);
+      if (!wanted) continue;
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_load(block->rotation, l);
+      const nsvcd__vmat3 turn = nsvcd__vmat3_load(block->turned, l);
+      const nsvcd__v half = nsvcd__v_set(0.5f / search->scale);
+      const nsvcd__v whole = nsvcd__v_set(1 / search->scale);
+      const nsvcd__v3 n = a.fixed.normal;
+      const nsvcd__v3 m = a.moving.normal;
+      a.span = nsvcd__v_span_load(block, l);
+      a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
+      a.chord = nsvcd__chords_way(c, l);
+      a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
+      a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
+      a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
+      a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
+      const nsvcd__v_parted by_fixed = nsvcd__v_part_by_fixed(&a);
+      const nsvcd__v_parted by_moving = nsvcd__v_part_by_moving(&a);
+      const uint32_t either =
+          by_fixed.below | by_fixed.above | by_moving.below | by_moving.above;
+      *met &= ~((uint64_t)(either & wanted) << first);
+      NSVCD__CERTIFY_GROUPS(p, search, g, h, first, either & wanted, &by_fixed, &by_moving);
+    }
+    if (!*met) search->waiting &= ~((uint32_t)1 << at);
+  }
+}
+#endif  // NSVCD_NO_PROOF

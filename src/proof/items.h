@@ -1,0 +1,316 @@
+// In: an item that no hull's plane parts. Out: it is parted by its triangles, or in contact, or
+// kept as a doubt.
+#pragma once
+#include "../interface/plans.h"
+#include "witnesses.h"
+
+#ifndef NSVCD_NO_PROOF
+// Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
+// the window: couples that planes do not part are settled one by one, and what parts one may part
+// others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
+// when there is such a couple.
+static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                        size_t n, const nsvcd__span *span, float margin,
+                                        double u0, double u1, size_t patience) {
+  nsvcd__block *fixed = &p->fixed_blocks[n];
+  const float quanta = nsvcd__quanta_of(p, i, j);
+  const float reach = p->moving.body->extent + p->moving.quanta[i];
+  uint32_t below = 0;
+  p->work++;
+  uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
+  for (; met; met &= met - 1) {
+    const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+    const float along =
+        quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+    NSVCD__EACH_SLICE(s) {
+      const nsvcd__v3 normal = nsvcd__v3_set(last);
+      const uint32_t apart =
+          nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
+      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+      met &= ~apart;
+    }
+    if (!met) break;
+    if (patience == 0) return NSVCD__TOO_LONG;
+    const size_t listing = p->moving_block.first + l;
+    const nsvcd__couple couple =
+        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+    const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
+    if (one != NSVCD__SETTLED) return one;
+    if (p->parts > patience) return NSVCD__TOO_LONG;
+  }
+  return NSVCD__SETTLED;
+}
+
+// All couples of an item's patches over a span from u0 to u1 of the arc.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
+                                                           const nsvcd__span *span, double u0,
+                                                           double u1, size_t patience) {
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  const float reach = p->moving.body->extent + p->moving.quanta[i];
+  const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
+                       nsvcd__clearance_of(p) + span->bulge * reach;
+  p->parts = 0;
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+       b += NSVCD__WINDOW * NSVCD__LANES) {
+    nsvcd__window_load(p, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(p, i, a);
+      nsvcd__block_pose(p, &span->start, 0);
+      nsvcd__block_pose(p, &span->end, 1);
+      nsvcd__block_box(p, 2);
+      for (size_t n = 0; n < p->memo.window; n++) {
+        const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+        p->work++;
+        if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+        for (size_t l = 0; l < p->moving_block.count; l++) {
+          if (!(lanes >> l & 1)) {
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
+            continue;
+          }
+          const nsvcd__outcome row =
+              nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
+          if (row != NSVCD__SETTLED) return row;
+        }
+      }
+    }
+  }
+  return NSVCD__SETTLED;
+}
+
+static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
+                                const nsvcd__item *item) {
+  const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
+  NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
+                 span->t_start, span->t_end, normal);
+  (void)normal;
+  (void)span;
+  (void)item;
+}
+
+// Settles an item that no plane parts over its segment, arc by arc. Each arc is halved as often as
+// need be: a part of it is parted by a plane between the hulls, or by its triangles.
+static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
+                                         const nsvcd__item *item) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const uint32_t last = search->begin[item->segment + 1u];
+  double *ends = p->arc_ends;
+  for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
+    double u;
+    const uint32_t first = nsvcd__arc_and_share(motion, (double)at, &u);
+    const uint32_t knot = nsvcd__next_knot(motion, first);
+    at = last < knot ? last : knot;
+    ends[0] = (double)(at - first) / (double)(knot - first);
+    for (size_t left = 1; left > 0;) {
+      NSVCD__PAUSE(p);
+      nsvcd__arc_at(p, first);
+      const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+      if (!(u < end)) break;
+      p->span = nsvcd__span_of_arc(p, first, u, end);
+      if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
+        nsvcd__certify_item(p, &p->span, item);
+      } else {
+        const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
+        const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
+        const nsvcd__outcome part =
+            nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        if (part == NSVCD__ANSWERED || part == NSVCD__SPENT) return part;
+        if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
+        if (part != NSVCD__SETTLED) continue;
+      }
+      u = end;
+      left--;
+    }
+  }
+  return NSVCD__SETTLED;
+}
+
+// Does a plane with the normal that held last part an item's patches over its segment? Neighbours
+// of an item that a plane parts ask for the same again: so heights over it are remembered, of a
+// moving patch in a segment the least, all allowances taken off, and of a resting one the greatest.
+static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
+                             const nsvcd__item *item) {
+  const size_t i = item->moving;
+  const size_t j = item->fixed;
+  const size_t s = item->segment;
+  const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+  nsvcd__memo *memo = &p->memo;
+  const nsvcd__f3 n = memo->held;
+  const float length = nsvcd__f3_length(n);
+  const uint32_t key = (uint32_t)(i * NSVCD__MAX_SEGMENTS + s);
+  nsvcd__height *above =
+      &memo->heights[(NSVCD__GROUP * s + i % NSVCD__GROUP) % NSVCD__HEIGHTS];
+  nsvcd__height *below = &memo->rest_heights[j % NSVCD__REST_HEIGHTS];
+  if (above->plane != memo->plane || above->key != key) {
+    float lowest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 hull = nsvcd__hull_of(&p->moving, i, l);
+      const nsvcd__v3 normal = nsvcd__v3_set(n);
+      const nsvcd__v at_start = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->start, hull));
+      const nsvcd__v at_end = nsvcd__v3_dot(normal, nsvcd__v3_transform(&span->end, hull));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_min(at_start, at_end)));
+    }
+    const float slack = (p->ask.motion->scale * p->moving.slacks[i] + span->rounding) * length;
+    above->plane = memo->plane;
+    above->key = key;
+    above->height =
+        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(&p->moving, i));
+  }
+  if (below->plane != memo->plane || below->key != j) {
+    // negated
+    float highest = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v height = nsvcd__v3_dot(nsvcd__v3_set(n), nsvcd__hull_of(&p->fixed, j, l));
+      highest = nsvcd__least_of(highest, nsvcd__v_least(nsvcd__v_negate(height)));
+    }
+    below->plane = memo->plane;
+    below->key = (uint32_t)j;
+    below->height = p->fixed.slacks[j] * length - highest;
+  }
+  if (!(above->height > below->height + nsvcd__clearance_of(p) * length)) return 0;
+  nsvcd__certify_item(p, span, item);
+  return 1;
+}
+
+// Is there any plane that does?
+static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
+                                 const nsvcd__item *item) {
+  const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+  if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
+  nsvcd__certify_item(p, span, item);
+  return 1;
+}
+
+// Sorts items: the deeper first; with `first`, once there is a contact, the earlier.
+static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
+  const int in_time = p->ask.first > 0 && p->known.has_contact;
+  for (size_t n = 1; n < count; n++) {
+    const nsvcd__item item = items[n];
+    size_t at = n;
+    for (; at > 0; at--) {
+      const nsvcd__item *before = &items[at - 1];
+      const int by_time = in_time && item.segment != before->segment;
+      if (!(by_time ? item.segment < before->segment : item.depth > before->depth)) break;
+      items[at] = *before;
+    }
+    items[at] = item;
+  }
+}
+
+// Does a segment still matter?
+static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, size_t segment) {
+  return (double)search->begin[segment] < p->ask.end;
+}
+
+// Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
+// chord by some length leaves that of a part of the time by no more than twice that, along any
+// direction.
+static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
+  size_t s = 0;
+  double u;
+  if (!(p->ask.end < p->clipped_end)) return;
+  p->clipped_end = p->ask.end;
+  while (s < search->segments && !((double)search->begin[s + 1] > p->ask.end)) s++;
+  if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const size_t l = s % NSVCD__LANES;
+  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, p->ask.end, &u);
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+  const nsvcd__transform end = nsvcd__transform_of(&at);
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
+  const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
+  const nsvcd__f3 position = nsvcd__lane_of(block->position, l);
+  nsvcd__lane_set(nsvcd__f3_sub(end.position, position), block->moved, l);
+  nsvcd__lane_set(turned.x, block->turned, l);
+  nsvcd__lane_set(turned.y, block->turned + 3, l);
+  nsvcd__lane_set(turned.z, block->turned + 6, l);
+  if (!(p->clipped >> s & 1)) {
+    block->spread[l] += block->drift[l];
+    block->bulge[l] *= 2;
+    block->drift[l] *= 2;
+    block->bulge_along_axis[l] *= 2;
+    block->drift_along_axis[l] *= 2;
+    block->drift_off_way[l] *= 2;
+  }
+  p->clipped |= (uint64_t)1 << s;
+  p->memo.spans &= ~((uint64_t)1 << s);
+  search->posed &= ~((uint64_t)1 << s);
+  // heights over the plane that held last are not what they were
+  p->memo.plane += p->memo.plane > 0;
+}
+
+// Settles the items that no plane parts.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
+                                                       nsvcd__search *search) {
+  nsvcd__sort_items(p, p->of.items, p->count);
+  for (size_t n = 0; n < p->count; n++) {
+    const nsvcd__item *item = &p->of.items[n];
+    NSVCD__PAUSE(p);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    nsvcd__clip_segment(p, search);
+    if (!nsvcd__matters(p, search, item->segment)) continue;
+    const int is_clipped = (p->clipped >> item->segment & 1) != 0;
+    if (is_clipped && nsvcd__item_is_parted(p, search, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
+    if (outcome != NSVCD__SETTLED) return outcome;
+  }
+  p->count = 0;
+  return nsvcd__is_spent(p) ? NSVCD__SPENT : NSVCD__SETTLED;
+}
+
+// Looks at fresh items: parts those that planes can part, looks for a witness in the others, and
+// keeps them. The last plane that held is tried on all before anything else: it often holds for
+// neighbours.
+static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+  size_t count = 0;
+  nsvcd__clip_segment(p, search);
+  for (size_t n = 0; n < p->fresh_count; n++) {
+    if (p->memo.plane && nsvcd__held_again(p, search, &p->fresh[n])) continue;
+    p->fresh[count++] = p->fresh[n];
+  }
+  p->fresh_count = 0;
+  nsvcd__sort_items(p, p->fresh, count);
+  if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
+      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+    return NSVCD__ANSWERED;
+
+  for (size_t n = 0; n < count; n++) {
+    nsvcd__item *item = &p->fresh[n];
+    NSVCD__PAUSE(p);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    nsvcd__clip_segment(p, search);
+    if (!nsvcd__matters(p, search, item->segment)) continue;
+    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__item_is_parted(p, search, item)) continue;
+    if (p->misses >= NSVCD__HOPE) {
+      const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
+      const nsvcd__outcome by_triangles =
+          nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+      if (by_triangles == NSVCD__SETTLED) continue;
+    }
+    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+      return NSVCD__ANSWERED;
+    p->misses++;
+    if (p->count == NSVCD__ITEMS) {
+      const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
+      if (outcome != NSVCD__SETTLED) return outcome;
+    }
+    p->of.items[p->count++] = *item;
+  }
+  return NSVCD__SETTLED;
+}
+
+// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together.
+static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
+  for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
+    const nsvcd__item *item = &p->fresh[n];
+    NSVCD__PAUSE(p);
+    if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
+    if (nsvcd__item_is_parted(p, search, item)) continue;
+    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+  }
+  p->fresh_count = 0;
+  return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
+                                                                    : NSVCD__SPENT;
+}
+#endif  // NSVCD_NO_PROOF

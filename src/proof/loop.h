@@ -1,0 +1,132 @@
+// In: a question, and a motion that has been cut into segments. Out: all of it settled, or a
+// contact that answers the question, or the work spent.
+#pragma once
+#include "containment.h"
+#include "discs.h"
+#include "items.h"
+
+#ifndef NSVCD_NO_PROOF
+// Segments that are searched now, and still matter.
+static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
+                                            const nsvcd__search *search) {
+  size_t s = search->segments;
+  if (!(p->ask.first > 0) || !p->known.has_contact) return search->wanted;
+  while (s > 0 && !nsvcd__matters(p, search, s - 1)) s--;
+  return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
+}
+
+// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
+// long as there is room for 16 more.
+static NSVCD__APART void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search,
+                                              size_t g, size_t j, uint64_t *left) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
+  const float radius = nsvcd__body_r(fixed)[j];
+  const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
+  *left &= nsvcd__segments_that_matter(p, search);
+  for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
+    const size_t s = nsvcd__lowest_bit(*left);
+    const nsvcd__chords *c = &search->members[s];
+    float squares[NSVCD__LANES];
+    float share[NSVCD__LANES];
+    uint32_t met = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
+      const nsvcd__v3 v = nsvcd__v3_rows(c->way[0] + l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(place));
+      const nsvcd__v tau = nsvcd__v_clamp(
+          nsvcd__v_mul(nsvcd__v3_dot(d, v), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 closest = nsvcd__v3_fma(tau, v, d);
+      const nsvcd__v square = nsvcd__v3_dot(closest, closest);
+      const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
+      met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
+      nsvcd__v_store(squares + l, square);
+      nsvcd__v_store(share + l, tau);
+    }
+    NSVCD__TALLY(tests, 1);
+    if (!met) continue;
+    const nsvcd__span *span = nsvcd__segment_span(p, search, s);
+    met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
+    for (; met; met &= met - 1) {
+      const size_t l = nsvcd__lowest_bit(met);
+      const size_t i = NSVCD__GROUP * g + l;
+      if (p->moving.hull_counts[i] == 0) continue;
+      const float radii = search->scale * own[l] + radius;
+      const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
+      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
+      p->fresh[p->fresh_count++] = item;
+    }
+  }
+}
+
+// Looks at what the search has found so far.
+static nsvcd__outcome nsvcd__see_to_items(nsvcd__proof *p, nsvcd__search *search) {
+  return p->ask.gathers ? nsvcd__gather_items(p, search) : nsvcd__sift_items(p, search);
+}
+
+// THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
+// parted by spheres and by discs; of those left, patches by spheres and by discs; what is left of
+// these are items, which nsvcd__sift_items and nsvcd__settle_items see to. In the end each pair of
+// patches, in each segment that is wanted and still matters, has been parted, or has given a
+// contact that answers or shrinks the question, or is a doubt, or was settled by its parts; or
+// SPENT says that it has not.
+static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+                                                         nsvcd__search *search) {
+  nsvcd__outcome outcome;
+  for (; search->step < search->steps; search->step++) {
+    const size_t next = search->order[search->step];
+    const size_t g = search->moving_tile.groups[next];
+    nsvcd__search_group(search);
+    nsvcd__part_groups(p, search);
+    for (; search->waiting; search->waiting &= search->waiting - 1) {
+      const size_t at = nsvcd__lowest_bit(search->waiting);
+      const size_t h = search->fixed_tile.groups[at];
+      const uint64_t wanted =
+          nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
+      uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
+      for (; met; met &= met - 1) {
+        const size_t l = nsvcd__lowest_bit(met);
+        uint64_t *left = &p->met_in[l];
+        if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
+        for (;;) {
+          nsvcd__pose_members(search, g, *left);
+          nsvcd__collect_items(p, search, g, NSVCD__GROUP * h + l, left);
+          if (!*left) break;
+          outcome = nsvcd__see_to_items(p, search);
+          if (outcome != NSVCD__SETTLED) return outcome;
+        }
+      }
+      if (p->fresh_count < NSVCD__NEWS) continue;
+      outcome = nsvcd__see_to_items(p, search);
+      if (outcome != NSVCD__SETTLED) return outcome;
+    }
+  }
+  outcome = nsvcd__see_to_items(p, search);
+  return outcome == NSVCD__SETTLED ? nsvcd__settle_items(p, search) : outcome;
+}
+
+// The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
+// segments at a time, until there is a contact: it is the first of the tile.
+static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
+  const int in_order = p->ask.first > 0;
+  const size_t few = in_order ? NSVCD__IN_ORDER : search->segments;
+  nsvcd__outcome outcome = NSVCD__SETTLED;
+  do {
+    p->known.settled = 0;
+    for (size_t s = 0; s < search->segments && outcome == NSVCD__SETTLED; s += few) {
+      const size_t next = s + few < search->segments ? s + few : search->segments;
+      if (!nsvcd__matters(p, search, s)) break;
+      if (in_order) search->wanted = (((uint64_t)1 << few) - 1) << s;
+      search->step = 0;
+      search->waiting = 0;
+      outcome = nsvcd__prove_segments(p, search);
+      if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+        p->known.settled = (double)search->begin[next];
+    }
+  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+  // what is settled in one of several tiles tells nothing of the others
+  if (nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body)) p->known.settled = 0;
+  return outcome;
+}
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,179 @@
+// In: a motion and a tick. Out: where the moving body is, in double, to the last digits.
+#pragma once
+#include "proof.h"
+
+#ifndef NSVCD_NO_PROOF
+static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  return nsvcd__dquat_unit(out);
+}
+
+static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
+  return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
+}
+
+// The rotation a share u in [0,1] of the arc later than its start; unit.
+static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
+  const double way = leg->from + leg->share * u;
+  double before = 1 - way;
+  double after = way;
+  // below, the difference is less than rounding
+  if (leg->half_angle > 1e-7) {
+    before = sin((1 - way) * leg->half_angle);
+    after = sin(way * leg->half_angle);
+  }
+  const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
+  return nsvcd__dquat_unit(nsvcd__dquat_add_scaled(start, after, leg->end));
+}
+
+// A track's leg of an arc, and its positions at both ends of it, metres.
+static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                            nsvcd__leg *leg, nsvcd__d3 *ends) {
+  if (track->count == 1) {
+    leg->start = nsvcd__unit_rotation(track->poses);
+    leg->end = leg->start;
+    leg->half_angle = 0;
+    leg->from = 0;
+    leg->share = 1;
+    ends[0] = nsvcd__d3_load(track->poses->position);
+    ends[1] = ends[0];
+    return;
+  }
+  const uint32_t last = (uint32_t)(track->count - 2);
+  const uint32_t past = track->ticks == 1 ? first : first / track->ticks;
+  const uint32_t k = past < last ? past : last;
+  const nsvcd_pose *a = &track->poses[k];
+  const nsvcd_pose *b = a + 1;
+  const double per_tick = track->ticks == 1 ? 1 : 1 / (double)track->ticks;
+  leg->share = (double)ticks * per_tick;
+  leg->from = (double)(first - k * track->ticks) * per_tick;
+  const nsvcd__d3 start = nsvcd__d3_load(a->position);
+  const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
+
+  const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
+  leg->start = nsvcd__unit_rotation(a);
+  leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
+  const nsvcd__dquat difference = nsvcd__dquat_add_scaled(leg->start, -1, leg->end);
+  const double apart = nsvcd__dquat_dot(difference, difference);
+  const nsvcd__dquat sum = nsvcd__dquat_add_scaled(leg->start, 1, leg->end);
+  const double together = nsvcd__dquat_dot(sum, sum);
+  leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+}
+
+// The rotation vector of a leg, over its arc.
+static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(leg->start);
+  const nsvcd__d3 v = nsvcd__dquat_axis(leg->end);
+  const nsvcd__d3 ahead = nsvcd__d3_scale(v, leg->start.w);
+  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, leg->end.w));
+  const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
+  const double sine = nsvcd__d3_length(across);
+  return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
+}
+
+// The arc that begins at the knot `first`.
+static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
+  const nsvcd__motion *motion = p->ask.motion;
+  nsvcd__arc *arc = &p->memo.arc;
+  const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
+  if (arc->first == first && arc->ticks == ticks) return arc;
+  nsvcd__d3 ends[2], fixed_ends[2];
+  const double per_metre = 1 / (double)motion->unit;
+  arc->first = first;
+  arc->ticks = ticks;
+  arc->fixed_moves = motion->fixed_moves;
+  arc->scale = (double)motion->scale;
+  arc->lift = nsvcd__d3_widen(motion->lift);
+  nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
+  nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
+  const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
+  arc->from = nsvcd__d3_scale(from, per_metre);
+  arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
+  if (arc->fixed_moves) {
+    // what both bodies' turns do: see nsvcd__cut_double_arc
+    const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
+    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+    const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
+    const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
+    const double angle = nsvcd__d3_length(fixed_turn);
+    const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
+    const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
+    const double swing = fmax(swing_from, swing_to);
+    const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
+    arc->has_axis = !(angle > 0);
+    arc->turn = nsvcd__d3_length(turn);
+    arc->speed = nsvcd__d3_length(arc->moved) + swing;
+    arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+    arc->drift = 0.1250001 * (2 * across + angle * swing);
+    arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+    // where the fixed body only goes along, its axes are those of its start
+    if (arc->has_axis) arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
+    return arc;
+  }
+
+  arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
+  arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
+  arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
+  arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
+  const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  arc->has_axis = 1;
+  arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
+  arc->speed = nsvcd__d3_length(arc->moved);
+  arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
+  arc->drift = 0;
+  return arc;
+}
+
+// The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
+// rotation is times the moving body's scale.
+static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
+  nsvcd__dquat q = nsvcd__leg_at(&arc->moving, u);
+  nsvcd__placement at;
+  at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
+  if (arc->fixed_moves) {
+    const nsvcd__dquat fixed = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
+    q = nsvcd__dquat_inverse_mul(fixed, q);
+    at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
+  }
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(q);
+  at.rotation = nsvcd__dmat3_scale(&rotation, arc->scale);
+  at.position = nsvcd__d3_add(at.position, arc->lift);
+  return at;
+}
+
+// The same, of the arc last asked for, remembered: couples ask for the same poses again.
+// The last two that were asked for stay where they are.
+static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
+  size_t n = 0;
+  const nsvcd__arc *arc = &p->memo.arc;
+  for (; n < NSVCD__PLACED; n++) {
+    const nsvcd__placed *known = &p->memo.placed[n];
+    if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
+  }
+  if (n == NSVCD__PLACED) {
+    n = p->memo.next_placed;
+    p->memo.placed[n].arc = arc->first;
+    p->memo.placed[n].ticks = arc->ticks;
+    p->memo.placed[n].u = u;
+    p->memo.placed[n].placement = nsvcd__placement_at(arc, u);
+  }
+  if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
+  return &p->memo.placed[n].placement;
+}
+
+static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
+  nsvcd__transform out;
+  out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
+  out.rotation.y = nsvcd__d3_narrow(at->rotation.y);
+  out.rotation.z = nsvcd__d3_narrow(at->rotation.z);
+  out.position = nsvcd__f3_round(at->position);
+  return out;
+}
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,412 @@
+// In: two bodies of triangles and a motion. Out: a witness (two triangles that meet, and when), a
+// certificate that the surfaces never do, or neither: undecided.
+//
+// THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
+// poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
+// then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
+// and no component of one lies within the other. src/proof/THEOREM.md walks through it.
+//   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
+//      to part each patch of one body from each of the other, at all times.
+//   2. The broad phase leaves out only patches and segments of time in which the spheres over the
+//      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
+//      item is parted by one of the steps below, or the verdict is not CERTIFIED_FREE.
+//   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
+//      point x of the moving body (body frame) leaves the chord between its places at the ends by
+//      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
+//      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
+//      nothing along the axis). A plane that has the moving side's places at both ends on one side,
+//      by more than that and the clearance, has their chords there too, for a chord is convex, and
+//      so all places between.
+//   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
+//      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
+//      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
+//      all triangles of its pieces, whole or in parts.
+//   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
+//      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
+//      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
+//      in double. Comparisons are such that a NaN parts nothing.
+//   6. Containment is decided at t = 0, component by component: a component that is inside of the
+//      other body then, and not later, or the other way about, has crossed a surface in between. A
+//      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
+//      their signs, the triangles of the other body's closed components that it leaves and enters
+//      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
+//      edge within the quanta is given up for another; open components enclose nothing. The stored
+//      triangles, about which this is, are as far from the true ones as the quanta say: so where a
+//      stored triangle is that near to the seed, the answer counts only if planes part all patches
+//      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
+//      side of a plane, and agree.
+//
+// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
+// mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
+// they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
+// of the other triangle at one time and on the other at another, and within its edges all the
+// while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
+// triangles come closer than their quanta and the tolerance without meeting, or the limit of work
+// was reached. After such a doubt only a contact can still decide, and flat on flat there are as
+// many doubts as triangles: so a share of the limit is all that is left then, more than a yes or no
+// takes on any problem of the sets.
+//
+// FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
+// before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
+// Segments are searched some at a time, in their order, so that what is found first is early. Once
+// the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
+// Where no contact is known then, it is asked whether there is any.
+//
+// THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
+// lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
+// found nearer than that, it becomes their distance less `measure`. What has been parted stays
+// parted, by more than that. So both are one search whose question shrinks, and in the end all of
+// the motion that matters is proven free at the clearance that matters.
+//
+// Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
+// of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
+// within one patch's listings, or one ray, of its limit.
+#pragma once
+#include "../body/facets.h"
+#include "../motion/motion.h"
+
+#ifndef NSVCD_NO_PROOF
+// THE SCHEDULE, in the order in which a query comes to it.
+// The search hands over items as it finds them.
+#define NSVCD__FRESH 48  // room for items on which nothing has been tried
+#define NSVCD__NEWS 8    // of them are worth a look before the search goes on
+// A look: planes and witnesses, the deepest item first.
+#define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
+#define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
+#define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
+#define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
+#define NSVCD__REST_HEIGHTS 64  // and of resting ones
+// What no plane parts is settled by its triangles, arc by arc.
+#define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
+#define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
+// Parts that couples ask for, before the span is halved for all, if it is longer than this share of
+// an arc.
+#define NSVCD__PATIENCE_TO_PART 12
+#define NSVCD__SHORTEST 0.015
+#define NSVCD__ARC_PARTS 8       // of an arc, waiting
+#define NSVCD__HALVINGS 40       // of a span for one couple
+#define NSVCD__PLACED 8          // poses, remembered
+#define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
+#define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
+// What else a question asks.
+// units: before the ends of the motion are looked at by themselves; for each of these looks; to
+// find triangles that meet where one is within the other
+#define NSVCD__LONG 6000
+#define NSVCD__LOOK 1000
+#define NSVCD__GLANCE 200
+#define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
+#define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
+#define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
+#define NSVCD__LIFTS 6      // directions in which they are undone
+#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300  // ticks
+
+typedef struct nsvcd__item {
+  uint16_t moving, fixed, segment;
+  uint16_t sought;  // 1: a witness has been looked for
+  // 1 - least distance of the centres / (r1 + r2)
+  float depth;
+  // of the segment, gone by at that time
+  float share;
+} nsvcd__item;
+
+// How a body turns over an arc.
+typedef struct nsvcd__leg {
+  // at its poses before and after: unit, on the shorter side
+  nsvcd__dquat start, end;
+  double half_angle;  // between them as quaternions: half the angle of the turn
+  // where between these poses the arc begins, and how much of the way it lasts
+  double from, share;
+} nsvcd__leg;
+
+// The motion between two knots, in double and in the fixed body's units.
+typedef struct nsvcd__arc {
+  // when it begins, and how long it lasts; no ticks: none
+  uint32_t first, ticks;
+  int fixed_moves;
+  // of the moving body
+  double scale;
+  nsvcd__leg moving;  // as the fixed body sees it; where that moves, in the world, and so is
+  nsvcd__leg fixed;   // the fixed body's own
+  // from the fixed body's origin to the moving one's, and how it changes; in the same axes
+  nsvcd__d3 from, moved;
+  // what is added to that as the fixed body sees it
+  nsvcd__d3 lift;
+  // of the turn, unit, if the fixed body does not turn
+  nsvcd__d3 axis;
+  int has_axis;
+  // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
+  double turn, speed;
+  // what points one metre from the moving body's origin, and that itself, leave their chord by
+  double bulge, drift;
+} nsvcd__arc;
+
+// A pose in double.
+typedef struct nsvcd__placement {
+  nsvcd__dmat3 rotation;
+  nsvcd__d3 position;
+} nsvcd__placement;
+
+// A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
+// metres from its origin is off the chord between its places at both ends by no more than drift +
+// bulge r, and what float computation of it is off by is no more than `rounding`.
+typedef struct nsvcd__span {
+  nsvcd__transform start, end;
+  double t_start, t_end;
+  float rounding, drift, bulge;
+  // unit; of the turn from start to end, and of the origin's way
+  nsvcd__f3 axis, way;
+  // the same along the axis; and drift across the way
+  float bulge_along_axis, drift_along_axis, drift_off_way;
+} nsvcd__span;
+
+// 16 triangles of a patch, lane by lane: corners (corner, axis, lane), and their boxes.
+typedef struct nsvcd__block {
+  float corners[3][3][NSVCD__LANES];
+  float low[3][NSVCD__LANES], high[3][NSVCD__LANES];
+  size_t first, count;  // listings
+} nsvcd__block;
+
+typedef struct nsvcd__contact {
+  double tick;      // when
+  double distance;  // of the triangles
+  // the fixed body's frame; out of the fixed body
+  nsvcd__d3 point, normal;
+  uint32_t moving_triangle, fixed_triangle;
+  uint16_t moving_patch, fixed_patch;
+} nsvcd__contact;
+
+// Two triangles that touch at the start, as the fixed body sees them.
+typedef struct nsvcd__touch {
+  nsvcd__d3 moving[3], fixed[3];
+  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
+  nsvcd__d3 apart;
+} nsvcd__touch;
+
+// What is said of a question in the end.
+typedef enum nsvcd__verdict {
+  NSVCD__FREE,
+  NSVCD__MEETS,
+  NSVCD__WITHIN,
+  NSVCD__UNDECIDED
+} nsvcd__verdict;
+
+// What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
+typedef enum nsvcd__outcome {
+  // parted, or kept as a doubt, or no longer asked about
+  NSVCD__SETTLED,
+  // where a contact was looked for, there is none
+  NSVCD__NOTHING,
+  // a contact was found that answers the question
+  NSVCD__ANSWERED,
+  // a contact was found that shrinks the question: ask again
+  NSVCD__SHRUNK,
+  // the stretch had better be halved
+  NSVCD__TOO_LONG,
+  // the work allowed is: from then on it always is
+  NSVCD__SPENT
+} nsvcd__outcome;
+
+// A pose that has been computed.
+typedef struct nsvcd__placed {
+  uint32_t arc, ticks;  // as the arc has them
+  double u;
+  nsvcd__placement placement;
+} nsvcd__placed;
+
+// A moving patch's height over a plane in a segment.
+typedef struct nsvcd__height {
+  uint32_t plane, key;
+  float height;
+} nsvcd__height;
+
+// The question, in the fixed body's units.
+typedef struct nsvcd__given {
+  // extents of both bodies
+  float lengths;
+  // beyond the quanta
+  double tolerance;
+  double clearance, skin;
+  // `first`, a share of the motion
+  double share;
+  // is more asked for than yes or no?
+  int tells;
+  // units that may be taken
+  size_t work;
+} nsvcd__given;
+
+// What is asked at a time, of a motion. A search only ever makes it less: a contact is two
+// triangles that come within the clearance. With `measure` each contact makes that the distance of
+// its triangles, less this; with `first` each ends the motion so many ticks before it. So what is
+// proven in the end holds for the rest.
+typedef struct nsvcd__asked {
+  nsvcd__motion *motion;
+  // ticks: what begins then or later does not matter; nor does what begins with a doubt
+  double end;
+  int doubts_end;
+  double clearance, measure;
+  // a share of the motion, and as ticks
+  double share, first;
+  // units: how many may have been taken, and how many go on after a doubt
+  size_t limit, in_doubt;
+  // a try: there is a longer one after it
+  int is_brief;
+  // with a skin, contacts at the start are gathered, not taken
+  int gathers;
+} nsvcd__asked;
+
+// What is known, of a motion.
+typedef struct nsvcd__known {
+  // found: if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
+  int has_contact;
+  nsvcd__contact found;
+  // ticks: when the first doubt begins, two triangles too near to tell; and these
+  double unsure;
+  nsvcd__contact doubt;
+  // the work allowed was not enough: all from `settled` on, ticks, is undecided
+  int lost;
+  double settled;
+} nsvcd__known;
+
+// What is only remembered: it may be forgotten at any time, and no verdict changes. Zeros: nothing.
+typedef struct nsvcd__memo {
+  // the last arc asked for, if it has ticks, and poses in arcs, the next to be forgotten
+  nsvcd__arc arc;
+  nsvcd__placed placed[NSVCD__PLACED];
+  size_t next_placed;
+  // segments that have been made spans
+  uint64_t spans;
+  // the normal of the plane between hulls that held last, how many held before, 0: none; and over
+  // it the heights of patches, moving ones and resting ones
+  nsvcd__f3 held;
+  uint32_t plane;
+  nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
+  // unit: of the plane that parted a couple last
+  nsvcd__d3 parting;
+  // how many blocks of a resting patch are in p->fixed_blocks
+  size_t window;
+} nsvcd__memo;
+
+typedef struct nsvcd__proof {
+  nsvcd__facets moving, fixed;
+  nsvcd__given given;
+  nsvcd__asked ask;
+  nsvcd__known known;
+  nsvcd__memo memo;
+  size_t work;
+  // the least distance is known to be between these
+  double low, high;
+
+  // Containment, at the start: a component seems to be within the other body, but close to its
+  // surface; a point of it, in the fixed body's frame; or that could not be told.
+  int within;
+  nsvcd__d3 enclosed;
+  int unclear;
+
+  // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
+  // normals, unit, of what the moving body touches, towards it.
+  size_t touch_count, normal_count;
+  nsvcd__d3 normals[NSVCD__LIFTS];
+
+  // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
+  // when that was done last.
+  nsvcd__span *spans;
+  uint64_t clipped;
+  double clipped_end;
+
+  // segments in which 16 resting patches are met
+  uint64_t met_in[NSVCD__GROUP];
+  // Items: as the search finds them, and those that no plane parts over their segment; and looks
+  // for a witness that found none.
+  size_t fresh_count, count, misses;
+  nsvcd__item fresh[NSVCD__FRESH];
+  union {
+    nsvcd__item items[NSVCD__ITEMS];
+    // gathered before there are any
+    nsvcd__touch touches[NSVCD__TOUCHES];
+  } of;
+
+  // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
+  // blocks; corners of the moving block at the ends of a span.
+  float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
+  nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
+  nsvcd__box bounds[NSVCD__WINDOW];
+  float posed[2][3][3][NSVCD__LANES];
+
+  // An item over an arc, and a couple: later ends of the parts to come, the last one first; and how
+  // many parts of the span its couples asked for.
+  nsvcd__span span;
+  double arc_ends[NSVCD__ARC_PARTS];
+  double couple_ends[NSVCD__HALVINGS + 2];
+  size_t parts;
+
+  // triangles that a ray has crossed
+  uint32_t crossed[NSVCD__CROSSED];
+} nsvcd__proof;
+
+// Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
+static void nsvcd__forget(nsvcd__memo *memo) {
+  memo->arc.ticks = 0;
+  for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
+  memo->next_placed = 0;
+  memo->spans = 0;
+  memo->held = nsvcd__f3_of(0, 0, 0);
+  memo->plane = 0;
+  memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->window = 0;
+}
+#ifndef NSVCD__PAUSE
+#define NSVCD__PAUSE(p) ((void)0)
+#endif
+
+// A limit that leaves so many units, if there are as many.
+static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
+  const size_t left = p->work < p->given.work ? p->given.work - p->work : 0;
+  return left > units ? p->work + units : p->given.work;
+}
+
+// What the search for the first contact may take. The rest is for the question whether there is
+// any.
+static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
+  return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+}
+
+// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
+// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
+static int nsvcd__is_spent(nsvcd__proof *p) {
+  nsvcd__asked *ask = &p->ask;
+  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
+      p->known.unsure < NSVCD__NEVER) {
+    ask->doubts_end = 1;
+    ask->end = fmin(ask->end, p->known.unsure);
+    ask->limit = nsvcd__limit_of_first(p);
+  }
+  return p->work > ask->limit;
+}
+
+// The clearance, in float: not less.
+static float nsvcd__clearance_of(const nsvcd__proof *p) {
+  return 1.000001f * (float)p->ask.clearance;
+}
+
+// What stored triangles of two patches may be off by, both together.
+static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
+  return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
+}
+
+// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
+// bulges have it.
+static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
+  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
+  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
+}
+
+// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
+// normal (3), fixed body's frame, which points to the moving side.
+#ifndef NSVCD__CERTIFY
+#define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
+                       normal) \
+  ((void)0)
+#endif
+enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,284 @@
+// In: a question. Out: the verdict; where asked, when they first meet, and how near they come.
+#pragma once
+#include "loop.h"
+
+#ifndef NSVCD_NO_PROOF
+// What is said of a component that is within the other body, whatever contacts were found since.
+static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+  memset(&p->known.found, 0, sizeof p->known.found);
+  p->known.found.point = p->enclosed;
+  p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
+  p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
+  return NSVCD__WITHIN;
+}
+
+// Ticks: nothing meets before this, or NEVER.
+static double nsvcd__clear_until(const nsvcd__proof *p) {
+  if (p->unclear) return 0;
+  return fmin(fmin(p->ask.end, p->known.unsure),
+              p->known.lost ? p->known.settled : NSVCD__NEVER);
+}
+
+// Makes a proof forget all that it knew of a motion.
+static void nsvcd__proof_restart(nsvcd__proof *p) {
+  memset(&p->known, 0, sizeof p->known);
+  p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
+  p->ask.doubts_end = 0;
+  p->clipped = 0;
+  p->count = p->fresh_count = p->misses = 0;
+  nsvcd__forget(&p->memo);
+}
+
+// Searches a motion whose segments have been chosen, and settles what is found.
+static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
+                                                       nsvcd__search *search) {
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
+  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
+  p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
+  const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
+  p->known.lost = outcome == NSVCD__SPENT;
+  return outcome;
+}
+
+// The same, of any motion, whatever was known of one.
+static nsvcd__outcome nsvcd__prove_anew(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, search);
+  return nsvcd__prove_motion(p, search);
+}
+
+// The pose at the start of a motion, or at its end, as a motion of its own.
+static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
+  nsvcd__motion still = *motion;
+  nsvcd__track moving = motion->moving;
+  nsvcd__track fixed = motion->fixed;
+  moving.poses += at_end ? moving.count - 1 : 0;
+  fixed.poses += at_end ? fixed.count - 1 : 0;
+  moving.count = fixed.count = 1;
+  still.begin = at_end ? 1 : 0;
+  still.duration = 0;
+  nsvcd__motion_set_tracks(&still, moving, fixed);
+  return still;
+}
+
+// A look at the start alone, or at the end, which takes so many units at most: do triangles meet
+// there? Then that is the contact that is known. If not, all that was known is lost.
+static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+                                        size_t units) {
+  const nsvcd__asked asked = p->ask;
+  nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
+  p->ask.motion = &still;
+  p->ask.share = 0;
+  p->ask.limit = nsvcd__limit_after(p, units);
+  const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
+  p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
+  p->ask = asked;
+  p->ask.end = 0;
+  return meets;
+}
+
+// A search whose segments have been chosen. Few questions take long, and of these some are about
+// bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
+// before all is searched once more. The end says nothing about a first contact.
+static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
+                                            size_t limit) {
+  p->ask.is_brief = p->work + 4 * NSVCD__LONG < limit;
+  p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
+  const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
+  if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
+  p->ask.is_brief = 0;
+  // a part of what a doubt leaves has been used
+  if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
+  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK)) return NSVCD__ANSWERED;
+  if (!(p->ask.share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
+    return NSVCD__ANSWERED;
+  p->ask.limit = limit;
+  return nsvcd__prove_anew(p, search);
+}
+
+// When do they meet first? What is proven of that stays, also where there is no more work left, and
+// then it is asked whether they meet at all.
+static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
+  const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+  nsvcd__known known = p->known;
+  const double end = p->ask.end;
+  if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+    // so early that they may meet at the start already
+    if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
+  } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
+    const double share = p->ask.share;
+    p->ask.share = 0;
+    p->ask.limit = p->given.work;
+    const nsvcd__outcome any = nsvcd__prove_anew(p, search);
+    p->ask.share = share;
+    if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
+    known.has_contact = p->known.has_contact;
+    known.found = p->known.found;
+  }
+  p->known = known;
+  p->ask.end = end;
+  return outcome;
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__motion *motion = p->ask.motion;
+  const int in_order = p->ask.share > 0;
+  const float lifted = nsvcd__f3_length(motion->lift);
+  const float apart = p->given.lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  p->ask.limit = p->given.work;
+  p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
+  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
+  nsvcd__choose_segments(motion, search);
+  if (nsvcd__starts_within(p)) {
+    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
+    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
+    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
+  }
+  const nsvcd__outcome outcome = in_order ? nsvcd__prove_first(p, search)
+                                          : nsvcd__prove_and_look(p, search, p->given.work);
+  const double clear = nsvcd__clear_until(p);
+  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
+  if (p->within && clear > 0) return nsvcd__is_within(p);
+  if (p->known.has_contact) return NSVCD__MEETS;
+  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
+  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+// ---- the least distance
+
+// Of the patches with a surface, the one whose centre is nearest to a place of the body's frame; of
+// a large body one near it, found by going down the levels of spheres, always to the nearest.
+static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
+  const nsvcd_body *body = f->body;
+  size_t from = 0;
+  size_t count = body->patches;
+  size_t patch = 0;
+  float least = HUGE_VALF;
+  size_t k = nsvcd__is_large(body) ? nsvcd__level_count(body->padded) : 0;
+  if (k > 0) count = nsvcd__level_of(body->padded, k - 1).count;
+  while (k-- > 0) {
+    const nsvcd__level level = nsvcd__level_of(body->padded, k);
+    const nsvcd__spheres all =
+        nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
+    size_t nearest = from;
+    float best = HUGE_VALF;
+    for (size_t n = from; n < from + count && n < level.count; n++) {
+      const nsvcd__f3 off = nsvcd__f3_sub(nsvcd__centre_of(all, n), place);
+      const float distance = nsvcd__f3_length(off) - all.r[n];
+      if (distance >= best) continue;
+      best = distance;
+      nearest = n;
+    }
+    from = NSVCD__GROUP * nearest;
+    count = NSVCD__GROUP;
+  }
+  for (size_t n = from; n < from + count && n < body->patches; n++) {
+    const float distance = nsvcd__f3_length(nsvcd__f3_sub(nsvcd__facet_centre(f, n), place));
+    if (f->hull_counts[n] == 0 || distance >= least) continue;
+    least = distance;
+    patch = n;
+  }
+  return patch;
+}
+
+// The moving body's placement at the ends of the segments: the one where the centres are nearest.
+static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
+                                                 const nsvcd__search *search) {
+  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
+  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
+  double least = HUGE_VAL;
+  nsvcd__placement nearest;
+  memset(&nearest, 0, sizeof nearest);
+  for (size_t s = 0; s <= search->segments; s++) {
+    double u;
+    const uint32_t first = nsvcd__arc_and_share(p->ask.motion, (double)search->begin[s], &u);
+    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
+    if (square < least) nearest = at;
+    least = fmin(least, square);
+  }
+  return nearest;
+}
+
+// The least distance between the hulls' vertices of patch i of the moving body and patch j of the
+// fixed one.
+static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                    size_t i, size_t j) {
+  float lanes[3][NSVCD__LANES];
+  float least = HUGE_VALF;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
+    nsvcd__v3_store(lanes, l, nsvcd__v3_transform(pose, moving));
+  }
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, j, l);
+    for (size_t n = 0; n < NSVCD__LANES; n++) {
+      const nsvcd__v3 d = nsvcd__v3_sub(fixed, nsvcd__v3_set(nsvcd__lane_of(lanes, n)));
+      least = nsvcd__least_of(least, nsvcd__v_least(nsvcd__v3_dot(d, d)));
+    }
+  }
+  return sqrt((double)least);
+}
+
+// How near the bodies come for certain, and a little more: the least distance between the vertices
+// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
+                                                  const nsvcd__search *search) {
+  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
+  const nsvcd__transform pose = nsvcd__transform_of(&at);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->memo.arc.scale);
+  nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
+  size_t i = 0;
+  size_t j = 0;
+  // from one body to the other, and again
+  for (size_t round = 0; round < 2; round++) {
+    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
+    i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+    const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
+    j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, centre));
+    target = nsvcd__facet_centre(&p->fixed, j);
+  }
+  const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+  const double rounding =
+      (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+}
+
+// One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
+// known stays known, and what is found is added. Returns whether there was work enough.
+static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__known known = p->known;
+  const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
+  p->ask.clearance = is_named ? fmax(p->low, p->high - p->ask.measure) : p->high;
+  const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
+  if (p->known.has_contact) {
+    known.has_contact = 1;
+    known.found = p->known.found;
+  }
+  p->known = known;
+  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
+  return pass != NSVCD__SPENT;
+}
+
+// Brackets the least distance over the motion, when it is known whether they come within the
+// clearance that is asked for. Where half of the work is not enough for that, the rest goes to
+// brackets that get narrower and narrower: the last one that there was work enough for stays.
+static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+                                        nsvcd__verdict verdict, double finest) {
+  const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  const float lifted = nsvcd__f3_length(p->ask.motion->lift);
+  const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
+  p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  nsvcd__choose_segments(p->ask.motion, search);
+  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  if (is_named && !(p->high - p->low > finest)) return;
+  p->ask.measure = finest;
+  p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
+  int wide = !nsvcd__measure_once(p, search);
+  p->ask.limit = p->given.work;
+  for (p->ask.measure = p->high - p->low; wide && p->ask.measure > finest;) {
+    p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
+    wide = nsvcd__measure_once(p, search);
+  }
+}
+#endif  // NSVCD_NO_PROOF

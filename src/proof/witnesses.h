@@ -1,0 +1,160 @@
+// In: an item and a tick. Out: a contact: two triangles that meet there, or come within the
+// clearance.
+#pragma once
+#include "couples.h"
+#include "blocks.h"
+
+#ifndef NSVCD_NO_PROOF
+// How far a triangle must go along n until it is beyond the other; negative if it is already.
+static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = fmin(lowest, nsvcd__d3_dot(n, moving[k]));
+    highest = fmax(highest, nsvcd__d3_dot(n, fixed[k]));
+  }
+  return highest - lowest;
+}
+
+// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the
+// fixed one; and, if they are apart, that from point to point. All point to where the moving body
+// is.
+static NSVCD__APART void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
+  out[0] = nsvcd__d3_scale(nsvcd__face_direction(t->moving), -1);
+  out[1] = nsvcd__face_direction(t->fixed);
+  out[2] = t->apart;
+}
+
+// Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
+// push anything, then not through both faces. Through one of them is no harm: a side that rises
+// from the rim on which a cone stands looks up, and the floor under it looks up too.
+static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
+  nsvcd__d3 normals[3];
+  const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
+  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->given.skin)
+    return 0;
+  if (lift < 0) return 1;
+  nsvcd__touch_normals(t, normals);
+  return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
+}
+
+// Keeps two triangles that are within the clearance at the start, unless a direction that is known
+// undoes that.
+static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
+                                  const nsvcd__d3 *posed) {
+  nsvcd__touch touch;
+  memcpy(touch.moving, posed, sizeof touch.moving);
+  memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
+  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
+  const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
+  for (size_t k = 0; k < p->normal_count; k++) {
+    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
+  }
+  if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
+}
+
+// Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
+// the arc later than its start.
+static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
+                                             const nsvcd__placement *at, double u,
+                                             float margin) {
+  nsvcd__block *fixed = &p->fixed_blocks[n];
+  const double clearance = p->ask.clearance;
+  uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__lowest_bit(lanes);
+    p->work++;
+    uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
+    for (; met; met &= met - 1) {
+      const size_t listing = p->moving_block.first + l;
+      const nsvcd__couple couple =
+          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+      nsvcd__d3 posed[3];
+      nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
+      nsvcd__place_triangle(at, couple.moving, posed);
+      p->work++;
+      if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
+        nearest.on_a = nearest.on_b;
+      } else {
+        if (!(clearance > 0)) continue;
+        nearest = nsvcd__triangles_nearest(posed, couple.fixed);
+        if (!(nearest.square <= clearance * clearance)) continue;
+      }
+      if (p->ask.gathers) {
+        nsvcd__gather_contact(p, &couple, posed);
+        continue;
+      }
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
+      if (contact == NSVCD__ANSWERED) return contact;
+      // They may touch sooner, or come closer.
+      const nsvcd__outcome better = nsvcd__settle_couple(p, &couple, 0, 1);
+      return better == NSVCD__ANSWERED ? better : contact;
+    }
+  }
+  return NSVCD__NOTHING;
+}
+
+// Loads 16 triangles of moving patch i, from listing `first` on.
+static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
+  const size_t left = p->moving.first_triangle[i + 1] - first;
+  nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
+                    &p->moving_block);
+}
+
+// Looks for a contact of triangles of patches i and j a share u of an arc later than its start.
+static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
+                                          double u) {
+  const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__transform rounded = nsvcd__transform_of(&at);
+  const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
+  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance_of(p);
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  NSVCD__TALLY(tries, 1);
+  for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
+       b += NSVCD__WINDOW * NSVCD__LANES) {
+    nsvcd__window_load(p, j, b);
+    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
+      nsvcd__moving_block_load(p, i, a);
+      nsvcd__block_pose(p, &rounded, 0);
+      nsvcd__block_box(p, 1);
+      for (size_t n = 0; n < p->memo.window; n++) {
+        p->work++;
+        if (nsvcd__is_spent(p)) return NSVCD__NOTHING;
+        const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
+        if (found != NSVCD__NOTHING) return found;
+      }
+    }
+  }
+  return NSVCD__NOTHING;
+}
+
+// The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
+// is not after that time.
+static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
+  const uint32_t last = motion->ticks - 1;
+  const uint32_t tick = at < (double)last ? (uint32_t)at : last;
+  const uint32_t past_a = tick % motion->moving.ticks;
+  const uint32_t past_b = tick % motion->fixed.ticks;
+  const uint32_t first = tick - (past_a < past_b ? past_a : past_b);
+  *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
+  return first;
+}
+
+// Looks for a contact of an item where its spheres are nearest, if that still matters.
+static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
+                                       nsvcd__item *item) {
+  const double start = (double)search->begin[item->segment];
+  const double end = fmin((double)search->begin[item->segment + 1u], p->clipped_end);
+  const double tick = start + (double)item->share * (end - start);
+  double u;
+  item->sought = 1;
+  if (!(tick < p->ask.end)) return NSVCD__NOTHING;
+  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, tick, &u);
+  return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
+}
+#endif  // NSVCD_NO_PROOF

@@ -1,0 +1,248 @@
+// In: a task. Out: its answer, by the network: candidates, ranked, and a logit for the best of
+// them.
+#pragma once
+#include "../search/search.h"
+#include "../network/winding_number.h"
+#include "task.h"
+
+#ifndef NSVCD_NO_NETWORK
+// The settings for two bodies of so many patches. An error where the options ask for what is not
+// there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
+// 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
+// of log2 N.
+static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *o, size_t points1,
+                                       size_t points2, nsvcd__settings *settings) {
+  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
+    return NSVCD_ERROR_ARGUMENT;
+  if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
+    return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
+  const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
+  // compiled out
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_ARGUMENT;
+  settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
+  settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
+  settings->decoder = &nsvcd_w_decoders[decoder];
+  settings->ranker = &nsvcd_w_decoders[0];
+#ifdef NSVCD_NO_FLOAT
+  settings->int8 = 1;
+#else
+  settings->int8 = o->precision == NSVCD_PRECISION_INT8;
+#endif
+#ifdef NSVCD_NO_INT8
+  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
+#endif
+  for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
+    if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float last = NSVCD_W_SIZES - 1;
+    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float at = size < 0 ? 0 : size > last ? last : size;
+    const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
+    const float low = nsvcd_w_threshold[decoder][row][k];
+    const float high = nsvcd_w_threshold[decoder][row + 1][k];
+    settings->threshold = low + (at - (float)row) * (high - low);
+    return NSVCD_OK;
+  }
+  return NSVCD_ERROR_ARGUMENT;
+}
+
+// Scores `count` candidates, 1 to 16, by a decoder.
+static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *candidates,
+                          size_t count, const nsvcd__decoder *decoder) {
+  for (size_t first = 0; first < count; first += NSVCD__ROWS) {
+    const size_t left = count - first;
+    const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
+    // The layers take some rows at a time.
+    const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
+    float x[NSVCD__ROWS * NSVCD__DECODER_IN];
+    float logits[NSVCD__ROWS];
+    for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
+      const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
+      nsvcd__pairs pairs;
+      nsvcd__pairs_of(task->moving, task->fixed, &task->motion, candidates + first + l, size,
+                      &pairs);
+      nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
+    }
+    memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
+    nsvcd__decoder_logits(decoder, x, rows, task->settings.int8, logits);
+    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+  }
+}
+
+// Scores candidates that have no score yet, `most` at most: the deeper ones, roughly, because a
+// heap ends with them. Returns 0, and does nothing, if there are fewer than `least`.
+static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t least,
+                        size_t most) {
+  nsvcd__candidate *batch[NSVCD__BATCH];
+  size_t count = 0;
+  size_t left = 0;
+  for (size_t k = 0; k < kept->count; k++) left += kept->items[k].score <= NSVCD__NO_SCORE;
+  if (left < least || left == 0) return 0;
+  left = left < most ? left : most;
+  for (size_t k = kept->count; left > 0; k--) {
+    nsvcd__candidate *candidate = &kept->items[k - 1];
+    if (candidate->score > NSVCD__NO_SCORE) continue;
+    batch[count++] = candidate;
+    if (count < NSVCD__BATCH && count < left) continue;
+    NSVCD__TALLY(ranked, count);
+    nsvcd__decode(task, batch, count, task->settings.ranker);
+    left -= count;
+    count = 0;
+  }
+  return 1;
+}
+
+// Answers with a candidate, of which a decoder has given the score.
+static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
+                               const nsvcd__decoder *decoder, nsvcd_answer *answer) {
+  answer->logit = candidate->score - task->settings.threshold;
+  answer->contact_time = candidate->t_least;
+  answer->patch_a = candidate->moving;
+  answer->patch_b = candidate->fixed;
+  if (task->decisive) {
+    task->decisive->candidate = *candidate;
+    task->decisive->decoder = decoder;
+  }
+}
+
+// Does the tiny decoder see no collision there, clearly?
+static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
+  return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
+}
+
+// Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
+// all, clearly none? Then that is the answer, and no other decoder needs to look.
+static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
+                           nsvcd_answer *answer) {
+  const float threshold = task->settings.threshold;
+  const nsvcd__candidate *most = &kept->items[0];
+  for (size_t k = 1; k < kept->count; k++)
+    most = kept->items[k].score > most->score ? &kept->items[k] : most;
+  const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
+  const int no = all && nsvcd__is_harmless(most, threshold);
+  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, answer);
+  return yes || no;
+}
+
+// The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
+// portion at a time, until one is clearly positive.
+static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
+                         nsvcd_answer *answer) {
+  const nsvcd__settings *settings = &task->settings;
+  nsvcd__candidate *items = kept->items;
+  size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
+  // those of the highest scores come first, in falling order
+  for (size_t k = 0; k < count; k++) {
+    size_t best = k;
+    for (size_t i = k + 1; i < kept->count; i++) {
+      const float d = items[i].score - items[best].score;
+      if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
+    }
+    const nsvcd__candidate first = items[best];
+    items[best] = items[k];
+    items[k] = first;
+  }
+  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
+  for (size_t first = 0; first < count; first += NSVCD__PORTION) {
+    if (!(answer->logit < NSVCD__CLEAR_LOGIT)) break;
+    nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
+    const size_t left = count - first;
+    const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
+    for (size_t k = 0; k < size; k++) portion[k] = &items[first + k];
+    if (settings->decoder != settings->ranker) {
+      NSVCD__TALLY(judged, size);
+      nsvcd__decode(task, portion, size, settings->decoder);
+    }
+    for (size_t k = 0; k < size; k++) {
+      const int is_first = first + k == 0;
+      if (is_first || portion[k]->score - settings->threshold > answer->logit)
+        nsvcd__answer_with(task, portion[k], settings->decoder, answer);
+    }
+  }
+}
+
+// Does this motion, cut already, clearly collide where the hint says?
+static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
+                                              nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__settings *settings = &task->settings;
+  nsvcd__candidates kept;
+  nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
+  nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
+                      task->fixed, hint->fixed, &kept);
+  if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
+  answer->candidates = kept.total;
+  answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  if (nsvcd__is_clear(task, &kept, 0, answer)) return 1;
+  if (settings->decoder == settings->ranker) return 0;
+  nsvcd__judge(task, &kept, answer);
+  return answer->logit >= NSVCD__CLEAR_LOGIT;
+}
+
+// Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
+// all are known.
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const size_t shortlist = task->settings.shortlist;
+  nsvcd__search *search = &query->broad_phase;
+  nsvcd__candidates kept;
+  size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
+  size_t left = NSVCD__LOOKS * shortlist;
+  int clear = 0;
+  int more = nsvcd__search_begin(task->moving, task->fixed, search);
+  nsvcd__candidates_start(&kept, query->kept, shortlist);
+  while (more && !clear) {
+    more = nsvcd__search_step(search, &kept);
+    // A deep collision shows early. What is scored now need not be scored later, so that looking
+    // costs little.
+    if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
+    left -= worth;
+    clear = nsvcd__is_clear(task, &kept, 0, answer);
+    if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
+  }
+
+  answer->candidates = kept.total;
+  if (kept.total > 0)
+    answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  if (clear || kept.count == 0) return;
+  nsvcd__score(task, &kept, 1, kept.count);
+  if (!nsvcd__is_clear(task, &kept, 1, answer)) nsvcd__judge(task, &kept, answer);
+}
+
+// Is a part of one body inside of the other at the start?
+static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+  const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
+  return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
+}
+
+// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
+  nsvcd__task *task = &query->task;
+  const int hinted = hint && hint->known;
+  // checked before
+  (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
+                           &task->settings);
+  nsvcd__answer_free(answer);
+  if (nsvcd__motion_gap(&task->motion) > task->lengths) return;
+  nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
+  if (!hinted || !nsvcd__collides_again(query, hint, answer)) {
+    nsvcd__answer_free(answer);
+    if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
+    nsvcd__search_and_judge(query, answer);
+  }
+  if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
+    const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
+    *hint = here;
+  }
+
+  // a body inside another need not touch anything
+  if (nsvcd__starts_inside(task)) {
+    answer->status = NSVCD_STATUS_INSIDE;
+    answer->logit = NSVCD_LOGIT_CERTAIN;
+    answer->contact_time = 0;
+    answer->patch_a = answer->patch_b = 0;
+  }
+  answer->collides = answer->logit > 0;
+}
+#endif  // NSVCD_NO_NETWORK

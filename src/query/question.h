@@ -1,0 +1,224 @@
+// In: questions and a workspace. Out: answers, or why not.
+#pragma once
+#include "by_network.h"
+#include "by_proof.h"
+
+// The method that answers, or DEFAULT where there is none.
+static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                     nsvcd_method wanted) {
+  int can_prove = 0;
+  int can_ask = 0;
+#ifndef NSVCD_NO_PROOF
+  can_prove = moving->triangles && fixed->triangles;
+#endif
+#ifndef NSVCD_NO_NETWORK
+  can_ask = moving->weights_id && fixed->weights_id;
+#endif
+  if (can_prove && wanted != NSVCD_METHOD_NETWORK) return NSVCD_METHOD_PROOF;
+  if (can_ask && wanted != NSVCD_METHOD_PROOF) return NSVCD_METHOD_NETWORK;
+  (void)moving;
+  (void)fixed;
+  return NSVCD_METHOD_DEFAULT;
+}
+
+// Is a question in order?
+static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
+  const nsvcd_mover *a = &question->a;
+  const nsvcd_mover *b = &question->b;
+  const nsvcd_sweep_options *o = &question->options;
+  nsvcd_result result = nsvcd__mover_check(a);
+  if (!result) result = nsvcd__mover_check(b);
+  if (result) return result;
+  // One and the same body in the same motion: something was passed twice.
+  const float scale_a = nsvcd__scale_of(a);
+  const float scale_b = nsvcd__scale_of(b);
+  const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
+  const int same_motion = a->poses == b->poses && a->count == b->count;
+  if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
+
+  // Are the options' numbers in their ranges, and do they go together?
+  const float lengths[5] = {o->tolerance, o->clearance, o->measure, o->skin, o->first};
+  if ((unsigned)o->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if (o->segments > NSVCD__MAX_SEGMENTS || o->segments % NSVCD__LANES)
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < 5; k++) {
+    const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
+    if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
+    if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
+  }
+  if (o->first > 0 && o->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  // of these the network knows nothing
+  const int needs_proof = o->clearance > 0 || o->measure > 0 || o->first > 0 || o->skin > 0;
+  if (needs_proof && o->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : o->method;
+  if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
+    return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  nsvcd__settings unused;
+  return nsvcd__settings_of(o, a->body->patches, b->body->patches, &unused);
+#else
+  return NSVCD_OK;
+#endif
+}
+
+// ---- who moves
+
+// Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
+// that, else the larger one; where they are equal, any rule that does not depend on which is a:
+// then both ways of asking are answered alike.
+static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
+  const size_t count_a = nsvcd__pose_count(a);
+  const size_t count_b = nsvcd__pose_count(b);
+  if ((count_a > 1) != (count_b > 1)) return count_b > 1;
+  const float size_a = nsvcd__scale_of(a) * a->body->extent;
+  const float size_b = nsvcd__scale_of(b) * b->body->extent;
+  if (size_a < size_b || size_b < size_a) return size_b < size_a;
+  if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
+  if (count_a != count_b) return count_b < count_a;
+  const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
+  const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
+  return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
+}
+
+// ---- lay out
+
+// What a question that is in order needs; NULL: what any may need. Which of its bodies is to be the
+// moving one makes no difference to how much that is.
+static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
+  nsvcd__needs needs = {NSVCD__TILE_SLOTS, NSVCD__TILE_SLOTS, 1, NSVCD__MAX_SEGMENTS, 0, 1};
+#ifndef NSVCD_NO_NETWORK
+  needs.candidates = NSVCD__SHORTLIST * NSVCD_MAX_PAIRS;
+#endif
+  if (!question) return needs;
+  const nsvcd_body *a = question->a.body;
+  const nsvcd_body *b = question->b.body;
+  const nsvcd_sweep_options *options = &question->options;
+  const int swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
+  const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
+  if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
+  if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
+  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
+  if (options->segments) needs.segments = nsvcd__round_up(options->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
+#ifndef NSVCD_NO_NETWORK
+  const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
+  const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
+  needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
+  if (!a->weights_id || !b->weights_id) needs.candidates = 0;
+#endif
+  return needs;
+}
+
+// As nsvcd_sweep_workspace_size.
+static size_t nsvcd__sweep_size(const nsvcd_question *question) {
+  if (question && nsvcd__question_check(question)) return 0;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  return nsvcd__query_layout(&needs, NULL);
+}
+
+// Checks a question, and that the workspace is large enough for it.
+static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
+                                              const void *workspace, size_t workspace_size) {
+  const nsvcd_result result = nsvcd__question_check(question);
+  if (result) return result;
+  if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  const size_t size = nsvcd__query_layout(&needs, NULL);
+  return workspace_size >= size ? NSVCD_OK : NSVCD_ERROR_WORKSPACE;
+}
+
+// Lays a question that has been checked out in the workspace, and chooses who moves.
+static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+                                                    void *workspace) {
+  const nsvcd_sweep_options *options = &question->options;
+  const nsvcd__needs needs = nsvcd__needs_of(question);
+  nsvcd__query *query = (nsvcd__query *)workspace;
+  nsvcd__task *task = &query->task;
+  (void)nsvcd__query_layout(&needs, (char *)workspace);
+  task->swapped = nsvcd__is_swapped(&question->a, &question->b);
+  const nsvcd_mover *moving = task->swapped ? &question->b : &question->a;
+  const nsvcd_mover *fixed = task->swapped ? &question->a : &question->b;
+  nsvcd__motion_init(moving, fixed, &task->motion);
+  task->moving = moving->body;
+  task->fixed = fixed->body;
+  task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
+  task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
+  task->options = options;
+#ifndef NSVCD_NO_NETWORK
+  task->decisive = NULL;
+#endif
+  return query;
+}
+
+// ---- answer, and write
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+// Adds the network's opinion, where it has one, to what a proof has left undecided.
+static void nsvcd__add_opinion(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd_sweep_options *options = task->options;
+  nsvcd_answer opinion;
+  if (!task->moving->weights_id || !task->fixed->weights_id) return;
+  if (options->clearance > 0 || options->measure > 0 || options->skin > 0) return;
+  nsvcd__answer_by_network(query, NULL, &opinion);
+  answer->logit = opinion.logit;
+  answer->collides = opinion.collides;
+  answer->candidates = opinion.candidates;
+  if (answer->triangle_a != NSVCD_NO_TRIANGLE) return;
+  answer->contact_time = opinion.contact_time;
+  answer->patch_a = opinion.patch_a;
+  answer->patch_b = opinion.patch_b;
+}
+#endif
+
+// Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
+// network.
+static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+  (void)hint;
+#ifndef NSVCD_NO_PROOF
+  if (query->task.method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
+#endif
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
+  if (query->task.method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
+    nsvcd__add_opinion(query, answer);
+#endif
+#ifndef NSVCD_NO_NETWORK
+  if (query->task.method == NSVCD_METHOD_NETWORK)
+    nsvcd__answer_by_network(query, hint, answer);
+#endif
+  if (!query->task.swapped) return;
+  // What was found out about moving and fixed, said about a and b.
+  const uint32_t patch = answer->patch_a;
+  const uint32_t triangle = answer->triangle_a;
+  answer->patch_a = answer->patch_b;
+  answer->patch_b = patch;
+  answer->triangle_a = answer->triangle_b;
+  answer->triangle_b = triangle;
+  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
+  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+}
+
+// As nsvcd_sweep_batch.
+static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
+                                       void *workspace, size_t workspace_size,
+                                       nsvcd_answer *answers) {
+  const nsvcd__hint none = {0, 0, 0, 0};
+  nsvcd__hint hint = none;
+  int swapped = 0;
+  if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
+    if (result) return result;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_question *q = &questions[k];
+    nsvcd__query *query = nsvcd__query_open(q, workspace);
+    // The hint is about patches of the moving body and of the fixed one.
+    const int same = k > 0 && q->a.body == q[-1].a.body && q->b.body == q[-1].b.body;
+    if (!same || query->task.swapped != swapped) hint = none;
+    swapped = query->task.swapped;
+    nsvcd__answer_query(query, &hint, &answers[k]);
+  }
+  return NSVCD_OK;
+}

@@ -1,0 +1,61 @@
+// In: nothing. Out: does this build reckon as it should?
+#pragma once
+#include "../proof/couples.h"
+
+// As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
+// degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
+// y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
+static nsvcd_result nsvcd__self_test(void) {
+  // or the compiler would reckon instead
+  const volatile float half = 0.70710678f;
+  const float turn = half;
+  const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
+  const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
+  const nsvcd_mover moving = {NULL, path, 2, 0};
+  const nsvcd_mover fixed = {NULL, &rest, 1, 0};
+  float places[3][NSVCD__LANES];
+  // in a block: the stack is shared with what comes after it
+  {
+    nsvcd__motion motion;
+    nsvcd__knots knots;
+    uint32_t ticks[NSVCD__LANES];
+    for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
+    nsvcd__motion_init(&moving, &fixed, &motion);
+    nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
+    nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+      const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
+      const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+      const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
+      nsvcd__v3_store(places, l, nsvcd__vmat3_apply_add(rotation, arm, seen.position));
+    }
+  }
+  nsvcd__chords chords;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_of(0, 0, -0.5f));
+    nsvcd__chords_store(&chords, l, nsvcd__v3_load(places, l), way, nsvcd__v_set(0.1f));
+  }
+  int right = 1;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    const double angle = 1.5707963267948966 * (double)l / NSVCD__LANES;
+    const double x = 3 - 0.5 * (double)l + cos(angle);
+    right &= fabs((double)chords.start[0][l] - (sin(angle) - 2)) < 1e-4;
+    right &= fabs((double)chords.start[1][l] + 3) < 1e-4;
+    right &= fabs((double)chords.start[2][l] - x) < 1e-4;
+  }
+  // only two of these chords come within 0.2 of the ninth place
+  nsvcd__sphere resting = {{half - 2, -3, half - 1}, 0.1f};
+  right &= nsvcd__meet(&chords, resting) == 0x180;
+  resting.centre.y += 1;
+  right &= nsvcd__meet(&chords, resting) == 0;
+#ifndef NSVCD_NO_PROOF
+  const double lift = 4 * (double)half;
+  const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
+  right &= !(nsvcd__triangles_nearest(a, b).square > 0);
+  for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
+  right &= fabs(nsvcd__triangles_nearest(a, b).square - lift * lift) < 1e-9;
+#endif
+  return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
+}

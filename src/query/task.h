@@ -1,0 +1,165 @@
+// In: two bodies and a motion. Out: an answer, by proof (proof/proof) or by the network
+// (NeuralSVCD, algorithm 1). nsvcd_sweep stands at the end. A question goes through these phases:
+//
+//   check       is it in order, which method can answer it, and is the workspace large enough?
+//   lay out     what it needs, and where in the workspace that is
+//   who moves   of its two bodies; all is reckoned in the other's frame and units
+//   answer      by proof, or by the network
+//   write       what was found about moving and fixed, as facts about a and b
+//
+// A batch checks all of its questions before it answers the first one.
+#pragma once
+#include "../proof/proof.h"
+#include "../network/decoder.h"
+
+#ifndef NSVCD_NO_NETWORK
+#ifndef NSVCD_NO_BASE
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_BASE
+#elif !defined(NSVCD_NO_SMALL)
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_SMALL
+#else
+#define NSVCD__LARGEST_MODEL NSVCD_MODEL_TINY
+#endif
+
+// ---- the network's schedule
+//
+// The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
+// ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
+// judges the K most suspicious. K is options.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
+// a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
+// once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
+
+// pairs on the shortlist, times K; of the tiny decoder, which needs none, K: nsvcd__settings_of,
+// nsvcd__needs_of
+#define NSVCD__SHORTLIST 4
+// new pairs that are worth the first look by the ranker, before the search is done. Later looks
+// wait for NSVCD__BATCH: nsvcd__search_and_judge
+#define NSVCD__FIRST_LOOK 8
+// pairs that such looks may take, times the shortlist: nsvcd__search_and_judge
+#define NSVCD__LOOKS 2
+// pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
+// kept where the last of a batch collided: nsvcd__collides_again
+#define NSVCD__PORTION 4
+// a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
+// is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
+// sets, N = 128 to 512, are the same as with twice this, but for one, which is better
+#define NSVCD__CLEAR_LOGIT 3.0f
+// times that the place where the last of a batch collided may mislead before it is forgotten:
+// nsvcd__answer_by_network
+#define NSVCD__MISLEADS 2
+
+// The network's options, with the defaults filled in.
+typedef struct nsvcd__settings {
+  size_t pairs;  // K
+  // pairs that are kept
+  size_t shortlist;
+  const nsvcd__decoder *decoder, *ranker;
+  int int8;
+  // subtracted from the decoder's logit
+  float threshold;
+} nsvcd__settings;
+
+// The candidate that an answer is about, and the decoder that gave its logit.
+typedef struct nsvcd__decisive {
+  nsvcd__candidate candidate;
+  const nsvcd__decoder *decoder;
+} nsvcd__decisive;
+#endif  // NSVCD_NO_NETWORK
+
+// ---- tasks, and their memory
+
+// A question that has been checked.
+typedef struct nsvcd__task {
+  const nsvcd_body *moving, *fixed;
+  nsvcd__motion motion;
+  int swapped;  // the moving body is b, not a
+  // extents of both bodies, in the fixed one's units
+  float lengths;
+  nsvcd_method method;  // PROOF or NETWORK
+  // the caller's
+  const nsvcd_sweep_options *options;
+#ifndef NSVCD_NO_NETWORK
+  // of the network
+  nsvcd__settings settings;
+  // written unless NULL
+  nsvcd__decisive *decisive;
+#endif
+} nsvcd__task;
+
+// What a workspace holds, at its beginning.
+typedef struct nsvcd__query {
+  nsvcd__search broad_phase;
+  nsvcd__task task;
+  // The memory of the network and that of the proof are in one place, for one follows the other.
+#ifndef NSVCD_NO_NETWORK
+  // (shortlist)
+  nsvcd__candidate *kept;
+#endif
+#ifndef NSVCD_NO_PROOF
+  nsvcd__proof *proof;
+  nsvcd__span *spans;  // (S)
+#endif
+} nsvcd__query;
+
+// What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
+// compile they are wrong.
+typedef char nsvcd__constants_hold
+    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
+             sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
+             sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
+             NSVCD_ALIGNMENT == sizeof(uint64_t)
+         ? 1
+         : -1];
+#ifndef NSVCD_NO_PROOF
+typedef char nsvcd__proof_constants_hold
+    [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+#endif
+#ifndef NSVCD_NO_NETWORK
+typedef char nsvcd__network_constants_hold
+    [NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
+#endif
+
+// Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes that it takes.
+static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
+  nsvcd__query counted;
+  uint64_t used = 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__query));
+  nsvcd__query *query = at ? (nsvcd__query *)at : &counted;
+  nsvcd__search_layout(needs, base, &used, &query->broad_phase);
+  uint64_t end = used;
+#ifndef NSVCD_NO_NETWORK
+  uint64_t network = used;
+  void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
+  query->kept = (nsvcd__candidate *)kept;
+  end = network;
+#endif
+#ifndef NSVCD_NO_PROOF
+  uint64_t proof = used;
+  const size_t spans = needs->proof ? needs->segments : 0;
+  query->proof =
+      (nsvcd__proof *)nsvcd__take(base, &proof, needs->proof != 0, sizeof(nsvcd__proof));
+  query->spans = (nsvcd__span *)nsvcd__take(base, &proof, spans, sizeof(nsvcd__span));
+  end = proof > end ? proof : end;
+#endif
+  return (size_t)end;
+}
+
+// What is said of bodies that never meet.
+static void nsvcd__answer_free(nsvcd_answer *answer) {
+  memset(answer, 0, sizeof *answer);
+  answer->logit = -NSVCD_LOGIT_CERTAIN;
+  answer->status = NSVCD_STATUS_CERTIFIED_FREE;
+  answer->clearance_high = HUGE_VALF;
+  answer->triangle_a = NSVCD_NO_TRIANGLE;
+  answer->triangle_b = NSVCD_NO_TRIANGLE;
+}
+
+// Where the last of a batch collided by the network: the next is asked there first. Forgotten when
+// it has misled MISLEADS times, or the bodies change.
+typedef struct nsvcd__hint {
+  int known;
+  int misled;
+  // patches
+  uint32_t moving, fixed;
+} nsvcd__hint;

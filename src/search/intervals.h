@@ -1,0 +1,217 @@
+// In: chords of a patch, and the patches of the other body. Out: candidates, with the time in which
+// their balls meet.
+#pragma once
+#include "../motion/segments.h"
+
+#ifndef NSVCD_NO_NETWORK
+// The candidates kept so far: a heap with the shallowest at its root, and the count of all
+// intervals.
+typedef struct nsvcd__candidates {
+  // (limit), the caller's
+  nsvcd__candidate *items;
+  size_t limit, count;
+  // intervals found, kept or not; 0: certified free
+  size_t total;
+} nsvcd__candidates;
+
+// A total order, so that ties do not depend on the order in which intervals were found.
+static int nsvcd__is_shallower(const nsvcd__candidate *a, const nsvcd__candidate *b) {
+  if (a->depth < b->depth || a->depth > b->depth) return a->depth < b->depth;
+  if (a->moving != b->moving) return a->moving > b->moving;
+  if (a->fixed != b->fixed) return a->fixed > b->fixed;
+  return a->t_enter > b->t_enter;
+}
+
+// Counts an interval, and keeps it where there is room, or where the shallowest one can make some.
+static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidate *item) {
+  nsvcd__candidate *heap = kept->items;
+  size_t hole = 0;
+  kept->total++;
+  if (kept->count < kept->limit) {
+    for (hole = kept->count++; hole > 0; hole = (hole - 1) / 2) {
+      if (!nsvcd__is_shallower(item, &heap[(hole - 1) / 2])) break;
+      heap[hole] = heap[(hole - 1) / 2];
+    }
+  } else {
+    if (kept->limit == 0 || !nsvcd__is_shallower(&heap[0], item)) return;
+    for (size_t child = 1; child < kept->count; child = 2 * hole + 1) {
+      if (child + 1 < kept->count && nsvcd__is_shallower(&heap[child + 1], &heap[child]))
+        child++;
+      if (!nsvcd__is_shallower(&heap[child], item)) break;
+      heap[hole] = heap[child];
+      hole = child;
+    }
+  }
+  heap[hole] = *item;
+}
+
+// Contact intervals of a slice that are still growing, one per lane. Places on a segment's line are
+// counted in segments from its start: `nearest` is where the line comes nearest to the other
+// centre. The spheres touch from `nearest` - h to `nearest` + h; half2 is the square of h.
+typedef struct nsvcd__intervals {
+  uint32_t open;  // lanes
+  // segments: in which the oldest of them began, and the last that all of them reach
+  size_t oldest, last;
+  // 1 in lanes without an interval, else 0
+  nsvcd__v fresh;
+  nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
+  // of the least distance: its square, and where
+  nsvcd__v square, least_segment, least;
+} nsvcd__intervals;
+
+// The time at a share of segment s.
+static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
+  const float start = search->time[s];
+  return start + share * (search->time[s + 1] - start);
+}
+
+// Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
+// moving body; j: the patch of the fixed one.
+static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
+                                   const nsvcd__search *search, size_t i, size_t j,
+                                   nsvcd__candidates *kept) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v own = nsvcd__v_load(nsvcd__body_r(search->moving) + i);
+  const nsvcd__v other = nsvcd__v_set(nsvcd__body_r(search->fixed)[j]);
+  const nsvcd__v scaled = nsvcd__v_scale(own, search->scale);
+  const nsvcd__v radii = nsvcd__v_max(nsvcd__v_add(scaled, other), nsvcd__v_set(1e-30f));
+  intervals->open &= ~lanes;
+  // most are shallower than all of a full heap: only counted
+  if (kept->count == kept->limit) {
+    const float depth = kept->limit ? (1 - kept->items[0].depth) * 1.000001f : 0;
+    const nsvcd__v most = nsvcd__v_scale(radii, depth > 0 ? depth : 0);
+    uint32_t deep = 0;
+    if (kept->limit) deep = lanes & nsvcd__v_le(intervals->square, nsvcd__v_mul(most, most));
+    kept->total += nsvcd__bit_count(lanes & ~deep);
+    lanes = deep;
+    if (!lanes) return;
+  }
+
+  float first[NSVCD__SLICE], enter[NSVCD__SLICE], leave[NSVCD__SLICE];
+  float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
+  const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
+  const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
+  const nsvcd__v share = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
+  nsvcd__v_store(first, intervals->first);
+  nsvcd__v_store(least_segment, intervals->least_segment);
+  nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
+  nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
+  nsvcd__v_store(least, intervals->least);
+  nsvcd__v_store(depth, nsvcd__v_sub(one, share));
+  for (; lanes; lanes &= lanes - 1) {
+    const size_t l = nsvcd__lowest_bit(lanes);
+    nsvcd__candidate candidate;
+    candidate.moving = (uint16_t)(i + l);
+    candidate.fixed = (uint16_t)j;
+    candidate.t_enter = nsvcd__time_in_segment(search, (size_t)first[l], enter[l]);
+    candidate.t_exit = nsvcd__time_in_segment(search, intervals->last, leave[l]);
+    candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
+    candidate.depth = depth[l];
+    candidate.score = NSVCD__NO_SCORE;
+    // Rounding must not put the least distance outside.
+    if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
+    if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
+    nsvcd__candidates_add(kept, &candidate);
+  }
+}
+
+// The segments before which all contact intervals of the members of a group against patch j of the
+// fixed body are cut: the oldest of them would turn too far, or a segment is left out in between.
+// Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint64_t wanted) {
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+  // where the segment before is left out
+  uint64_t cuts = wanted & ~(wanted << 1);
+  uint32_t open = 0;
+  size_t oldest = 0;
+  if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const uint32_t met = nsvcd__meet(&search->members[s], patch);
+    if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
+      cuts |= (uint64_t)1 << s;
+    if (cuts >> s & 1) open = 0;
+    open &= met;
+    if (!open) oldest = s;
+    open = met;
+  }
+  return cuts;
+}
+
+// A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
+// segments `wanted`. cuts: nsvcd__interval_cuts; where a slice is all lanes, it finds that itself.
+static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
+                                       uint64_t wanted, uint64_t cuts,
+                                       nsvcd__candidates *kept) {
+  const nsvcd__v one = nsvcd__v_set(1);
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+  const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
+  const size_t l = i % NSVCD__GROUP;
+  nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const nsvcd__chords *c = &search->members[s];
+    const nsvcd__v3 way = nsvcd__chords_way(c, l);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
+    const nsvcd__v inverse = nsvcd__v_load(c->inverse + l);
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), patch.radius);
+    // the square of the sum of radii; the line's nearest point, and the chord's, as places on them
+    const nsvcd__v limit = nsvcd__v_signed_square(reach);
+    const nsvcd__v nearest = nsvcd__v_mul(nsvcd__v3_dot(d, way), inverse);
+    const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
+    const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
+    const nsvcd__v square = nsvcd__v3_dot(chord, chord);
+    const uint32_t met = nsvcd__v_le(square, limit);
+    uint32_t ended = at.open & ~met;
+    int cut = (int)(cuts >> s & 1);
+    if (NSVCD__SLICE == NSVCD__LANES && at.open) {
+      cut = search->turn[s + 1] - search->turn[at.oldest] > NSVCD__INTERVAL_TURN;
+      cut |= at.last + 1 != s;
+    }
+    if (cut) {
+      ended = at.open;
+      at.fresh = one;
+    }
+    if (ended) nsvcd__intervals_close(&at, ended, search, i, j, kept);
+    if (!met) {
+      at.fresh = one;
+      continue;
+    }
+
+    // Intervals go on, or begin. |d + tau way| = reach, solved from the nearest point of the line
+    // outwards: b^2 - ac would cancel on long chords.
+    const nsvcd__v segment = nsvcd__v_set((float)s);
+    const nsvcd__v3 line = nsvcd__v3_fma(nearest, way, d);
+    const nsvcd__v half2 =
+        nsvcd__v_mul(nsvcd__v_sub(nsvcd__v3_dot(line, line), limit), inverse);
+    const nsvcd__v before = nsvcd__v_pick(half, at.fresh, nsvcd__v_set(1e38f), at.square);
+    at.first = nsvcd__v_pick(half, at.fresh, segment, at.first);
+    at.first_nearest = nsvcd__v_pick(half, at.fresh, nearest, at.first_nearest);
+    at.first_half2 = nsvcd__v_pick(half, at.fresh, half2, at.first_half2);
+    at.last_nearest = nearest;
+    at.last_half2 = half2;
+    at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
+    at.least = nsvcd__v_pick(square, before, tau, at.least);
+    at.square = nsvcd__v_min(square, before);
+    at.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (!at.open) at.oldest = s;
+    at.open = met;
+    at.last = s;
+  }
+  if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
+}
+
+// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
+static void nsvcd__members_against_patch(const nsvcd__search *search, size_t g, size_t j,
+                                         uint64_t wanted, nsvcd__candidates *kept) {
+  uint64_t cuts = 0;
+  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
+  if (NSVCD__SLICE < NSVCD__LANES) cuts = nsvcd__interval_cuts(search, j, wanted);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__slice_against_patch(search, NSVCD__GROUP * g + l, j, wanted, cuts, kept);
+  }
+}
+#endif  // NSVCD_NO_NETWORK

@@ -1,0 +1,366 @@
+// In: two bodies and segments. Out: each pair of patches whose spheres meet, with the segments in
+// which they do, group by group.
+#pragma once
+#include "intervals.h"
+
+// Chords of a sphere of the moving body in all segments, into search->group.
+static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
+  sphere.radius *= search->scale;
+  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
+    nsvcd__chords_of_sphere(&search->blocks[b], sphere, &search->group[b]);
+  }
+}
+
+static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
+  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
+}
+
+// Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
+static void nsvcd__chords_in_segment(const nsvcd__search *search, size_t s,
+                                     nsvcd__spheres spheres, float remote,
+                                     nsvcd__chords *out) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  nsvcd__chords_of_members(block, s % NSVCD__LANES, spheres, search->scale, remote, out);
+}
+
+// Boxes in which 16 groups of the moving tile, from `first`, stay as long as they are near the
+// fixed body: its axes, metres. Empty ones, low above high, for those that never are. wanted: the
+// segments to look at.
+static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, uint64_t wanted,
+                                   nsvcd__boxes *out) {
+  const nsvcd__spheres groups = nsvcd__spheres_from(search->moving_tile.spheres, first);
+  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
+  nsvcd__chords *c = nsvcd__spare_chords(search);
+  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
+  for (size_t n = 0; n < 3 * NSVCD__LANES; n++) {
+    out->low[n / NSVCD__LANES][n % NSVCD__LANES] = -NSVCD__NOWHERE;
+    out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
+  }
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    nsvcd__chords_in_segment(search, s, groups, search->moving->extent, c);
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
+      const nsvcd__v3 start = nsvcd__chords_start(c, l);
+      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 d = nsvcd__v3_sub(start, nsvcd__v3_set(fixed.centre));
+      const nsvcd__v reach = nsvcd__v_load(c->reach + l);
+      const nsvcd__v sum = nsvcd__v_plus(reach, fixed.radius);
+      const nsvcd__v square = nsvcd__nearest2(d, way, nsvcd__v_load(c->inverse + l));
+      const nsvcd__v nearby =
+          nsvcd__v_pick(square, nsvcd__v_signed_square(sum), reach, nowhere);
+      const nsvcd__v3 end = nsvcd__v3_add(start, way);
+      const nsvcd__v3 around = nsvcd__v3_of(nearby, nearby, nearby);
+      const nsvcd__v3 low = nsvcd__v3_sub(nsvcd__v3_min(start, end), around);
+      const nsvcd__v3 high = nsvcd__v3_add(nsvcd__v3_max(start, end), around);
+      nsvcd__v3_store(out->low, l, nsvcd__v3_min(nsvcd__v3_load(out->low, l), low));
+      nsvcd__v3_store(out->high, l, nsvcd__v3_max(nsvcd__v3_load(out->high, l), high));
+    }
+  }
+}
+
+// Lanes of 16 spheres that touch a box.
+static uint32_t nsvcd__spheres_at_box(nsvcd__box box, nsvcd__spheres all) {
+  const nsvcd__v3 none = nsvcd__v3_set(nsvcd__f3_of(0, 0, 0));
+  uint32_t touched = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
+    const nsvcd__v3 below = nsvcd__v3_sub(nsvcd__v3_set(box.low), centre);
+    const nsvcd__v3 above = nsvcd__v3_sub(centre, nsvcd__v3_set(box.high));
+    const nsvcd__v3 d = nsvcd__v3_max(nsvcd__v3_max(below, above), none);
+    const nsvcd__v reach = nsvcd__v_load(all.r + l);
+    touched |= nsvcd__v_le(nsvcd__v3_dot(d, d), nsvcd__v_signed_square(reach)) << l;
+  }
+  return touched;
+}
+
+static uint64_t nsvcd__all_segments(const nsvcd__search *search) {
+  return ~(uint64_t)0 >> (NSVCD__MAX_SEGMENTS - search->segments);
+}
+
+// Puts the steps of the search of both tiles in order: the groups of the moving tile that meet
+// some of the fixed tile, those that meet most of them for most of the time first; nearby[g] says
+// which, and in which segments. wanted: segments in which the bodies' spheres meet.
+static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
+  uint16_t meetings[NSVCD__TILE_SLOTS];
+  const nsvcd__tile *tile = &search->fixed_tile;
+  nsvcd__boxes *boxes = nsvcd__spare_boxes(search);
+  search->steps = 0;
+  search->step = 0;
+  search->waiting = 0;
+  for (size_t g = 0; g < search->moving_tile.count; g++) {
+    const size_t l = g % NSVCD__LANES;
+    if (l == 0) nsvcd__boxes_of_groups(search, g, wanted, boxes);
+    const nsvcd__box box = {nsvcd__lane_of(boxes->low, l), nsvcd__lane_of(boxes->high, l)};
+    uint32_t groups = 0;
+    for (size_t first = 0; first < tile->count; first += NSVCD__LANES)
+      groups |= nsvcd__spheres_at_box(box, nsvcd__spheres_from(tile->spheres, first)) << first;
+    if (!groups) continue;
+    uint64_t *nearby = nsvcd__nearby(search, g);
+    size_t count = 0;
+    nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
+    memset(nearby, 0, tile->count * sizeof *nearby);
+    for (; groups; groups &= groups - 1) {
+      const size_t h = nsvcd__lowest_bit(groups);
+      const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
+      nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
+      count += nsvcd__bit_count(nearby[h]);
+    }
+    if (!count) continue;
+    size_t at = search->steps;
+    for (; at > 0 && meetings[at - 1] < count; at--) {
+      meetings[at] = meetings[at - 1];
+      search->order[at] = search->order[at - 1];
+    }
+    meetings[at] = (uint16_t)count;
+    search->order[at] = (uint16_t)g;
+    search->steps++;
+  }
+}
+
+static int nsvcd__is_large(const nsvcd_body *body) {
+  return nsvcd__body_groups(body) > NSVCD__TILE;
+}
+
+// Fills a tile with the next groups that a walk finds.
+static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
+  size_t g;
+  tile->spheres = nsvcd__spheres_of(tile->gathered, NSVCD__TILE_SLOTS);
+  for (size_t n = 0; n < 4 * NSVCD__TILE_SLOTS; n++)
+    tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
+  tile->count = 0;
+  while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(walk->body), g);
+    nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
+    tile->groups[tile->count++] = (uint16_t)g;
+  }
+}
+
+// Fills a tile with all groups of a body that has no more than that.
+static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
+  tile->count = nsvcd__body_groups(body);
+  for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
+  tile->spheres = nsvcd__group_spheres(body);
+}
+
+// ---- filters of a walk, which are given the search
+
+// All spheres that there are.
+static uint32_t nsvcd__exists(const void *what, nsvcd__spheres all) {
+  uint32_t exists = 0;
+  (void)what;
+  NSVCD__EACH_SLICE(l) exists |= nsvcd__v_le(nsvcd__v_set(0), nsvcd__v_load(all.r + l)) << l;
+  return exists;
+}
+
+// Spheres of the moving body that meet that of the fixed one.
+static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
+  const nsvcd__search *search = (const nsvcd__search *)what;
+  const nsvcd__sphere fixed = nsvcd__body_sphere(search->fixed);
+  nsvcd__chords *chords = nsvcd__spare_chords(search);
+  uint32_t met = 0;
+  for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    nsvcd__chords_in_segment(search, s, all, search->moving->extent, chords);
+    met |= nsvcd__meet(chords, fixed);
+  }
+  return met;
+}
+
+// Spheres of the fixed body that meet that of the moving tile, whose chords are search->group.
+static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
+  const nsvcd__search *search = (const nsvcd__search *)what;
+  const uint32_t nearby = nsvcd__spheres_at_box(search->near_box, all);
+  uint32_t met = 0;
+  for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
+       wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
+  }
+  return met;
+}
+
+// Poses the sphere over all groups of the moving tile, into search->group.
+static void nsvcd__chords_of_tile(nsvcd__search *search) {
+  const nsvcd__tile *tile = &search->moving_tile;
+  nsvcd__sphere sphere = nsvcd__body_sphere(search->moving);
+  if (nsvcd__is_large(search->moving))
+    sphere = nsvcd__cover_spheres(tile->spheres, tile->count);
+  nsvcd__chords_in_all(search, sphere);
+}
+
+// Finds the next moving tile, an empty one if there is none, and starts the walk through the fixed
+// body's groups that come near it: that touch a box about its chords.
+static void nsvcd__search_moving_tile(nsvcd__search *search) {
+  nsvcd__box box = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
+  nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
+  if (search->moving_tile.count == 0) return;
+  nsvcd__chords_of_tile(search);
+  for (size_t s = 0; s < search->segments; s++) {
+    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+    const size_t l = s % NSVCD__LANES;
+    const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
+    const nsvcd__f3 way = nsvcd__f3_get(c->way[0] + l, NSVCD__LANES);
+    const nsvcd__f3 end = nsvcd__f3_add(start, way);
+    const nsvcd__f3 around = nsvcd__f3_of(c->reach[l], c->reach[l], c->reach[l]);
+    const nsvcd__f3 low = nsvcd__f3_sub(nsvcd__f3_min(start, end), around);
+    const nsvcd__f3 high = nsvcd__f3_add(nsvcd__f3_max(start, end), around);
+    box.low = nsvcd__f3_min(box.low, low);
+    box.high = nsvcd__f3_max(box.high, high);
+  }
+  search->near_box = box;
+  nsvcd__walk_begin(&search->fixed_walk, search->fixed, nsvcd__is_approached, search);
+}
+
+// Goes on to the next tile that has a step. 0 if there is none.
+static int nsvcd__search_next_tile(nsvcd__search *search) {
+  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed)) return 0;
+  while (search->moving_tile.count > 0) {
+    nsvcd__chords_of_tile(search);
+    nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
+    if (search->fixed_tile.count == 0) {
+      nsvcd__search_moving_tile(search);
+      continue;
+    }
+    nsvcd__search_tile(search, search->near_segments);
+    if (search->steps > 0) return 1;
+  }
+  return 0;
+}
+
+// Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet:
+// then there is no step to take.
+static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
+                               nsvcd__search *search) {
+  search->moving = moving;
+  search->fixed = fixed;
+  nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
+  const uint64_t all = nsvcd__all_segments(search);
+  const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
+  search->near_segments = wanted;
+  search->wanted = ~(uint64_t)0;
+  search->steps = 0;
+  search->step = 0;
+  search->waiting = 0;
+  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
+    nsvcd__tile_fill_all(&search->moving_tile, moving);
+    nsvcd__tile_fill_all(&search->fixed_tile, fixed);
+    if (wanted) nsvcd__search_tile(search, wanted);
+    return search->steps > 0;
+  }
+  search->moving_tile.count = 0;
+  if (!wanted) return 0;
+  nsvcd__filter *filter = nsvcd__is_large(moving) ? nsvcd__comes_near : nsvcd__exists;
+  nsvcd__walk_begin(&search->moving_walk, moving, filter, search);
+  nsvcd__search_moving_tile(search);
+  return nsvcd__search_next_tile(search);
+}
+
+// No point of a group is farther from its body's origin; in the body's own units.
+static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+  return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
+}
+
+// Fills members[] with what is missing of the segments `wanted`.
+static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted) {
+  if (!(wanted & ~search->posed)) return;
+  const nsvcd__spheres patches = nsvcd__body_patches(search->moving);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
+  search->remote = nsvcd__group_reach(search->moving, g);
+  for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
+    const size_t s = nsvcd__lowest_bit(missing);
+    nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
+  }
+  search->posed |= wanted;
+}
+
+// Patches of group h of the fixed body that moving group g meets, and in which segments, of those
+// `wanted`: segments (GROUP), written for these patches.
+static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
+                                             uint64_t wanted, uint64_t *segments) {
+  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+  uint32_t met = 0;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__lowest_bit(wanted);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    for (; bits; bits &= bits - 1) {
+      const size_t l = nsvcd__lowest_bit(bits);
+      segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
+      met |= 1u << l;
+    }
+  }
+  return met;
+}
+
+// Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
+// that it meets for the longest time.
+static size_t nsvcd__search_group(nsvcd__search *search) {
+  const size_t g = search->order[search->step];
+  const uint64_t *nearby = nsvcd__nearby(search, g);
+  size_t longest = 0;
+  size_t most = 0;
+  for (size_t h = 0; h < search->fixed_tile.count; h++) {
+    const size_t count = nsvcd__bit_count(nearby[h] & search->wanted);
+    if (count > 0) search->waiting |= (uint32_t)1 << h;
+    if (count > most) {
+      most = count;
+      longest = h;
+    }
+  }
+  if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
+  search->posed = 0;
+  return longest;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
+// steps to take.
+static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
+  uint64_t segments[NSVCD__GROUP];
+  size_t at;
+  if (search->waiting)
+    at = nsvcd__lowest_bit(search->waiting);
+  else
+    at = nsvcd__search_group(search);
+  const size_t next = search->order[search->step];
+  const size_t g = search->moving_tile.groups[next];
+  const size_t h = search->fixed_tile.groups[at];
+  const uint64_t wanted = nsvcd__nearby(search, next)[at];
+  uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
+  for (; met; met &= met - 1) {
+    const size_t l = nsvcd__lowest_bit(met);
+    nsvcd__pose_members(search, g, segments[l]);
+    nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
+  }
+  search->waiting &= ~((uint32_t)1 << at);
+  if (!search->waiting) search->step++;
+  return search->step < search->steps || nsvcd__search_next_tile(search);
+}
+
+// Instead of a search, in a motion that has been cut: all contact intervals of one moving group and
+// one patch of the fixed body.
+static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
+                                const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
+  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+  search->moving = moving;
+  search->fixed = fixed;
+  nsvcd__chords_of_group(search, g);
+  const uint64_t wanted = nsvcd__meet_in(search->group, nsvcd__all_segments(search), patch);
+  search->posed = 0;
+  nsvcd__pose_members(search, g, wanted);
+  nsvcd__members_against_patch(search, g, j, wanted, kept);
+}
+
+static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
+                                    size_t limit) {
+  kept->items = items;
+  kept->limit = limit;
+  kept->count = 0;
+  kept->total = 0;
+}
+
+#endif  // NSVCD_NO_NETWORK

@@ -1,0 +1,131 @@
+// In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
+// to round outwards.
+#pragma once
+#include "../ground/points.h"
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+static float nsvcd__float_above(double x) {
+  const float rounded = nsvcd__to_float(x);
+  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
+}
+
+// ---- balls: the least one that holds all points
+
+typedef struct nsvcd__points {
+  const nsvcd__d3 *at;  // (count)
+  size_t count;
+} nsvcd__points;
+
+typedef struct nsvcd__ball {
+  nsvcd__d3 centre;
+  double squared;  // radius
+} nsvcd__ball;
+
+// The edges from the first of 1 to 4 points to the others, and shares of them. The sum of the
+// shares leads from that point to the centre of the least ball with all points on its border; or,
+// where `ball` is 0, to the point nearest to the origin of the plane (line, point) through them. 0
+// if that is not known, for the points are too much in line, or in a plane.
+static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
+                               nsvcd__d3 *edges, double *b) {
+  const size_t n = count - 1;
+  double a[3][3];
+  double first[3];
+  for (size_t i = 0; i < n; i++) {
+    edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
+    first[i] = nsvcd__d3_dot(edges[i], edges[i]);
+    b[i] = ball ? 0.5 * first[i] : -nsvcd__d3_dot(edges[i], points[0]);
+    for (size_t j = 0; j <= i; j++) a[j][i] = nsvcd__d3_dot(edges[i], edges[j]);
+  }
+  // The matrix is symmetric and positive definite: its upper half is enough, and no pivots.
+  for (size_t i = 0; i < n; i++) {
+    if (!(a[i][i] > 1e-13 * first[i])) return 0;
+    for (size_t j = i + 1; j < n; j++) {
+      const double factor = a[i][j] / a[i][i];
+      for (size_t k = j; k < n; k++) a[j][k] -= factor * a[i][k];
+      b[j] -= factor * b[i];
+    }
+  }
+  for (size_t i = n; i-- > 0;) {
+    for (size_t j = i + 1; j < n; j++) b[i] -= a[i][j] * b[j];
+    b[i] /= a[i][i];
+  }
+  return 1;
+}
+
+// The least ball with all these 1 to 4 points on its border. 0 if there is none.
+static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__ball *ball) {
+  nsvcd__d3 edges[3];
+  double shares[3];
+  if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
+  nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i + 1 < count; i++)
+    offset = nsvcd__d3_add_scaled(offset, shares[i], edges[i]);
+  ball->centre = nsvcd__d3_add(points[0], offset);
+  ball->squared = nsvcd__d3_dot(offset, offset);
+  return 1;
+}
+
+// Up to five points that a ball may go through.
+typedef struct nsvcd__border {
+  nsvcd__d3 points[5];
+  size_t count;
+} nsvcd__border;
+
+// The least ball that holds the border (1 to 5 points) among those through the last of them and up
+// to three others. Keeps in the border only the points that it goes through. 0 if there is none.
+static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
+  const unsigned last = 1u << (border->count - 1);
+  unsigned best = 0;
+  for (unsigned set = last; set < 2 * last; set++) {
+    nsvcd__border chosen;
+    nsvcd__ball trial;
+    chosen.count = 0;
+    for (size_t i = 0; i < border->count; i++) {
+      if (set >> i & 1) chosen.points[chosen.count++] = border->points[i];
+    }
+    if (chosen.count > 4 || !nsvcd__ball_through(chosen.points, chosen.count, &trial))
+      continue;
+    int holds = !best || trial.squared < ball->squared;
+    const double most = trial.squared * (1 + 1e-9);
+    for (size_t i = 0; i < border->count; i++)
+      holds &= nsvcd__d3_squared_distance(border->points[i], trial.centre) <= most;
+    if (!holds) continue;
+    best = set;
+    *ball = trial;
+  }
+  if (!best) return 0;
+  size_t kept = 0;
+  for (size_t i = 0; i < border->count; i++) {
+    if (best >> i & 1) border->points[kept++] = border->points[i];
+  }
+  border->count = kept;
+  return 1;
+}
+
+// The centre of the least enclosing ball: the point farthest outside joins the border, until there
+// is none (after Gaertner, "Fast and robust smallest enclosing balls", 1999). The ball grows with
+// every step. Roundings can end it early: then it is a little too large, for the caller takes the
+// radius from the points.
+static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
+  nsvcd__ball ball = {points.at[0], 0};
+  nsvcd__border border;
+  border.points[0] = points.at[0];
+  border.count = 1;
+  for (size_t step = 0; step < 64; step++) {
+    double most = -1;
+    size_t farthest = 0;
+    for (size_t i = 0; i < points.count; i++) {
+      const double square = nsvcd__d3_squared_distance(points.at[i], ball.centre);
+      if (square > most) farthest = i;
+      most = fmax(most, square);
+    }
+    if (most <= ball.squared * (1 + 1e-9)) break;
+    border.points[border.count++] = points.at[farthest];
+    nsvcd__ball larger = ball;
+    if (!nsvcd__ball_of_few(&border, &larger)) break;
+    if (larger.squared <= ball.squared) break;
+    ball = larger;
+  }
+  return ball.centre;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF

@@ -1,0 +1,129 @@
+// In: points. Out: a disc: a direction in which the points are thin, what they reach along it, and
+// across.
+#pragma once
+#include "../ground/rotations.h"
+#include "../ground/spheres.h"
+#include "balls.h"
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// What points extend to along a direction.
+typedef struct nsvcd__range {
+  double low, high;
+} nsvcd__range;
+
+static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction) {
+  nsvcd__range range = {HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < points.count; i++) {
+    const double at = nsvcd__d3_dot(points.at[i], direction);
+    range.low = at < range.low ? at : range.low;
+    range.high = at > range.high ? at : range.high;
+  }
+  return range;
+}
+
+static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
+  const nsvcd__range range = nsvcd__range_along(points, direction);
+  return range.high - range.low;
+}
+
+// Some direction across a unit vector.
+static nsvcd__d3 nsvcd__any_across(nsvcd__d3 n) {
+  const int x_least = fabs(n.x) <= fabs(n.y) && fabs(n.x) <= fabs(n.z);
+  const int y_least = fabs(n.y) <= fabs(n.z);
+  nsvcd__d3 axis = nsvcd__d3_of(0, 0, 1);
+  if (y_least) axis = nsvcd__d3_of(0, 1, 0);
+  if (x_least) axis = nsvcd__d3_of(1, 0, 0);
+  return nsvcd__d3_unit(nsvcd__d3_cross(n, axis), n);
+}
+
+static double nsvcd__trace(const nsvcd__dmat3 *m) {
+  return m->x.x + m->y.y + m->z.z;
+}
+
+static nsvcd__d3 nsvcd__longest_row(const nsvcd__dmat3 *m) {
+  const double x = nsvcd__d3_dot(m->x, m->x);
+  const double y = nsvcd__d3_dot(m->y, m->y);
+  const double z = nsvcd__d3_dot(m->z, m->z);
+  if (x >= y && x >= z) return m->x;
+  return y >= z ? m->y : m->z;
+}
+
+// Near the direction in which the points vary least. The adjugate of the covariance has the same
+// axes, and the least becomes the largest: squaring that a few times leaves nothing else.
+static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
+  const nsvcd__d3 zero = nsvcd__d3_of(0, 0, 0);
+  nsvcd__dmat3 c = {zero, zero, zero};
+  nsvcd__d3 mean = zero;
+  for (size_t i = 0; i < points.count; i++) mean = nsvcd__d3_add(mean, points.at[i]);
+  mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
+  for (size_t i = 0; i < points.count; i++) {
+    const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
+    c.x = nsvcd__d3_add_scaled(c.x, d.x, d);
+    c.y = nsvcd__d3_add_scaled(c.y, d.y, d);
+    c.z = nsvcd__d3_add_scaled(c.z, d.z, d);
+  }
+  const nsvcd__d3 z = nsvcd__d3_of(0, 0, 1);
+  const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest_row(&c), z);
+  const double size = nsvcd__trace(&c);
+  nsvcd__dmat3 m;
+  m.x = nsvcd__d3_cross(c.y, c.z);
+  m.y = nsvcd__d3_cross(c.z, c.x);
+  m.z = nsvcd__d3_cross(c.x, c.y);
+  // a line
+  if (!(nsvcd__trace(&m) > 1e-14 * size * size)) return nsvcd__any_across(along);
+  for (size_t step = 0; step < 6; step++) {
+    const double trace = nsvcd__trace(&m);
+    nsvcd__dmat3 square;
+    square.x = nsvcd__dmat3_apply(&m, m.x);
+    square.y = nsvcd__dmat3_apply(&m, m.y);
+    square.z = nsvcd__dmat3_apply(&m, m.z);
+    m = nsvcd__dmat3_scale(&square, trace > 0 ? 1 / (trace * trace) : 0);
+  }
+  return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
+}
+
+// Turns a direction step by step to where the points are thinner.
+static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
+  double best = nsvcd__thickness(points, direction);
+  for (double turn = 0.16; turn > 0.005 && best > 0; turn *= 0.5) {
+    const nsvcd__d3 u = nsvcd__any_across(direction);
+    const nsvcd__d3 v = nsvcd__d3_cross(direction, u);
+    const nsvcd__d3 middle = direction;
+    for (size_t k = 0; k < 4; k++) {
+      const nsvcd__d3 step = nsvcd__d3_scale(k < 2 ? u : v, k % 2 ? -turn : turn);
+      const nsvcd__d3 trial = nsvcd__d3_unit(nsvcd__d3_add(middle, step), middle);
+      const double thickness = nsvcd__thickness(points, trial);
+      if (thickness >= best) continue;
+      best = thickness;
+      direction = trial;
+    }
+  }
+  return direction;
+}
+
+// points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
+static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin) {
+  nsvcd__d3 best = nsvcd__least_axis(points);
+  const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
+  if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best)) best = mean;
+  best = nsvcd__thinner(points, best);
+  if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
+
+  // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
+  const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
+  const nsvcd__d3 stored = nsvcd__d3_widen(n);
+  const nsvcd__range range = nsvcd__range_along(points, stored);
+  double squared = 0;
+  for (size_t i = 0; i < points.count; i++) {
+    const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);
+    squared = fmax(squared, nsvcd__d3_dot(moment, moment));
+  }
+  const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
+  nsvcd__disc disc;
+  disc.normal = n;
+  disc.low = -nsvcd__float_above(-(range.low - margin));
+  disc.high = nsvcd__float_above(range.high + margin);
+  disc.across = nsvcd__float_above(across * (1 + 1e-6) + margin);
+  return disc;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF

@@ -1,0 +1,113 @@
+// In: points. Out: 16 of them whose hull, swollen by a slack, holds all.
+#pragma once
+#include "../ground/slices.h"
+#include "balls.h"
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// The point of a simplex nearest to the origin: weights are positive and sum to 1.
+typedef struct nsvcd__simplex {
+  nsvcd__d3 points[4];
+  double weights[4];
+  size_t count;
+} nsvcd__simplex;
+
+// Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
+// bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
+// the weights still are weights.
+static int nsvcd__simplex_settle(nsvcd__simplex *s) {
+  for (;;) {
+    // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
+    nsvcd__d3 edges[3];
+    double target[4] = {1};
+    if (!nsvcd__solve_shares(s->points, s->count, 0, edges, target + 1)) return 0;
+    for (size_t i = 1; i < s->count; i++) target[0] -= target[i];
+    double way = 1;
+    size_t blocks = s->count;
+    for (size_t i = 0; i < s->count; i++) {
+      const double weight = s->weights[i];
+      if (target[i] > 0) continue;
+      const double to_zero = weight > 0 ? weight / (weight - target[i]) : 0;
+      if (to_zero > way) continue;
+      way = to_zero;
+      blocks = i;
+    }
+    for (size_t i = 0; i < s->count; i++) s->weights[i] += way * (target[i] - s->weights[i]);
+    if (blocks == s->count) return 1;
+    s->count--;
+    s->points[blocks] = s->points[s->count];
+    s->weights[blocks] = s->weights[s->count];
+  }
+}
+
+// The distance of a point from some point of the convex hull of vertices: no less than that from
+// the hull, and no more than two thousandths above it, but for roundings or where it is below
+// `enough`. Ten steps or so do; on x87, whose registers have more digits than memory, they may seem
+// to get nearer for ever.
+static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double enough) {
+  nsvcd__simplex s;
+  s.points[0] = nsvcd__d3_sub(hull.at[hull.count - 1], point);
+  s.weights[0] = 1;
+  s.count = 1;
+  nsvcd__d3 nearest = s.points[0];
+  double best = nsvcd__d3_dot(nearest, nearest);
+  for (int step = 0; step < 64 && best > enough * enough && s.count < 4; step++) {
+    const double offset = nsvcd__d3_dot(point, nearest);
+    double least = HUGE_VAL;
+    size_t support = 0;
+    for (size_t i = 0; i < hull.count; i++) {
+      const double at = nsvcd__d3_dot(hull.at[i], nearest) - offset;
+      if (at < least) support = i;
+      least = at < least ? at : least;
+    }
+    if (least >= 0.998 * best) break;
+    s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
+    s.weights[s.count++] = 0;
+    const int settled = nsvcd__simplex_settle(&s);
+    nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
+    for (size_t i = 1; i < s.count; i++)
+      nearest = nsvcd__d3_add_scaled(nearest, s.weights[i], s.points[i]);
+    const double squared = nsvcd__d3_dot(nearest, nearest);
+    if (!settled || squared >= best) break;
+    best = squared;
+  }
+  return sqrt(best);
+}
+
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
+// one that is farthest from it. points: about the ball's centre. bounds: working memory, one a
+// point: their distances found before. A point that was near enough stays so, for the hull only
+// grows. Writes the numbers of those chosen, and the distance of the farthest point; returns how
+// many they are.
+static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
+                                 size_t *chosen, double *farthest) {
+  nsvcd__d3 at[NSVCD__HULL];
+  nsvcd__points hull = {at, 0};
+  size_t next = 0;
+  double most = 0;
+  for (size_t i = 0; i < points.count; i++) {
+    // from the centre, to begin with
+    const double distance = nsvcd__d3_length(points.at[i]);
+    if (distance > most) next = i;
+    most = fmax(most, distance);
+    bounds[i] = HUGE_VAL;
+  }
+  *farthest = HUGE_VAL;
+  while (hull.count<NSVCD__HULL && * farthest> enough) {
+    at[hull.count] = points.at[next];
+    chosen[hull.count++] = next;
+    bounds[next] = 0;
+    size_t first = 0;
+    for (size_t i = 1; i < points.count; i++) first = bounds[i] > bounds[first] ? i : first;
+    *farthest = 0;
+    for (size_t k = 0; k < points.count; k++) {
+      const size_t i = (first + k) % points.count;
+      if (bounds[i] <= *farthest) continue;
+      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      if (bounds[i] <= *farthest) continue;
+      *farthest = bounds[i];
+      next = i;
+    }
+  }
+  return hull.count;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF

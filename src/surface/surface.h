@@ -1,0 +1,291 @@
+// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
+// triangles, all rounded outwards.
+#pragma once
+#include "../mesh/mesh.h"
+#include "pieces.h"
+#include "discs.h"
+#include "hulls.h"
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
+// them: the hull's first, when vertices are stored.
+typedef struct nsvcd__sorted {
+  const nsvcd__pieces *pieces;
+  size_t *first;  // (N + 1) pieces of a patch
+  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
+  uint32_t *order;
+  uint32_t pass;  // from 1
+  // (points) the last pass that met a point, and its number in that pass
+  uint32_t *stamps;
+  uint32_t *numbers;
+  // (met_count) the points of the pass
+  uint32_t *met;
+  size_t met_count;
+  nsvcd__d3 *places;  // the same, about the centre
+  double *bounds;     // of the same
+  // (N, NSVCD__HULL) points that the hulls consist of
+  uint32_t *hulls;
+} nsvcd__sorted;
+
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
+  return (const nsvcd__piece *)sorted->pieces->list.items + sorted->order[k];
+}
+
+// Sorts the pieces by patch (counting sort). 0 without memory.
+static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
+                               nsvcd__sorted *sorted) {
+  const nsvcd__piece *items = (const nsvcd__piece *)pieces->list.items;
+  const size_t patches = pieces->patches->count;
+  const size_t count = pieces->list.count;
+  const size_t points = pieces->region->mesh.vertex_count + pieces->points.count;
+  size_t *first = NSVCD__TAKE(arena, size_t, patches + 1);
+  memset(sorted, 0, sizeof *sorted);
+  sorted->pieces = pieces;
+  sorted->first = first;
+  sorted->order = NSVCD__TAKE(arena, uint32_t, count);
+  sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
+  if (arena->failed) return 0;
+  for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
+  for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
+  for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
+  // Now first[i + 1] is the start of patch i.
+  memmove(first, first + 1, patches * sizeof *first);
+  first[patches] = count;
+
+  size_t most = 0;
+  for (size_t i = 0; i < patches; i++) {
+    // a hull's vertices need not be corners of what is listed
+    size_t corners = NSVCD__HULL;
+    for (size_t k = first[i]; k < first[i + 1]; k++)
+      corners += nsvcd__sorted_piece(sorted, k)->count;
+    most = corners > most ? corners : most;
+  }
+  sorted->met = NSVCD__TAKE(arena, uint32_t, most);
+  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
+  sorted->bounds = NSVCD__TAKE(arena, double, most);
+  return !arena->failed;
+}
+
+// Gives a point a number in this pass, if it is met for the first time.
+static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
+  if (sorted->stamps[point] == sorted->pass) return;
+  sorted->stamps[point] = sorted->pass;
+  sorted->numbers[point] = (uint32_t)sorted->met_count;
+  sorted->met[sorted->met_count++] = point;
+}
+
+// The points of the pass, about a centre.
+static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
+  const nsvcd__points out = {sorted->places, sorted->met_count};
+  for (size_t j = 0; j < sorted->met_count; j++) {
+    const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
+    sorted->places[j] = nsvcd__d3_sub(at, centre);
+  }
+  return out;
+}
+
+// Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
+// by as integers is not in the slack yet.
+static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
+  const nsvcd__pieces *pieces = sorted->pieces;
+  const nsvcd__region *region = pieces->region;
+  const size_t to = s->done + i;
+  nsvcd__sphere *ball = &s->balls[to];
+  nsvcd__d3 normal = nsvcd__d3_of(0, 0, 0);
+  sorted->pass++;
+  sorted->met_count = 0;
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(pieces, piece);
+    const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
+    // twice the area times the normal
+    nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
+    for (size_t j = 0; j < piece->count; j++) {
+      const uint32_t point = corners[j];
+      nsvcd__number_point(sorted, point);
+      // of a component that no patch has been given yet?
+      if (point < region->mesh.vertex_count && region->seeds[point]) {
+        region->seeds[point] = 0;
+        s->seeds[s->seed_count] = nsvcd__f3_row(region->mesh.positions, point);
+        s->seed_patches[s->seed_count++] = (uint32_t)to;
+      }
+      if (j < 2) continue;
+      const nsvcd__d3 a = nsvcd__d3_sub(nsvcd__point_at(pieces, corners[j - 1]), from);
+      const nsvcd__d3 b = nsvcd__d3_sub(nsvcd__point_at(pieces, point), from);
+      area = nsvcd__d3_add(area, nsvcd__d3_cross(a, b));
+    }
+    normal = nsvcd__d3_add(normal, area);
+  }
+  if (sorted->met_count == 0) {
+    ball->centre = pieces->patches->centres[i];
+    ball->radius = NSVCD__NOWHERE;
+    return;
+  }
+
+  // The least ball. From near by its centre is found without the roundings of what is far away.
+  const nsvcd__d3 from = nsvcd__point_at(pieces, sorted->met[0]);
+  const nsvcd__d3 offset = nsvcd__ball_centre(nsvcd__place_points(sorted, from));
+  ball->centre = nsvcd__f3_round(nsvcd__d3_add(from, offset));
+  const nsvcd__points about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball->centre));
+  double radius = 0;
+  for (size_t j = 0; j < about.count; j++)
+    radius = fmax(radius, nsvcd__d3_length(about.at[j]));
+  ball->radius = nsvcd__float_above(radius + pieces->margin);
+  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
+
+  size_t chosen[NSVCD__HULL];
+  double farthest;
+  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
+  const size_t count = nsvcd__choose_hull(about, enough, sorted->bounds, chosen, &farthest);
+  s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
+  s->hull_counts[to] = (uint8_t)count;
+  for (size_t k = 0; k < count; k++)
+    sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
+}
+
+// What patch i lists for its k-th piece: the piece's corners where its triangle is parted, else the
+// triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
+// other in a patch, and a whole triangle is listed with the first of them.
+static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
+                                    const uint32_t **corners) {
+  const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+  *corners = nsvcd__piece_corners(sorted->pieces, piece);
+  if (piece->parted) return piece->count;
+  *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
+  const int first = k == sorted->first[i];
+  return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
+}
+
+// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many
+// triangles it lists.
+static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, size_t hull_count) {
+  size_t listed = 0;
+  sorted->pass++;
+  sorted->met_count = 0;
+  for (size_t k = 0; k < hull_count; k++)
+    nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const uint32_t *corners;
+    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+    for (size_t j = 0; j < count; j++) nsvcd__number_point(sorted, corners[j]);
+    listed += count ? count - 2 : 0;
+  }
+  return listed;
+}
+
+// Writes the vertices of patch i as integers, and its triangles.
+static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
+  const size_t to = s->done + i;
+  const size_t hull_count = s->hull_counts[to];
+  (void)nsvcd__number_vertices(sorted, i, hull_count);
+  const nsvcd__d3 centre = nsvcd__d3_widen(s->balls[to].centre);
+  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  double greatest = NSVCD__SURFACE_TINY;
+  for (size_t j = 0; j < points.count; j++) {
+    for (size_t k = 0; k < 3; k++)
+      greatest = fmax(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
+  }
+  s->steps[to] = nsvcd__float_above(greatest / 32767);
+  const double metres = (double)s->steps[to];
+  int16_t *vertices = s->vertices + 3 * (size_t)s->first_vertex[to];
+  double worst = 0;
+  double worst_of_hull = 0;
+  for (size_t j = 0; j < points.count; j++) {
+    nsvcd__d3 stored = {0, 0, 0};
+    for (size_t k = 0; k < 3; k++) {
+      const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
+      const double integer = fmin(fmax(nearest, -32767), 32767);
+      vertices[k * points.count + j] = (int16_t)integer;
+      nsvcd__d3_set_axis(&stored, k, metres * integer);
+    }
+    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
+    if (j < hull_count) worst_of_hull = worst;
+  }
+  s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
+  // Each point of the hull is off by no more than its vertices are.
+  const double slack = (double)s->slacks[to] + worst_of_hull;
+  s->slacks[to] = nsvcd__float_above(slack);
+
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
+    const uint32_t *corners;
+    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+    for (size_t j = 2; j < count; j++) {
+      uint16_t *out = s->corners + 3 * s->listed;
+      out[0] = (uint16_t)sorted->numbers[corners[0]];
+      out[1] = (uint16_t)sorted->numbers[corners[j - 1]];
+      out[2] = (uint16_t)sorted->numbers[corners[j]];
+      s->ids[s->listed++] = sorted->pieces->region->ids[triangle];
+    }
+  }
+}
+
+// ---- all of it
+
+// A surface of up to n patches, none of which is described yet. 0 without memory.
+static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena,
+                                nsvcd__surface *s) {
+  memset(s, 0, sizeof *s);
+  s->arena = arena;
+  s->component_count = components;
+  s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
+  s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
+  s->steps = NSVCD__TAKE(arena, float, n);
+  s->slacks = NSVCD__TAKE(arena, float, n);
+  s->quanta = NSVCD__TAKE(arena, float, n);
+  s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
+  s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->first_triangle = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->seeds = NSVCD__TAKE(arena, nsvcd__f3, components);
+  s->seed_patches = NSVCD__TAKE(arena, uint32_t, components);
+  return !arena->failed;
+}
+
+// Adds a region's patches, of which the surface has room for all: describes each, counts its
+// vertices and triangles, makes room for these, and writes them. spare: of what is only needed
+// meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or all have
+// too many: then the surface is of no use any more.
+static nsvcd_result nsvcd__surface_add(const nsvcd__region *region,
+                                       const nsvcd__patches *patches, nsvcd__arena *spare,
+                                       nsvcd__surface *s) {
+  nsvcd__pieces pieces;
+  nsvcd__sorted sorted;
+  if (!nsvcd__pieces_build(region, patches, spare, &pieces)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__sorted_build(&pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+  const size_t done = s->done;
+  size_t vertices = s->vertex_count;
+  size_t triangles = s->listed;
+  s->count = done + patches->count;
+  for (size_t i = done; i < s->count; i++) {
+    nsvcd__describe_patch(&sorted, i - done, s);
+    s->first_vertex[i] = (uint32_t)vertices;
+    s->first_triangle[i] = (uint32_t)triangles;
+    triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
+    vertices += sorted.met_count;
+    if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
+    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+      return NSVCD_ERROR_TOO_LARGE;
+  }
+  s->first_vertex[s->count] = (uint32_t)vertices;
+  s->first_triangle[s->count] = (uint32_t)triangles;
+  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
+  for (size_t k = 0; k < 3; k++) {
+    const size_t count = k == 0 ? vertices : triangles;
+    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
+    if (!nsvcd__list_reserve(lists[k], count - lists[k]->count, size, s->arena))
+      return NSVCD_ERROR_MEMORY;
+    lists[k]->count = count;
+  }
+  s->vertices = (int16_t *)s->vertex_list.items;
+  s->corners = (uint16_t *)s->corner_list.items;
+  s->ids = (uint32_t *)s->id_list.items;
+  s->vertex_count = vertices;
+  for (size_t i = done; i < s->count; i++) {
+    if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
+  }
+  s->done = s->count;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
