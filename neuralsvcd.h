@@ -11551,16 +11551,16 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
 // is the image of basis vector k, a degree 2 of m's columns.
-static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
+static NSVCD__APART void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
+                                       float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
-  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
   const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__v3_store_rows(scaled.x, out[0], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.y, out[3], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.z, out[6], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
   nsvcd__v_degree2(columns.x, columns.y, xy);
   nsvcd__v_degree2(columns.y, columns.z, yz);
   nsvcd__v_degree2(columns.x, columns.z, xz);
@@ -11596,8 +11596,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
-                                 size_t place, float *row) {
+static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
+                                              size_t l, size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   // one after the other: it is the deepest place of a query
@@ -11969,6 +11969,26 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
+// Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
+// halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
+// its stack does not lie below the poses'.
+static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const float *centres,
+                                                 nsvcd__pairs *pairs) {
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
+  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+}
+
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
 static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                          const nsvcd__motion *motion,
@@ -11994,24 +12014,11 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     times[1][l] = candidate->t_exit;
     times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
   }
-  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
-
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres[0], NSVCD__SLICE);
-  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
-  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
-  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
-  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
-  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
-  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
   pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
-  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
   pairs->r1 = nsvcd__v_load(radii[0]);
   pairs->r2 = nsvcd__v_load(radii[1]);
+  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
+  nsvcd__pairs_in_passing(at, centres[0], pairs);
 }
 
 // ---- frames and facts
@@ -14058,6 +14065,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__normals_part NSVCD__AT(normals_part)
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__pairs NSVCD__AT(pairs)
+#define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__part_groups NSVCD__AT(part_groups)
 #define nsvcd__passage NSVCD__AT(passage)

@@ -34,16 +34,16 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
 // is the image of basis vector k, a degree 2 of m's columns.
-static void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale, float (*out)[NSVCD__SLICE]) {
+static NSVCD__APART void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
+                                       float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
-  const nsvcd__vmat3 scaled = nsvcd__vmat3_scale(*m, scale);
   const nsvcd__vmat3 columns = nsvcd__vmat3_transpose(*m);
   nsvcd__v xy[5], yz[5], xz[5], xx[5], yy[5], zz[5];
-  nsvcd__v3_store_rows(scaled.x, out[0], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.y, out[3], NSVCD__SLICE);
-  nsvcd__v3_store_rows(scaled.z, out[6], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->x, scale), out[0], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->y, scale), out[3], NSVCD__SLICE);
+  nsvcd__v3_store_rows(nsvcd__v3_scale(m->z, scale), out[6], NSVCD__SLICE);
   nsvcd__v_degree2(columns.x, columns.y, xy);
   nsvcd__v_degree2(columns.y, columns.z, yz);
   nsvcd__v_degree2(columns.x, columns.z, xz);
@@ -79,8 +79,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE], size_t l,
-                                 size_t place, float *row) {
+static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
+                                              size_t l, size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   // one after the other: it is the deepest place of a query

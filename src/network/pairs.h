@@ -175,6 +175,26 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
   return nsvcd__v_seen(motion, &at);
 }
 
+// Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
+// halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
+// its stack does not lie below the poses'.
+static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const float *centres,
+                                                 nsvcd__pairs *pairs) {
+  const nsvcd__v half = nsvcd__v_set(0.5f);
+  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
+  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
+  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
+  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
+  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
+  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
+  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
+  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
+  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
+  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
+  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
+  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
+}
+
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
 static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
                                          const nsvcd__motion *motion,
@@ -200,24 +220,11 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
     times[1][l] = candidate->t_exit;
     times[2][l] = 0.5f * (candidate->t_enter + candidate->t_exit);
   }
-  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
-
-  const nsvcd__v half = nsvcd__v_set(0.5f);
-  const nsvcd__v3 centre = nsvcd__v3_load_rows(centres[0], NSVCD__SLICE);
-  const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
-  const nsvcd__v3 arm2 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[1].rotation), centre);
-  const nsvcd__v3 moved = nsvcd__v3_sub(at[1].position, at[0].position);
-  const nsvcd__v3 step = nsvcd__v3_add(nsvcd__v3_sub(arm2, arm1), moved);
-  const nsvcd__vquat back = nsvcd__vquat_inverse(at[0].rotation);
-  pairs->w = nsvcd__v_half_rotation(nsvcd__vquat_mul(at[1].rotation, back));
-  pairs->rotation = nsvcd__vmat3_of(at[2].rotation);
-  const nsvcd__v3 turned = nsvcd__vmat3_apply(pairs->rotation, centre);
-  pairs->p1 = nsvcd__v3_add(turned, at[2].position);
   pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
-  const nsvcd__v3 arm = nsvcd__v3_scale(nsvcd__v3_sub(pairs->p2, pairs->p1), half);
-  pairs->v = nsvcd__v3_fma(half, step, nsvcd__v3_cross(pairs->w, arm));
   pairs->r1 = nsvcd__v_load(radii[0]);
   pairs->r2 = nsvcd__v_load(radii[1]);
+  for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
+  nsvcd__pairs_in_passing(at, centres[0], pairs);
 }
 
 // ---- frames and facts
