@@ -8,7 +8,7 @@ set -u
 CC=${CC:-cc}
 PROBLEMS=${PROBLEMS:-120}
 TESTS=${TESTS:-results mesh body motion spline latent_rotation winding_number encoder decoder}
-flags='-O2 -std=c99 -w -DNSVCD_NO_DISPATCH'
+flags="-O2 -std=c99 -w -DNSVCD_NO_DISPATCH -I."
 out=build/cross
 failed=0
 fail() {
