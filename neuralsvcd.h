@@ -3715,7 +3715,7 @@ typedef struct nsvcd__ball {
 static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
                                nsvcd__d3 *edges, double *b) {
   const size_t n = count - 1;
-  double a[3][3];
+  double a[3][3] = {{0}};
   double first[3];
   for (size_t i = 0; i < n; i++) {
     edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
@@ -11395,12 +11395,11 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along n is: the more touches it undoes the better; of equals, the more of these
-// have a face that says so, and then, the shorter it needs to be. 0 if it undoes none.
+// How good a lift along n is: the more touches it undoes the better; of equals, the more of
+// these have a face that says so. 0 if it undoes none.
 static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   double count = 0;
   double faces = 0;
-  double longest = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
     nsvcd__d3 normals[3];
@@ -11408,9 +11407,8 @@ static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
     nsvcd__touch_normals(t, normals);
     count++;
     faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
-    longest = fmax(longest, nsvcd__lift_along(n, t->moving, t->fixed));
   }
-  return count * (NSVCD__TOUCHES + 2) + faces - longest / (p->given.skin + longest);
+  return count * (NSVCD__TOUCHES + 2) + faces;
 }
 
 // Takes a direction that is better than the best so far.

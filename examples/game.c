@@ -3,8 +3,8 @@
 // when do they touch first, if they do? Things move as far as that is proven free, bounce, slide
 // and come to rest. Prints what a frame costs; draws build/game.svg.
 //
-//   build/game [--frames N] [--problems FOLDER]   the latter writes the pairs asked about as a
-//                                                 problem file
+//   build/game [--frames N] [--seed N] [--problems FOLDER]   the last writes the pairs asked about
+//                                                            as a problem file
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -133,10 +133,10 @@ static void place(world *w, size_t i, size_t mesh, float scale, float x, float y
   t->poses[1] = t->poses[0];
 }
 
-static void fill_room(world *w) {
+static void fill_room(world *w, size_t seed) {
   static const float scales[4] = {0.6f, 1, 1.5f, 2.2f};
   const double upright[4] = {0, 0, 0, 1};
-  shapes_rng rng = {2026};
+  shapes_rng rng = {seed};
   for (size_t i = 0; i < MOVERS; i++) {  // in the air, in layers
     double q[4];
     shapes_quaternion(&rng, q);
@@ -587,12 +587,14 @@ int main(int argc, char **argv) {
   static world w;
   report r;
   memset(&r, 0, sizeof r);
+  size_t seed = 2026;
   r.frames = 300;
   w.workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   if (!make_meshes(&w)) return complain("out of memory"), REFUSED;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (strcmp(argv[i], "--frames") == 0 && parse_count(argv[i + 1], 1, 100000, &r.frames))
       continue;
+    if (strcmp(argv[i], "--seed") == 0 && parse_count(argv[i + 1], 1, 100000, &seed)) continue;
     if (strcmp(argv[i], "--problems") == 0 && (r.problems = open_problems(&w, argv[i + 1])) != NULL)
       continue;
     return complain("%s %s: what is that?", argv[i], argv[i + 1]), USAGE;
@@ -600,7 +602,7 @@ int main(int argc, char **argv) {
   r.frame_ms = (double *)allocate(r.frames * sizeof(double));
   r.find_ms = (double *)allocate(r.frames * sizeof(double));
   for (size_t k = 0; k < r.frames; k++) r.frame_ms[k] = r.find_ms[k] = 0;
-  fill_room(&w);
+  fill_room(&w, seed);
   const int good = play(&w, &r);
   if (good) print_report(&w, &r);
   const int is_lost = r.problems && ferror(r.problems);

@@ -109,7 +109,6 @@ margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, normals[0]) > -0.3 \|\| nsvcd__d3_dot(n, normals[1]) > -0.3|n, normals[0]) > -0.3 \&\& nsvcd__d3_dot(n, normals[1]) > -0.3
 asks: a lift that is not tried|    more \&= nsvcd__d3_dot(lift, lift) > 0;|    more = 0;
-asks: the longest way off|faces - longest / (p->given.skin + longest)|faces + longest / (p->given.skin + longest)
 asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;

@@ -11,12 +11,11 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along n is: the more touches it undoes the better; of equals, the more of these
-// have a face that says so, and then, the shorter it needs to be. 0 if it undoes none.
+// How good a lift along n is: the more touches it undoes the better; of equals, the more of
+// these have a face that says so. 0 if it undoes none.
 static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
   double count = 0;
   double faces = 0;
-  double longest = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
     nsvcd__d3 normals[3];
@@ -24,9 +23,8 @@ static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
     nsvcd__touch_normals(t, normals);
     count++;
     faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
-    longest = fmax(longest, nsvcd__lift_along(n, t->moving, t->fixed));
   }
-  return count * (NSVCD__TOUCHES + 2) + faces - longest / (p->given.skin + longest);
+  return count * (NSVCD__TOUCHES + 2) + faces;
 }
 
 // Takes a direction that is better than the best so far.

@@ -28,7 +28,7 @@ typedef struct nsvcd__ball {
 static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
                                nsvcd__d3 *edges, double *b) {
   const size_t n = count - 1;
-  double a[3][3];
+  double a[3][3] = {{0}};
   double first[3];
   for (size_t i = 0; i < n; i++) {
     edges[i] = nsvcd__d3_sub(points[i + 1], points[0]);
