@@ -30,10 +30,11 @@
 // ---- the passes
 
 // gcc leaves out at -O2 what makes these loops fast: at -O3 they take 0.75 to 0.85 of the time.
+// Its clones of functions by constant arguments gain nothing: 30 KB and an eighth of its own time.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
-#pragma GCC optimize("O3")
+#pragma GCC optimize("O3", "no-ipa-cp-clone")
 #endif
 #pragma GCC target("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 #elif defined(__clang__)

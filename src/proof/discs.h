@@ -157,7 +157,8 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
   nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
 #else
-#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) ((void)0)
+#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) \
+  ((void)(i), (void)(j), (void)(parted), (void)(l), (void)(span))
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
 #endif
 
@@ -166,20 +167,27 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
   return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
 }
 
+// Lanes of `wanted` that are not parted: pairs of moving patches from the i-th on and patch j.
+static inline uint32_t nsvcd__not_parted(size_t i, size_t j, const nsvcd__span *span,
+                                         const nsvcd__v_parted *parted, uint32_t wanted) {
+  const uint32_t apart = (parted->above | parted->below) & wanted;
+  for (uint32_t k = apart; k; k &= k - 1) {
+    const size_t l = nsvcd__lowest_bit(k);
+    NSVCD__CERTIFY_DISC(i + l, j, parted, l, span);
+  }
+  return wanted & ~apart;
+}
+
 // Of the lanes `met` of moving group g in a segment, those that discs do not part from resting
 // patch j. c: the chords of the group's patches; reach: no point of the group is farther from the
 // body's origin.
-static NSVCD__APART uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
-                                               size_t g, size_t j, const nsvcd__span *span,
-                                               float reach, uint32_t met) {
+static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c, size_t g,
+                                  size_t j, const nsvcd__span *span, float reach,
+                                  uint32_t met) {
   const nsvcd__disc fixed = nsvcd__disc_at(p->fixed.discs, p->fixed.body->padded, j);
   const nsvcd__f3 centre = nsvcd__facet_centre(&p->fixed, j);
   const nsvcd__mat3 *from = &span->start.rotation;
   const nsvcd__mat3 *to = &span->end.rotation;
-  // rotations in a span are times the scale
-  const float half = 0.5f * p->ask.motion->per_scale;
-  const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
-  const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
   uint32_t left = 0;
   nsvcd__v_approach a;
   a.fixed = nsvcd__v_disc_set(&fixed);
@@ -190,28 +198,23 @@ static NSVCD__APART uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvc
   a.clearance = nsvcd__clearance_of(p);
   a.reach = reach;
   NSVCD__EACH_SLICE(l) {
+    const size_t i = NSVCD__GROUP * g + l;
     uint32_t wanted = nsvcd__lanes_of_slice(met, l);
     if (!wanted) continue;
-    const nsvcd__v3 start = nsvcd__chords_start(c, l);
-    a.from = nsvcd__v3_sub(start, nsvcd__v3_set(centre));
+    a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_way(c, l);
-    a.moving =
-        nsvcd__v_disc_load(p->moving.discs + NSVCD__GROUP * g + l, p->moving.body->padded);
-    for (size_t way = 0; way < 2 && wanted; way++) {
-      if (way == 1) {
-        a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
-        a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-      }
-      const nsvcd__v_parted parted =
-          way == 0 ? nsvcd__v_part_by_fixed(&a) : nsvcd__v_part_by_moving(&a);
-      uint32_t apart = (parted.above | parted.below) & wanted;
-      wanted &= ~apart;
-      for (; apart; apart &= apart - 1) {
-        NSVCD__CERTIFY_DISC(NSVCD__GROUP * g + l + nsvcd__lowest_bit(apart), j, &parted,
-                            nsvcd__lowest_bit(apart), span);
-      }
-    }
-    left |= wanted << l;
+    a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
+    nsvcd__v_parted parted = nsvcd__v_part_by_fixed(&a);
+    wanted = nsvcd__not_parted(i, j, span, &parted, wanted);
+    if (!wanted) continue;
+    // rotations in a span are times the scale
+    const float half = 0.5f * p->ask.motion->per_scale;
+    const nsvcd__mat3 middle = nsvcd__mat3_mix(half, to, 1, from);
+    const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
+    a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
+    a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
+    parted = nsvcd__v_part_by_moving(&a);
+    left |= nsvcd__not_parted(i, j, span, &parted, wanted) << l;
   }
   return left;
 }

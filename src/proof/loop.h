@@ -17,8 +17,8 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
 
 // Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
 // long as there is room for 16 more.
-static NSVCD__APART void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search,
-                                              size_t g, size_t j, uint64_t *left) {
+static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                 size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
