@@ -8229,7 +8229,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
 // poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
-// and no component of one lies within the other. src/proof/THEOREM.md walks through it.
+// and no component of one lies within what closed components of the other enclose (a body that is
+// said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
+// come as near as their extents and the clearance together need none of this: nsvcd__prove.
 //   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
 //      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
@@ -8249,7 +8251,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
 //      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
-//      in double. Comparisons are such that a NaN parts nothing.
+//      in double. No NaN comes into it: questions and bodies are checked to be finite and within
+//      bounds. Where floats could overflow all the same, in hulls, it is seen to that a NaN parts
+//      nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
@@ -8261,8 +8265,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
 //      side of a plane, and agree.
 //
-// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
-// mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
+// A WITNESS is a pair of stored triangles that share a point at the true pose, in double, or, where
+// a clearance is asked for, come within it; the mesh's own triangles are then within that and the
+// two quanta of each other. Faces that are parallel when
 // they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
 // of the other triangle at one time and on the other at another, and within its edges all the
 // while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
@@ -8284,8 +8289,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
-// within one patch's listings, or one ray, of its limit.
+// of them against these, a couple at one time, a ray against 16 triangles or one. Spheres, discs
+// and planes that held before are not counted. A query stops within one patch's listings, or one
+// ray, of its limit: nsvcd__is_spent.
 
 #ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it.
@@ -8423,7 +8429,7 @@ typedef enum nsvcd__outcome {
   NSVCD__ANSWERED,
   // a contact was found that shrinks the question: ask again
   NSVCD__SHRUNK,
-  // the stretch had better be halved
+  // the stretch is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
   NSVCD__SPENT
@@ -8436,7 +8442,7 @@ typedef struct nsvcd__placed {
   nsvcd__placement placement;
 } nsvcd__placed;
 
-// A moving patch's height over a plane in a segment.
+// A patch's height over a plane, of a moving patch in a segment.
 typedef struct nsvcd__height {
   uint32_t plane, key;
   float height;
@@ -8463,8 +8469,9 @@ typedef struct nsvcd__given {
 // proven in the end holds for the rest.
 typedef struct nsvcd__asked {
   nsvcd__motion *motion;
-  // ticks: what begins then or later does not matter; nor does what begins with a doubt
+  // ticks: what begins then or later does not matter
   double end;
+  // nor does what begins with the first doubt
   int doubts_end;
   double clearance, measure;
   // a share of the motion, and as ticks
@@ -8479,7 +8486,6 @@ typedef struct nsvcd__asked {
 
 // What is known, of a motion.
 typedef struct nsvcd__known {
-  // found: if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int has_contact;
   nsvcd__contact found;
   // ticks: when the first doubt begins, two triangles too near to tell; and these
@@ -8490,10 +8496,12 @@ typedef struct nsvcd__known {
   double settled;
 } nsvcd__known;
 
-// What is only remembered: it may be forgotten at any time, and no verdict changes. Zeros: nothing.
+// What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
+// then is as true; only the work may differ. Zeros: nothing.
 typedef struct nsvcd__memo {
-  // the last arc asked for, if it has ticks, and poses in arcs, the next to be forgotten
+  // the last arc asked for, if it has ticks: couples are looked at within it
   nsvcd__arc arc;
+  // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
   // segments that have been made spans
@@ -8594,7 +8602,8 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
-// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
+// contacts after it may be: then the doubt becomes the end here, and what comes before it can be
+// proven.
 static int nsvcd__is_spent(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
@@ -8623,8 +8632,9 @@ static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
   return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
 }
 
-// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
-// normal (3), fixed body's frame, which points to the moving side.
+// Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their
+// own): kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
+// frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
                        normal) \
@@ -8634,7 +8644,8 @@ enum { NSVCD__BY_DISC, NSVCD__BY_HULL, NSVCD__BY_TRIANGLES };
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/poses
-// In: a motion and a tick. Out: where the moving body is, in double, to the last digits.
+// In: a motion, an arc of it and a share of that. Out: where the moving body is, in double, to the
+// last digits.
 
 #ifndef NSVCD_NO_PROOF
 static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
@@ -8813,8 +8824,8 @@ static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/spans
-// In: two ticks. Out: a span: the poses at both ends, and by how much a point may leave the chord
-// in between.
+// In: a segment, or an arc and two shares of it. Out: a span: the poses at both ends, and by how
+// much a point may leave the chord in between.
 
 #ifndef NSVCD_NO_PROOF
 // The time at which so many ticks have gone by.
@@ -8886,9 +8897,9 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
 }
 
 // What the points of the moving body, none farther than `reach` from its origin, leave their chords
-// by along a direction n, |n| <= 1, but for rounding. With D the difference between the true
-// rotation and the chord's at some time, and d that of the positions, a point x is off by n.(D x +
-// d). Split n into its parts along the axis and across it: then
+// by along a direction n, times its length, but for rounding (which is times |n| too). With D the
+// difference between the true rotation and the chord's at some time, and d that of the positions, a
+// point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
 static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {
@@ -9736,7 +9747,8 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by
 // passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
 // where distances are measured, less is said, for certain: these come no nearer than that. Then the
-// part is to be looked at again: SHRUNK, or TOO_LONG if there is no contact.
+// clearance is lowered and the part to be looked at again, TOO_LONG; ANSWERED where it is as low as
+// is known anyway.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
                                                             const nsvcd__couple *couple,
                                                             double u0, double u1,
@@ -10094,8 +10106,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 #endif  // NSVCD_NO_PROOF
 
 // --------------------------------------------------------------------------------- proof/witnesses
-// In: an item and a tick. Out: a contact: two triangles that meet there, or come within the
-// clearance.
+// In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
+// within the clearance; with a skin, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
 // How far a triangle must go along n until it is beyond the other; negative if it is already.
@@ -10253,8 +10265,8 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/items
-// In: an item that no hull's plane parts. Out: it is parted by its triangles, or in contact, or
-// kept as a doubt.
+// In: fresh items, as the search finds them. Out: each is parted by a plane between its hulls or by
+// its triangles, or in contact, or kept as a doubt.
 
 #ifndef NSVCD_NO_PROOF
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of

@@ -357,7 +357,8 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by
 // passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
 // where distances are measured, less is said, for certain: these come no nearer than that. Then the
-// part is to be looked at again: SHRUNK, or TOO_LONG if there is no contact.
+// clearance is lowered and the part to be looked at again, TOO_LONG; ANSWERED where it is as low as
+// is known anyway.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
                                                             const nsvcd__couple *couple,
                                                             double u0, double u1,

@@ -1,5 +1,5 @@
-// In: an item that no hull's plane parts. Out: it is parted by its triangles, or in contact, or
-// kept as a doubt.
+// In: fresh items, as the search finds them. Out: each is parted by a plane between its hulls or by
+// its triangles, or in contact, or kept as a doubt.
 #pragma once
 #include "../interface/plans.h"
 #include "witnesses.h"

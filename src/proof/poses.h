@@ -1,4 +1,5 @@
-// In: a motion and a tick. Out: where the moving body is, in double, to the last digits.
+// In: a motion, an arc of it and a share of that. Out: where the moving body is, in double, to the
+// last digits.
 #pragma once
 #include "proof.h"
 

@@ -4,7 +4,9 @@
 // THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
 // poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
-// and no component of one lies within the other. src/proof/THEOREM.md walks through it.
+// and no component of one lies within what closed components of the other enclose (a body that is
+// said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
+// come as near as their extents and the clearance together need none of this: nsvcd__prove.
 //   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
 //      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
@@ -24,7 +26,9 @@
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
 //      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
-//      in double. Comparisons are such that a NaN parts nothing.
+//      in double. No NaN comes into it: questions and bodies are checked to be finite and within
+//      bounds. Where floats could overflow all the same, in hulls, it is seen to that a NaN parts
+//      nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
@@ -36,8 +40,9 @@
 //      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
 //      side of a plane, and agree.
 //
-// A WITNESS is a pair of stored triangles that share a point at the true pose, in double; the
-// mesh's own triangles are then within the two quanta of each other. Faces that are parallel when
+// A WITNESS is a pair of stored triangles that share a point at the true pose, in double, or, where
+// a clearance is asked for, come within it; the mesh's own triangles are then within that and the
+// two quanta of each other. Faces that are parallel when
 // they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
 // of the other triangle at one time and on the other at another, and within its edges all the
 // while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
@@ -59,8 +64,9 @@
 // the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a couple at one time, a ray against 16 triangles or one. A query stops
-// within one patch's listings, or one ray, of its limit.
+// of them against these, a couple at one time, a ray against 16 triangles or one. Spheres, discs
+// and planes that held before are not counted. A query stops within one patch's listings, or one
+// ray, of its limit: nsvcd__is_spent.
 #pragma once
 #include "../body/facets.h"
 #include "../motion/motion.h"
@@ -201,7 +207,7 @@ typedef enum nsvcd__outcome {
   NSVCD__ANSWERED,
   // a contact was found that shrinks the question: ask again
   NSVCD__SHRUNK,
-  // the stretch had better be halved
+  // the stretch is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
   NSVCD__SPENT
@@ -214,7 +220,7 @@ typedef struct nsvcd__placed {
   nsvcd__placement placement;
 } nsvcd__placed;
 
-// A moving patch's height over a plane in a segment.
+// A patch's height over a plane, of a moving patch in a segment.
 typedef struct nsvcd__height {
   uint32_t plane, key;
   float height;
@@ -241,8 +247,9 @@ typedef struct nsvcd__given {
 // proven in the end holds for the rest.
 typedef struct nsvcd__asked {
   nsvcd__motion *motion;
-  // ticks: what begins then or later does not matter; nor does what begins with a doubt
+  // ticks: what begins then or later does not matter
   double end;
+  // nor does what begins with the first doubt
   int doubts_end;
   double clearance, measure;
   // a share of the motion, and as ticks
@@ -257,7 +264,6 @@ typedef struct nsvcd__asked {
 
 // What is known, of a motion.
 typedef struct nsvcd__known {
-  // found: if there is a contact, or WITHIN; UNDECIDED: the doubt, if there is one
   int has_contact;
   nsvcd__contact found;
   // ticks: when the first doubt begins, two triangles too near to tell; and these
@@ -268,10 +274,12 @@ typedef struct nsvcd__known {
   double settled;
 } nsvcd__known;
 
-// What is only remembered: it may be forgotten at any time, and no verdict changes. Zeros: nothing.
+// What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
+// then is as true; only the work may differ. Zeros: nothing.
 typedef struct nsvcd__memo {
-  // the last arc asked for, if it has ticks, and poses in arcs, the next to be forgotten
+  // the last arc asked for, if it has ticks: couples are looked at within it
   nsvcd__arc arc;
+  // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
   // segments that have been made spans
@@ -372,7 +380,8 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
-// contacts after it may be: then the doubt is the end, and what comes before it can be proven.
+// contacts after it may be: then the doubt becomes the end here, and what comes before it can be
+// proven.
 static int nsvcd__is_spent(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
@@ -401,8 +410,9 @@ static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
   return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
 }
 
-// Tests hear of every certificate: kind, patches, listings (or NSVCD_NONE), times, and the plane's
-// normal (3), fixed body's frame, which points to the moving side.
+// Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their
+// own): kind, patches, listings (or NSVCD_NONE), times, and the plane's normal (3), fixed body's
+// frame, which points to the moving side.
 #ifndef NSVCD__CERTIFY
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, \
                        normal) \

@@ -1,5 +1,5 @@
-// In: two ticks. Out: a span: the poses at both ends, and by how much a point may leave the chord
-// in between.
+// In: a segment, or an arc and two shares of it. Out: a span: the poses at both ends, and by how
+// much a point may leave the chord in between.
 #pragma once
 #include "../motion/segments.h"
 #include "poses.h"
@@ -74,9 +74,9 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
 }
 
 // What the points of the moving body, none farther than `reach` from its origin, leave their chords
-// by along a direction n, |n| <= 1, but for rounding. With D the difference between the true
-// rotation and the chord's at some time, and d that of the positions, a point x is off by n.(D x +
-// d). Split n into its parts along the axis and across it: then
+// by along a direction n, times its length, but for rounding (which is times |n| too). With D the
+// difference between the true rotation and the chord's at some time, and d that of the positions, a
+// point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
 static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {

@@ -1,5 +1,5 @@
-// In: an item and a tick. Out: a contact: two triangles that meet there, or come within the
-// clearance.
+// In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
+// within the clearance; with a skin, what touches at the start and which directions undo it.
 #pragma once
 #include "couples.h"
 #include "blocks.h"
