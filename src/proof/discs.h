@@ -73,6 +73,8 @@ typedef struct nsvcd__v_approach {
   float clearance;
   // no point of the moving side is farther from its body's origin, in its body's units
   float reach;
+  // nsvcd__v_off, of the fixed disc's normal
+  nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
 // Lanes in which planes part two bodies: the moving side is below, or above.
@@ -81,10 +83,14 @@ typedef struct nsvcd__v_parted {
   uint32_t below, above;
 } nsvcd__v_parted;
 
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(const nsvcd__v_approach *a, nsvcd__v3 plane,
-                                            nsvcd__v_range moving, nsvcd__v_range fixed) {
+// Along a plane's normal: what a moving point may be off by, and the clearance.
+NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
   const nsvcd__v allowed = nsvcd__v_plus(a->span.rounding, a->clearance);
-  const nsvcd__v off = nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
+  return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
+}
+
+NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range moving,
+                                            nsvcd__v_range fixed, nsvcd__v off) {
   nsvcd__v_parted out;
   out.plane = plane;
   out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
@@ -105,7 +111,7 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a)
       nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   moving.high =
       nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_part(a, plane, moving, fixed);
+  return nsvcd__v_part(plane, moving, fixed, a->fixed_off);
 }
 
 // By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
@@ -120,7 +126,7 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a
   nsvcd__v_range moving;
   moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
   moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_part(a, w, moving, nsvcd__v_disc_range(&a->fixed, w));
+  return nsvcd__v_part(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
 }
 
 #ifdef NSVCD__CERTIFIES
@@ -197,6 +203,7 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.span = nsvcd__v_span_set(span);
   a.clearance = nsvcd__clearance_of(p);
   a.reach = reach;
+  a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
     const size_t i = NSVCD__GROUP * g + l;
     uint32_t wanted = nsvcd__lanes_of_slice(met, l);
@@ -256,6 +263,7 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
       const nsvcd__v3 n = a.fixed.normal;
       const nsvcd__v3 m = a.moving.normal;
       a.span = nsvcd__v_span_load(block, l);
+      a.fixed_off = nsvcd__v_off(&a, n);
       a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
       a.chord = nsvcd__chords_way(c, l);
       a.at_start = nsvcd__vmat3_apply_transpose(rotation, n);
