@@ -8499,8 +8499,6 @@ typedef struct nsvcd__known {
 // What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
 // then is as true; only the work may differ. Zeros: nothing.
 typedef struct nsvcd__memo {
-  // the last arc asked for, if it has ticks: couples are looked at within it
-  nsvcd__arc arc;
   // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
@@ -8523,6 +8521,8 @@ typedef struct nsvcd__proof {
   nsvcd__asked ask;
   nsvcd__known known;
   nsvcd__memo memo;
+  // the last one asked for, if it has ticks; items and couples are looked at within it
+  nsvcd__arc arc;
   size_t work;
   // the least distance is known to be between these
   double low, high;
@@ -8576,7 +8576,6 @@ typedef struct nsvcd__proof {
 
 // Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
 static void nsvcd__forget(nsvcd__memo *memo) {
-  memo->arc.ticks = 0;
   for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
   memo->next_placed = 0;
   memo->spans = 0;
@@ -8722,7 +8721,7 @@ static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
 // The arc that begins at the knot `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__motion *motion = p->ask.motion;
-  nsvcd__arc *arc = &p->memo.arc;
+  nsvcd__arc *arc = &p->arc;
   const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
@@ -8793,11 +8792,11 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of the arc last asked for, remembered: couples ask for the same poses again.
+// The same, of p->arc, remembered: couples ask for the same poses again.
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   for (; n < NSVCD__PLACED; n++) {
     const nsvcd__placed *known = &p->memo.placed[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;
@@ -8835,8 +8834,7 @@ static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
 
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p->ask.motion,
-                        (double)p->memo.arc.first + u * (double)p->memo.arc.ticks);
+  return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,
@@ -9543,10 +9541,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
     couple.reach = reach > couple.reach ? reach : couple.reach;
   }
   couple.rounding =
-      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->memo.arc.from));
-  const double moving_quantum = p->memo.arc.scale * (double)p->moving.quanta[i];
+      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
   couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
-  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->memo.arc.moved);
+  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return couple;
 }
 
@@ -9558,7 +9556,7 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
-  out.tick = (double)p->memo.arc.first + u * (double)p->memo.arc.ticks;
+  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
@@ -9592,7 +9590,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
                                            double u0, double u1) {
-  const double tick = (double)p->memo.arc.first + u0 * (double)p->memo.arc.ticks;
+  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   const size_t left = p->ask.in_doubt;
@@ -9608,7 +9606,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
 
 // What of the arc matters: the share of it at which the rest does not.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->ask.end - (double)p->memo.arc.first) / (double)p->memo.arc.ticks;
+  return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
 // Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
@@ -9617,7 +9615,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 // motion/segments.
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                               double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
   const nsvcd__placement *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
@@ -9797,7 +9795,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
 static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
   const double close = couple->slack + p->given.tolerance;
   nsvcd__d3 *plane = &p->memo.parting;
@@ -10975,7 +10973,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_placement(&moving.start, p->memo.arc.scale);
+  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
   moving.rounded = nsvcd__transform_of(&moving.start);
   moving.inner = fixed.outer = &p->moving;
   moving.outer = fixed.inner = &p->fixed;
@@ -10986,7 +10984,7 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   fixed.back = moving.start;
   fixed.rounded = nsvcd__transform_of(&fixed.start);
   fixed.scale = 1 / p->ask.motion->scale;
-  fixed.unit = p->memo.arc.scale;
+  fixed.unit = p->arc.scale;
   fixed.inner_moves = 0;
   return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
 }
@@ -11148,6 +11146,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
   p->ask.doubts_end = 0;
   p->clipped = 0;
+  p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = 0;
   nsvcd__forget(&p->memo);
 }
@@ -11349,7 +11348,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
                                                   const nsvcd__search *search) {
   const nsvcd__placement at = nsvcd__nearest_placement(p, search);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->memo.arc.scale);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
   nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
   size_t i = 0;
   size_t j = 0;

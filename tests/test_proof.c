@@ -11,7 +11,8 @@ static void proof_certified(int kind, size_t i, size_t j, size_t a, size_t b, do
 static unsigned forgetful;  // > 0: what is only remembered is forgotten one time in so many
 static unsigned forgotten;  // how often it was
 static int proof_forgets(void);
-#define NSVCD__PAUSE(p) (proof_forgets() ? nsvcd__forget(&(p)->memo) : (void)0)
+#define NSVCD__PAUSE(p) \
+  (proof_forgets() ? ((p)->arc.ticks = 0, nsvcd__forget(&(p)->memo)) : (void)0)
 #define NSVCD__CERTIFY(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal) \
   proof_certified(kind, moving, fixed, moving_listing, fixed_listing, t_start, t_end, normal)
 #include "../src/ground/strings.h"
@@ -905,7 +906,7 @@ static nsvcd__span proof_any_clip(shapes_rng *rng, nsvcd__motion *motion, nsvcd_
   size_t s = 0;
   proof.spans = spans;
   proof.ask.motion = motion;
-  proof.memo.arc.ticks = 0;
+  proof.arc.ticks = 0;
   proof.clipped = proof.memo.spans = 0;
   proof.memo.plane = 0;
   proof.clipped_end = HUGE_VAL;
@@ -923,7 +924,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
   double u;
   proof.ask.motion = motion;
   proof.given.lengths = lengths;
-  proof.memo.arc.ticks = 0;
+  proof.arc.ticks = 0;
   const uint32_t first =
       nsvcd__arc_and_share(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));

@@ -388,7 +388,7 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_placement(&moving.start, p->memo.arc.scale);
+  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
   moving.rounded = nsvcd__transform_of(&moving.start);
   moving.inner = fixed.outer = &p->moving;
   moving.outer = fixed.inner = &p->fixed;
@@ -399,7 +399,7 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   fixed.back = moving.start;
   fixed.rounded = nsvcd__transform_of(&fixed.start);
   fixed.scale = 1 / p->ask.motion->scale;
-  fixed.unit = p->memo.arc.scale;
+  fixed.unit = p->arc.scale;
   fixed.inner_moves = 0;
   return nsvcd__encloses_any(p, &moving) || nsvcd__encloses_any(p, &fixed);
 }

@@ -145,10 +145,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
     couple.reach = reach > couple.reach ? reach : couple.reach;
   }
   couple.rounding =
-      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->memo.arc.from));
-  const double moving_quantum = p->memo.arc.scale * (double)p->moving.quanta[i];
+      NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
+  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
   couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
-  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->memo.arc.moved);
+  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
   return couple;
 }
 
@@ -160,7 +160,7 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
-  out.tick = (double)p->memo.arc.first + u * (double)p->memo.arc.ticks;
+  out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
@@ -194,7 +194,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
 static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
                                            double u0, double u1) {
-  const double tick = (double)p->memo.arc.first + u0 * (double)p->memo.arc.ticks;
+  const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   const size_t left = p->ask.in_doubt;
@@ -210,7 +210,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
 
 // What of the arc matters: the share of it at which the rest does not.
 static double nsvcd__arc_limit(const nsvcd__proof *p) {
-  return (p->ask.end - (double)p->memo.arc.first) / (double)p->memo.arc.ticks;
+  return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
 // Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
@@ -219,7 +219,7 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
 // motion/segments.
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                               double u1, nsvcd__d3 normal) {
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   const nsvcd__placement *start = nsvcd__placed_at(p, u0);
   const nsvcd__placement *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
@@ -399,7 +399,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
 static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
   const double close = couple->slack + p->given.tolerance;
   nsvcd__d3 *plane = &p->memo.parting;

@@ -78,7 +78,7 @@ static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
 // The arc that begins at the knot `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__motion *motion = p->ask.motion;
-  nsvcd__arc *arc = &p->memo.arc;
+  nsvcd__arc *arc = &p->arc;
   const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
@@ -149,11 +149,11 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of the arc last asked for, remembered: couples ask for the same poses again.
+// The same, of p->arc, remembered: couples ask for the same poses again.
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
-  const nsvcd__arc *arc = &p->memo.arc;
+  const nsvcd__arc *arc = &p->arc;
   for (; n < NSVCD__PLACED; n++) {
     const nsvcd__placed *known = &p->memo.placed[n];
     if (known->arc == arc->first && known->ticks == arc->ticks && known->u == u) break;

@@ -277,8 +277,6 @@ typedef struct nsvcd__known {
 // What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
 // then is as true; only the work may differ. Zeros: nothing.
 typedef struct nsvcd__memo {
-  // the last arc asked for, if it has ticks: couples are looked at within it
-  nsvcd__arc arc;
   // poses in arcs, the next to be forgotten
   nsvcd__placed placed[NSVCD__PLACED];
   size_t next_placed;
@@ -301,6 +299,8 @@ typedef struct nsvcd__proof {
   nsvcd__asked ask;
   nsvcd__known known;
   nsvcd__memo memo;
+  // the last one asked for, if it has ticks; items and couples are looked at within it
+  nsvcd__arc arc;
   size_t work;
   // the least distance is known to be between these
   double low, high;
@@ -354,7 +354,6 @@ typedef struct nsvcd__proof {
 
 // Forgets all that is only remembered. The tests do so at random, where NSVCD__PAUSE stands.
 static void nsvcd__forget(nsvcd__memo *memo) {
-  memo->arc.ticks = 0;
   for (size_t n = 0; n < NSVCD__PLACED; n++) memo->placed[n].ticks = 0;
   memo->next_placed = 0;
   memo->spans = 0;

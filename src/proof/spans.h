@@ -12,8 +12,7 @@ static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
 
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
-  return nsvcd__time_of(p->ask.motion,
-                        (double)p->memo.arc.first + u * (double)p->memo.arc.ticks);
+  return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,

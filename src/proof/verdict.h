@@ -25,6 +25,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
   p->ask.doubts_end = 0;
   p->clipped = 0;
+  p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = 0;
   nsvcd__forget(&p->memo);
 }
@@ -226,7 +227,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
                                                   const nsvcd__search *search) {
   const nsvcd__placement at = nsvcd__nearest_placement(p, search);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->memo.arc.scale);
+  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
   nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
   size_t i = 0;
   size_t j = 0;
