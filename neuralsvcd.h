@@ -35,12 +35,13 @@
 //     question.a.count = 2;
 //     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
 //     question.b.scale = 2;
-//     question.options.first = 0.01f;
+//     question.ask = NSVCD_ASK_FIRST;
+//     question.to = 0.001f;  // metres
 //
 //     nsvcd_answer answer;
 //     const size_t size = nsvcd_sweep_workspace_size(&question);
 //     if (nsvcd_sweep(&question, malloc(size), size, &answer)) return 1;
-//     if (answer.collides) printf("hits at t = %g\n", (double)answer.contact_time);
+//     if (answer.verdict == NSVCD_HIT) printf("hits at t = %g\n", (double)answer.time.high);
 //     return 0;
 //   }
 //
@@ -78,19 +79,18 @@
 //   that.
 //
 // WHAT AN ANSWER IS WORTH
-//   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
-//   stands in proof/proof. It is about the surfaces of the two meshes and the motion as
-//   described at nsvcd_sweep, and it is tested by replaying certificates in double precision
-//   (tests/test_proof.c). UNDECIDED says that surfaces come as close as the triangles are stored
-//   (nsvcd_body_facts.quantum of both bodies; with rounding, less than twice that), that of eight
-//   rays none could tell whether one is inside the other, or that the work allowed was not enough;
-//   then `collides` is the network's opinion, or yes. A component of a mesh is closed if every edge
-//   has its reverse; what is open encloses nothing.
-//   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet.
-//   INSIDE is an estimate, a winding number of patches: reliable for closed meshes of one piece.
-//   Everything else is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
+//   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
+//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is
+//   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
+//   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
+//   with rounding, less than twice that), that of eight rays none could tell whether one is inside
+//   the other, or that the work allowed was not enough; then the network's opinion is added where
+//   it has one. A component of a mesh is closed if every edge has its reverse; what is open encloses
+//   nothing.
+//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
 //   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
-//   another, ask for a proof.
+//   another, ask for a proof. What is inside is an estimate, a winding number of patches: reliable
+//   for closed meshes of one piece.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
@@ -122,7 +122,7 @@
 //   times, points, patches and work differ.
 //   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
-//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
 //
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
@@ -577,25 +577,23 @@ typedef struct nsvcd_pose {
   float rotation[4];
 } nsvcd_pose;
 
-typedef enum nsvcd_status {
-  // the network has answered
-  NSVCD_STATUS_OK = 0,
-  // proven: the surfaces never meet; and, by the proof, nothing is inside of anything
-  NSVCD_STATUS_CERTIFIED_FREE,
-  // one body, or a part of it, lies inside the other at the start: by the proof a fact, by the
-  // network's method an estimate. Surfaces may meet as well. Where first, measure or skin ask for
-  // more than yes or no, that is looked for, and a WITNESS is said if it is found soon
-  NSVCD_STATUS_INSIDE,
-  // the network has answered, but more pairs of patches overlapped than options.pairs let through
-  NSVCD_STATUS_LIMIT,
-  // proven: two triangles meet
-  NSVCD_STATUS_WITNESS,
-  // the proof came to no end: see nsvcd_answer
-  NSVCD_STATUS_UNDECIDED
-} nsvcd_status;
+// What is asked of two bodies that move.
+typedef enum nsvcd_ask {
+  // do they hit each other? Of the time, only that of some contact is told
+  NSVCD_ASK_HIT = 0,
+  // and when first?
+  NSVCD_ASK_FIRST,
+  // do they, and how near do they come?
+  NSVCD_ASK_DISTANCE
+} nsvcd_ask;
 
-// A status in a word or two, for a person; never NULL.
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);
+// How a question is answered.
+typedef enum nsvcd_method {
+  // by proof where both bodies have triangles, else by the network
+  NSVCD_METHOD_DEFAULT = 0,
+  NSVCD_METHOD_PROOF,   // facts
+  NSVCD_METHOD_NETWORK  // an opinion, in a time that is bounded strictly
+} nsvcd_method;
 
 // The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications for each pair
 // of patches.
@@ -613,62 +611,26 @@ typedef enum nsvcd_precision {
   NSVCD_PRECISION_INT8
 } nsvcd_precision;
 
-// How a question is answered.
-typedef enum nsvcd_method {
-  // by proof where both bodies have triangles, else by the network
-  NSVCD_METHOD_DEFAULT = 0,
-  NSVCD_METHOD_PROOF,   // a witness or a certificate
-  NSVCD_METHOD_NETWORK  // an opinion, in a time that is bounded strictly
-} nsvcd_method;
-
-#define NSVCD_DEFAULT_WORK 100000
-#define NSVCD_NO_TRIANGLE 0xffffffffu
-#define NSVCD_DEFAULT_PAIRS 8
-#define NSVCD_MAX_PAIRS 256
-// the logit of INSIDE; its negative is that of CERTIFIED_FREE
-#define NSVCD_LOGIT_CERTAIN 100.0f
-
-// What is zero is the default.
-typedef struct nsvcd_sweep_options {
-  // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
+// What the network is told. What is zero is the default.
+typedef struct nsvcd_network_options {
+  // K, pairs of patches that it looks at, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
   size_t pairs;
   nsvcd_model model;
   nsvcd_precision precision;
-  // share of collisions that the network is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
+  // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  nsvcd_method method;
-  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell
-  size_t work;
-  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
-  // what turns by more than 20 degrees in one of them takes longer to prove
-  size_t segments;
-  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
-  // may be left undecided
-  float tolerance;
+} nsvcd_network_options;
 
-  // By proof only:
-  // metres: to come as close as this counts as a collision; 0: to meet does
-  float clearance;
-  // share of the motion, up to 1: contact_time is that of the first contact, to this. 0: of any
-  // contact. It may be later where surfaces are within the quanta or the tolerance of each other
-  // for longer than this before they meet, or more work is needed: see free_until. An eighth of the
-  // work is kept for whether they meet at all
-  float first;
-  // metres: the least distance over the motion is between clearance_low and clearance_high. These
-  // are no farther apart than this, or than twice the bodies' quanta and the tolerance where that
-  // is more, and these quanta (nsvcd_body_facts.quantum) once more; farther where work ran out:
-  // then they are the best that was proven. 0: unasked. Not with `first`. The status is what it
-  // would be without
-  float measure;
-  // metres: a contact at the start that is no deeper than this does not count, nor does what is
-  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
-  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
-  // by this much along the normals of all that it touches, and touches nothing then: see
-  // answer.lift
-  float skin;
-} nsvcd_sweep_options;
+#define NSVCD_DEFAULT_WORK 100000
+#define NSVCD_NO_TRIANGLE 0xffffffffu
+// that an answer names at most
+#define NSVCD_MAX_CONTACTS 4
+#define NSVCD_DEFAULT_PAIRS 8
+#define NSVCD_MAX_PAIRS 256
+// the logit of what a proof says is a hit; its negative is that of what is free
+#define NSVCD_LOGIT_CERTAIN 100.0f
+// of the radius of the smaller body's sphere: what `to` is where nothing is said
+#define NSVCD_DEFAULT_TO 0.001f
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
 typedef struct nsvcd_mover {
@@ -687,64 +649,158 @@ typedef struct nsvcd_mover {
 typedef struct nsvcd_question {
   // either may move, or both, in the same time; their counts of poses may differ
   nsvcd_mover a, b;
-  nsvcd_sweep_options options;
+  nsvcd_ask ask;
+  // metres. FIRST: no point of one body moves farther than this, as the other sees it, from the
+  // time that is proven free to that of the contact. DISTANCE: how wide the bracket may be. 0 (and
+  // to_time 0): NSVCD_DEFAULT_TO of the smaller body. Not with HIT
+  float to;
+  // FIRST: the same as a share of the motion, up to 1. Where both are set, both hold
+  float to_time;
+  // metres: to come as near as this is a hit; 0: to meet is one
+  float clearance;
+  // metres: a contact at the start that is no deeper than this does not count, nor does what is
+  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
+  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
+  // by this much along the normals of all that it touches, and touches nothing then: see
+  // answer.lift
+  float skin;
+  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
+  // may be left undecided
+  float tolerance;
+  nsvcd_method method;
+  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
+  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
+  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell;
+  // of FIRST an eighth is kept for whether they meet at all
+  size_t work;
+  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
+  // what turns by more than 20 degrees in one of them takes longer to prove
+  size_t segments;
+  // where it is the network that answers; it knows neither FIRST nor DISTANCE, nor a clearance or a
+  // skin
+  nsvcd_network_options network;
 } nsvcd_question;
 
-typedef struct nsvcd_answer {
-  // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
-  // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
-  // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
-  // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
-  float logit;
-  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-  // something else is asked
-  int collides;
-  // in [0,1]. WITNESS: when the triangles meet; with options.first the first contact is then, or
-  // before that but not before free_until; 0 if they meet at the start. UNDECIDED: when the
-  // triangles named are as near as clearance_high. INSIDE: 0. By the network, and UNDECIDED where
-  // no triangles are named: when the most suspicious pair comes closest
-  float contact_time;
-  // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. With options.first: when
-  // doubt begins, or, where none does before it, contact_time - first of a WITNESS; earlier where
-  // work ran out. Otherwise 0
-  float free_until;
-  // metres. By proof: they stay farther apart than clearance_low until free_until, with
-  // options.measure all the time, and come as near as clearance_high, at contact_time if triangles
-  // are named. What stored triangles are off by is allowed for, and so clearance_high is not 0
-  // where they meet; it is HUGE_VALF where it is not known
-  float clearance_low;
-  float clearance_high;
-  // the pair that decided; 0, 0 where there is none
-  uint32_t patch_a;
-  uint32_t patch_b;
-  nsvcd_status status;
-  // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
-  // time, until the search ends
-  size_t candidates;
-  // metres, world. Of the triangles named below, where they meet at that time, or on one of them
-  // where they are nearest; of a large one, which is stored in parts, the part that was looked at
-  // last. INSIDE: a point of what is inside
+typedef enum nsvcd_verdict {
+  NSVCD_UNDECIDED = 0,
+  // the surfaces never come within the clearance; and nothing is inside of anything
+  NSVCD_FREE,
+  // they do, or one body, or a part of it, is inside of the other
+  NSVCD_HIT
+} nsvcd_verdict;
+
+// A verdict in a word; never NULL.
+NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict);
+
+// Who says so.
+typedef enum nsvcd_by {
+  // it is a fact. Bodies without triangles may be FREE by it too: spheres that cover their surfaces
+  // never meet, and only that nothing is inside is an estimate
+  NSVCD_BY_PROOF = 0,
+  // it is an opinion
+  NSVCD_BY_NETWORK
+} nsvcd_by;
+
+// Why not all that was asked is answered.
+typedef enum nsvcd_why {
+  // all of it is
+  NSVCD_WHY_NOTHING = 0,
+  // surfaces come nearer than the quanta of both bodies and the tolerance, and do not meet; or, of
+  // eight rays, none could tell whether one is inside the other
+  NSVCD_WHY_TOO_NEAR,
+  // question.work was not enough
+  NSVCD_WHY_WORK
+} nsvcd_why;
+
+// What is known of a number: it is no less than `low`, and no more than `high`.
+typedef struct nsvcd_range {
+  float low, high;
+} nsvcd_range;
+
+// Two triangles, and where they meet or are nearest.
+typedef struct nsvcd_contact {
+  // metres, world. Where they meet, or on one of them where they are nearest; of a large triangle,
+  // which is stored in parts, the part that was looked at last
   float point[3];
-  // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
+  // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
   // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
   // where that triangle has no area
   float normal[3];
-  // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
-  // to tell, with options.first the earliest; NSVCD_NO_TRIANGLE where none are known. With
-  // options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
-  uint32_t triangle_a;
-  uint32_t triangle_b;
-  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
-  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
-  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
-  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
+  // metres between the stored triangles; 0: they meet
+  float gap;
+  // in [0,1]: when
+  float time;
+  // as numbered in the caller's meshes; NSVCD_NO_TRIANGLE where none are named
+  uint32_t triangle_a, triangle_b;
+  // that list them
+  uint32_t patch_a, patch_b;
+} nsvcd_contact;
+
+// Where the bodies may go: to where they are at a time until which they are free of each other,
+// lifted off what they touch.
+typedef struct nsvcd_safe_place {
+  // time.low
+  float time;
+  // of both, world. The lift is in the pose of a; where only b moves, in that of b
+  nsvcd_pose a, b;
+} nsvcd_safe_place;
+
+// What the network thinks.
+typedef struct nsvcd_opinion {
+  // 1: it was asked. Otherwise all is 0
+  int asked;
+  // of collision, positive is yes: the greatest of the pairs looked at, less the threshold that
+  // `recall` asks for; the search ends at the first above 3. Where the tiny decoder, which ranks
+  // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
+  // decoder was needed
+  float logit;
+  // in [0,1]: when the most suspicious pair comes closest
+  float time;
+  // that pair
+  uint32_t patch_a, patch_b;
+  // pairs of patches whose spheres meet, each counted once for each stretch of time, until the
+  // search ends
+  size_t candidates;
+  // 1: there were more of these than `pairs` let through
+  int limited;
+} nsvcd_opinion;
+
+// One meaning a field, whatever was asked and whoever answers. What is not known is HUGE_VALF, or a
+// count of 0.
+typedef struct nsvcd_answer {
+  nsvcd_verdict verdict;
+  nsvcd_by by;
+  nsvcd_why why;
+  // 1: a hit, for one body or a part of it lies inside the other at the start, by proof or by the
+  // network's estimate. Surfaces may meet as well: a plain question does not look for that
+  int inside;
+  // in [0,1]. They are free of each other before `low`, and in contact at `high`. FREE: 1, 1. Low
+  // is 0 where not asked for FIRST
+  nsvcd_range time;
+  // metres: the least distance over the motion, up to time.high where that is known: to the
+  // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,
+  // and so `high` is not 0 where they meet
+  nsvcd_range distance;
+  nsvcd_safe_place safe;
+  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or, where
+  // a rests, or both move and a is the larger, with a. The answer is about the motion so displaced,
+  // which touches nothing at the start. 0: nothing was touched; or no lift does that, since a is
+  // pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
+  // of a HIT whose triangles are known, at time.high
+  size_t contact_count;
+  nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
+  // the triangles that distance.high is about, whatever the verdict: of a HIT the first contact
+  // above; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
+  // named where none were found. Of what is inside the point alone is set, one of it
+  nsvcd_contact nearest;
+  nsvcd_opinion opinion;
   // units that the proof took
   size_t work;
 } nsvcd_answer;
 
 // Bytes of the workspace that nsvcd_sweep needs; 0 if the question is refused. They depend on the
-// sizes of the bodies, the method, and options.segments, pairs and model.
+// sizes of the bodies, the method, the segments, and the network's pairs and model.
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
@@ -761,17 +817,17 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
-// CERTIFIED_FREE and INSIDE hold for the meshes themselves. The triangles of a WITNESS meet to
-// within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces that
-// come as close as that without meeting, or more work than was allowed. More work never leaves
-// undecided what less decides, but for luck: options.first with a few hundred units.
+// FREE, and a HIT of what is inside, hold for the meshes themselves. The triangles of any other HIT
+// meet to within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces
+// that come as close as that without meeting, or more work than was allowed. More work never leaves
+// undecided what less decides, but for luck: FIRST with a few hundred units.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
 // spheres against one; by the network, for motions that turn by more than 45 degrees, on machines
 // of less than 16 lanes, 34 S Ga Gb. Of bodies of more than 512 patches only those groups count
 // that the other body comes near, and some 16 tests more for each level of spheres and each 16
-// spheres of it that it comes near. Then a proof takes options.work units. The network takes the
+// spheres of it that it comes near. Then a proof takes question.work units. The network takes the
 // tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances for
 // each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
@@ -780,8 +836,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 // Workspaces as constants, for arrays of a fixed size, a little larger than need be. Where one
 // workspace is for both methods, take the larger.
 //   patches_a, patches_b patches of the bodies, or more
-//   segments             options.segments, 16 to 64
-//   pairs                options.pairs, K
+//   segments             question.segments, 16 to 64
+//   pairs                question.network.pairs, K
 // NSVCD_MEMORY declares an array that is aligned:
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
@@ -810,9 +866,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of answer->logit by the poses of a and b.
+// Answers a question by the network, with the derivatives of its logit by the poses of a and b.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
-//   question   options.method is not PROOF, and no option is set that only a proof has
+//   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep
 //   gradient_a, gradient_b   (count, 6), one row for a body without poses; one of them may be NULL;
 //              left as they were on failure. Of each pose: by a displacement of the body's origin
@@ -823,8 +879,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no network answered (CERTIFIED_FREE, INSIDE), and for poses that the decisive pair
-// does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
 // the greatest of several, and so has kinks, also where the network (ReLU) and the frame of a pair
 // have theirs. Where the pair is at rest, or does not turn, it is the mean of both sides. The ends
 // of the stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
@@ -954,7 +1009,7 @@ typedef struct nsvcd_plan_stage {
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if
+// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if
 // the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
 // for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
@@ -980,9 +1035,10 @@ typedef struct nsvcd_plan_options {
   // that limit. Limits are looked at between these and at via points. Twice as many take
   // answer.stray to a quarter
   size_t check;
-  // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
-  // that of start, goal and the last check, and so are `clearance`, `skin` and the like
-  nsvcd_sweep_options sweep;
+  // how all questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks
+  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `skin`
+  // and the like. Not read: a, b, ask, to and to_time
+  nsvcd_question sweep;
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {
@@ -1113,7 +1169,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif
 
 // ---------------------------------------------------------------------------------- ground/strings
-// In: a code or a status. Out: what it says, in English.
+// In: a code or a verdict. Out: what it says, in English.
 
 // Number n of texts that follow each other, in the order of enumerators; the last where there is
 // none. No table of pointers: a loader would write into that.
@@ -1147,16 +1203,13 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       (size_t)result);
 }
 
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
+NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict) {
   return nsvcd__text_of(
-      "ok\0"
-      "certified-free\0"
-      "inside\0"
-      "limit\0"
-      "witness\0"
       "undecided\0"
-      "unknown status\0",
-      (size_t)status);
+      "free\0"
+      "hit\0"
+      "unknown verdict\0",
+      (size_t)verdict);
 }
 
 #ifndef NSVCD_NO_OPTIMIZER
@@ -8227,7 +8280,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // certificate that the surfaces never do, or neither: undecided.
 //
 // THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
-// poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
+// poses the position is linear in t and the rotation a slerp. If the proof ends in FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
 // and no component of one lies within what closed components of the other enclose (a body that is
 // said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
@@ -8236,7 +8289,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
 //      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
-//      item is parted by one of the steps below, or the verdict is not CERTIFIED_FREE.
+//      item is parted by one of the steps below, or the verdict is not FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
 //      point x of the moving body (body frame) leaves the chord between its places at the ends by
 //      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
@@ -8265,7 +8318,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
 //      side of a plane, and agree.
 //
-// A WITNESS is a pair of stored triangles that share a point at the true pose, in double, or, where
+// A witness is a pair of stored triangles that share a point at the true pose, in double, or, where
 // a clearance is asked for, come within it; the mesh's own triangles are then within that and the
 // two quanta of each other. Faces that are parallel when
 // they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
@@ -8455,8 +8508,9 @@ typedef struct nsvcd__given {
   // beyond the quanta
   double tolerance;
   double clearance, skin;
-  // `first`, a share of the motion
-  double share;
+  // to which share of the motion the first contact is asked for, and to which width the least
+  // distance; 0: it is not
+  double share, width;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken
@@ -8532,6 +8586,8 @@ typedef struct nsvcd__proof {
   int within;
   nsvcd__d3 enclosed;
   int unclear;
+  // the least distance is not known as narrowly as was asked for
+  int wide;
 
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
@@ -11396,11 +11452,11 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  int wide = !nsvcd__measure_once(p, search);
+  p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
-  for (p->ask.measure = p->high - p->low; wide && p->ask.measure > finest;) {
+  for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
     p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
-    wide = nsvcd__measure_once(p, search);
+    p->wide = nsvcd__measure_once(p, search);
   }
 }
 #endif  // NSVCD_NO_PROOF
@@ -12510,7 +12566,7 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 //
 // The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
 // ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
-// judges the K most suspicious. K is options.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
+// judges the K most suspicious. K is network.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
 // a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
 // once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
 
@@ -12562,7 +12618,7 @@ typedef struct nsvcd__task {
   float lengths;
   nsvcd_method method;  // PROOF or NETWORK
   // the caller's
-  const nsvcd_sweep_options *options;
+  const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK
   // of the network
   nsvcd__settings settings;
@@ -12630,14 +12686,23 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   return (size_t)end;
 }
 
-// What is said of bodies that never meet.
-static void nsvcd__answer_free(nsvcd_answer *answer) {
+// What is said where no more than a verdict is known: they may go to where they are in the end if
+// they are free all the way, else nowhere.
+static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
+                                nsvcd_answer *answer) {
+  const nsvcd__track *moving = &task->motion.moving;
+  const nsvcd__track *fixed = &task->motion.fixed;
+  const int is_free = verdict == NSVCD_FREE;
   memset(answer, 0, sizeof *answer);
-  answer->logit = -NSVCD_LOGIT_CERTAIN;
-  answer->status = NSVCD_STATUS_CERTIFIED_FREE;
-  answer->clearance_high = HUGE_VALF;
-  answer->triangle_a = NSVCD_NO_TRIANGLE;
-  answer->triangle_b = NSVCD_NO_TRIANGLE;
+  answer->verdict = verdict;
+  answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
+  answer->time.high = is_free ? 1 : HUGE_VALF;
+  answer->distance.high = HUGE_VALF;
+  answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
+  answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
+  answer->nearest.gap = HUGE_VALF;
+  answer->nearest.triangle_a = NSVCD_NO_TRIANGLE;
+  answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
 }
 
 // Where the last of a batch collided by the network: the next is asked there first. Forgotten when
@@ -12658,7 +12723,7 @@ typedef struct nsvcd__hint {
 // there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
 // 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
 // of log2 N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *o, size_t points1,
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
     return NSVCD_ERROR_ARGUMENT;
@@ -12742,11 +12807,11 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 
 // Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
-                               const nsvcd__decoder *decoder, nsvcd_answer *answer) {
-  answer->logit = candidate->score - task->settings.threshold;
-  answer->contact_time = candidate->t_least;
-  answer->patch_a = candidate->moving;
-  answer->patch_b = candidate->fixed;
+                               const nsvcd__decoder *decoder, nsvcd_opinion *out) {
+  out->logit = candidate->score - task->settings.threshold;
+  out->time = candidate->t_least;
+  out->patch_a = candidate->moving;
+  out->patch_b = candidate->fixed;
   if (task->decisive) {
     task->decisive->candidate = *candidate;
     task->decisive->decoder = decoder;
@@ -12761,21 +12826,21 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
 // all, clearly none? Then that is the answer, and no other decoder needs to look.
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
-                           nsvcd_answer *answer) {
+                           nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
-  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, answer);
+  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, out);
   return yes || no;
 }
 
 // The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
 // portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
-                         nsvcd_answer *answer) {
+                         nsvcd_opinion *out) {
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
@@ -12792,7 +12857,7 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   }
   while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
   for (size_t first = 0; first < count; first += NSVCD__PORTION) {
-    if (!(answer->logit < NSVCD__CLEAR_LOGIT)) break;
+    if (!(out->logit < NSVCD__CLEAR_LOGIT)) break;
     nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
@@ -12803,15 +12868,15 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
     }
     for (size_t k = 0; k < size; k++) {
       const int is_first = first + k == 0;
-      if (is_first || portion[k]->score - settings->threshold > answer->logit)
-        nsvcd__answer_with(task, portion[k], settings->decoder, answer);
+      if (is_first || portion[k]->score - settings->threshold > out->logit)
+        nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
 static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
-                                              nsvcd_answer *answer) {
+                                              nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
@@ -12819,17 +12884,17 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
-  answer->candidates = kept.total;
-  answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(task, &kept, 0, answer)) return 1;
+  out->candidates = kept.total;
+  out->limited = kept.total > settings->pairs;
+  if (nsvcd__is_clear(task, &kept, 0, out)) return 1;
   if (settings->decoder == settings->ranker) return 0;
-  nsvcd__judge(task, &kept, answer);
-  return answer->logit >= NSVCD__CLEAR_LOGIT;
+  nsvcd__judge(task, &kept, out);
+  return out->logit >= NSVCD__CLEAR_LOGIT;
 }
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
@@ -12845,16 +12910,15 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answ
     // costs little.
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
-    clear = nsvcd__is_clear(task, &kept, 0, answer);
+    clear = nsvcd__is_clear(task, &kept, 0, out);
     if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
   }
 
-  answer->candidates = kept.total;
-  if (kept.total > 0)
-    answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  out->candidates = kept.total;
+  out->limited = kept.total > task->settings.pairs;
   if (clear || kept.count == 0) return;
   nsvcd__score(task, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(task, &kept, 1, answer)) nsvcd__judge(task, &kept, answer);
+  if (!nsvcd__is_clear(task, &kept, 1, out)) nsvcd__judge(task, &kept, out);
 }
 
 // Is a part of one body inside of the other at the start?
@@ -12863,35 +12927,54 @@ static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
-// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
-                                     nsvcd_answer *answer) {
+// What is thought where no decoder is needed.
+static nsvcd_opinion nsvcd__certain_opinion(float logit) {
+  nsvcd_opinion out;
+  memset(&out, 0, sizeof out);
+  out.asked = 1;
+  out.logit = logit;
+  return out;
+}
+
+// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch. Returns
+// whether one body seems to be inside the other at the start.
+static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
   const int hinted = hint && hint->known;
   // checked before
-  (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
-                           &task->settings);
-  nsvcd__answer_free(answer);
-  if (nsvcd__motion_gap(&task->motion) > task->lengths) return;
+  (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
+                           task->fixed->patches, &task->settings);
+  *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  if (!hinted || !nsvcd__collides_again(query, hint, answer)) {
-    nsvcd__answer_free(answer);
+  if (!hinted || !nsvcd__collides_again(query, hint, out)) {
+    *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
-    nsvcd__search_and_judge(query, answer);
+    nsvcd__search_and_judge(query, out);
   }
-  if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
-    const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
+  if (hint && out->logit >= NSVCD__CLEAR_LOGIT) {
+    const nsvcd__hint here = {1, 0, out->patch_a, out->patch_b};
     *hint = here;
   }
 
   // a body inside another need not touch anything
-  if (nsvcd__starts_inside(task)) {
-    answer->status = NSVCD_STATUS_INSIDE;
-    answer->logit = NSVCD_LOGIT_CERTAIN;
-    answer->contact_time = 0;
-    answer->patch_a = answer->patch_b = 0;
-  }
-  answer->collides = answer->logit > 0;
+  if (!nsvcd__starts_inside(task)) return 0;
+  const size_t candidates = out->candidates;
+  *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
+  out->candidates = candidates;
+  return 1;
+}
+
+// The network's answer.
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
+  nsvcd_opinion opinion;
+  const int inside = nsvcd__ask_network(query, hint, &opinion);
+  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
+  answer->inside = inside;
+  answer->opinion = opinion;
+  if (opinion.candidates > 0 || inside) answer->by = NSVCD_BY_NETWORK;
+  if (opinion.logit > 0) answer->time.high = opinion.time;
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -12899,6 +12982,18 @@ static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
 // In: a task. Out: its answer, by proof, with the contact as places in the world.
 
 #ifndef NSVCD_NO_PROOF
+// Where a body is at time t in [0,1], in the world.
+static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__track *track,
+                                   double t, nsvcd__d3 *position) {
+  nsvcd__leg leg;
+  nsvcd__d3 ends[2];
+  double u;
+  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
+  nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
+  *position = nsvcd__d3_mix(ends[0], ends[1], u);
+  return nsvcd__leg_at(&leg, u);
+}
+
 // From the fixed body's frame and units to the world, at time t.
 typedef struct nsvcd__to_world {
   nsvcd__dmat3 rotation;
@@ -12908,21 +13003,43 @@ typedef struct nsvcd__to_world {
 
 static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t) {
   nsvcd__to_world out;
-  nsvcd__d3 ends[2];
-  double u;
-  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
-  nsvcd__leg leg;
-  nsvcd__leg_init(&motion->fixed, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
-  out.rotation = nsvcd__dmat3_of(nsvcd__leg_at(&leg, u));
-  out.position = nsvcd__d3_mix(ends[0], ends[1], u);
+  const nsvcd__dquat turn = nsvcd__turn_at(motion, &motion->fixed, t, &out.position);
+  out.rotation = nsvcd__dmat3_of(turn);
   out.unit = (double)motion->unit;
   return out;
+}
+
+// To how many of the fixed body's units an answer is asked for; 0: FIRST asks for a share of the
+// motion alone.
+static double nsvcd__to_of(const nsvcd__task *task) {
+  const nsvcd_question *q = task->question;
+  const float moving = task->motion.scale * task->moving->radius;
+  const float fixed = task->fixed->radius;
+  const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
+  if (q->to > 0) return (double)(q->to / task->motion.unit);
+  return q->ask == NSVCD_ASK_FIRST && q->to_time > 0 ? 0 : (double)usual;
+}
+
+// The share of the motion in which no point of the moving body goes farther than `to`, if that is
+// asked for, nor longer than `share`, if that is.
+static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const double most = share > 0 ? share : 1;
+  const double extent = (double)(motion->scale * p->moving.body->extent);
+  double fastest = 0;  // per tick
+  for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
+    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+    fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);
+    first += arc->ticks;
+  }
+  const double whole = fastest * (double)motion->ticks;
+  return to < most * whole ? to / whole : most;
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
 static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
-  const nsvcd_sweep_options *o = task->options;
+  const nsvcd_question *q = task->question;
   const float unit = task->motion.unit;
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
@@ -12930,24 +13047,27 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->given.tolerance = (double)(o->tolerance / unit);
-  p->given.clearance = p->ask.clearance = (double)(o->clearance / unit);
-  p->given.skin = (double)(o->skin / unit);
-  p->given.share = p->ask.share = (double)o->first;
-  p->given.work = p->ask.limit = o->work ? o->work : NSVCD_DEFAULT_WORK;
-  p->given.tells = o->first > 0 || o->measure / unit > 0 || o->skin / unit > 0;
-  p->ask.measure = p->ask.first = p->low = 0;
+  p->given.tolerance = (double)(q->tolerance / unit);
+  p->given.clearance = p->ask.clearance = (double)(q->clearance / unit);
+  p->given.skin = (double)(q->skin / unit);
+  p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
+  p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = 0;
+  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  const double to = nsvcd__to_of(task);
+  if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
+  if (q->ask == NSVCD_ASK_FIRST)
+    p->given.share = p->ask.share = nsvcd__share_of(p, to, (double)q->to_time);
   nsvcd__proof_restart(p);
 }
 
-// Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
-// fixed body that counts as lifted, the other way.
-static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped,
-                                       nsvcd_answer *answer) {
-  const nsvcd__contact *found = &p->known.found;
+// The contact that a proof has found: when, where, and of what. swapped: it is the fixed body that
+// counts as lifted, the other way.
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
+                                             const nsvcd__contact *found, int swapped,
+                                             nsvcd_contact *out) {
   const int rests = p->ask.motion->moving.count == 1 && !p->ask.motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->ask.motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->ask.motion, time);
@@ -12956,28 +13076,52 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped,
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
-  answer->contact_time = (float)time;
-  answer->patch_a = found->moving_patch;
-  answer->patch_b = found->fixed_patch;
-  answer->triangle_a = found->moving_triangle;
-  answer->triangle_b = found->fixed_triangle;
-  nsvcd__f3_store(nsvcd__f3_round(point), answer->point);
-  nsvcd__f3_store(nsvcd__f3_round(normal), answer->normal);
+  nsvcd__f3_store(nsvcd__f3_round(point), out->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
+  out->gap = (float)(found->distance * world.unit);
+  out->time = (float)time;
+  out->triangle_a = found->moving_triangle;
+  out->triangle_b = found->fixed_triangle;
+  out->patch_a = found->moving_patch;
+  out->patch_b = found->fixed_patch;
 }
 
-// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
-// says yes.
+// Where the bodies may go, which are proven free until answer->time.low. The one that moves takes
+// the lift; if both do, a.
+static NSVCD__APART void nsvcd__tell_safe_place(const nsvcd__task *task,
+                                                nsvcd_answer *answer) {
+  const nsvcd__motion *motion = &task->motion;
+  const double t = (double)answer->time.low;
+  const int lifts_fixed = task->swapped && (motion->fixed_moves || motion->moving.count == 1);
+  const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(motion->lift));
+  for (int moving = 0; moving < 2; moving++) {
+    const double by = moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit;
+    nsvcd_pose *out = moving ? &answer->safe.a : &answer->safe.b;
+    nsvcd__d3 place;
+    const nsvcd__dquat turn =
+        nsvcd__turn_at(motion, moving ? &motion->moving : &motion->fixed, t, &place);
+    place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, by));
+    nsvcd__f3_store(nsvcd__f3_round(place), out->position);
+    out->rotation[0] = (float)turn.x;
+    out->rotation[1] = (float)turn.y;
+    out->rotation[2] = (float)turn.z;
+    out->rotation[3] = (float)turn.w;
+  }
+  answer->safe.time = answer->time.low;
+}
+
+// Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const double unit = (double)task->motion.unit;
-  const double measure = (double)(task->options->measure / task->motion.unit);
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
   nsvcd__proof_begin(query);
   if (p->given.skin > 0) nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (measure > 0 && verdict != NSVCD__WITHIN) {
-    nsvcd__measure(p, search, verdict, measure);
+  if (p->given.width > 0 && verdict != NSVCD__WITHIN) {
+    nsvcd__measure(p, search, verdict, p->given.width);
     // A distance decides what was left undecided, but tells nothing of what is inside of what.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
@@ -12987,18 +13131,32 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   }
 
   // The triangles that the answer names are those of a contact, or else of a doubt.
-  const int is_doubt = verdict == NSVCD__UNDECIDED && p->known.unsure < NSVCD__NEVER;
-  const int names = p->known.has_contact || is_doubt;
+  const int has_doubt = p->known.unsure < NSVCD__NEVER;
+  const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
   const int is_within = verdict == NSVCD__WITHIN;
   const int is_free = verdict == NSVCD__FREE;
-  nsvcd__answer_free(answer);
+  const int is_hit = is_within || verdict == NSVCD__MEETS;
+  nsvcd__answer_begin(task,
+                      is_free  ? NSVCD_FREE
+                      : is_hit ? NSVCD_HIT
+                               : NSVCD_UNDECIDED,
+                      answer);
+  answer->inside = is_within;
   answer->work = p->work;
-  if (names || is_within) nsvcd__answer_with_contact(p, task->swapped, answer);
+  if (names || is_within)
+    nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
+  if (is_within) answer->nearest.gap = HUGE_VALF;
+  if (is_hit) answer->time.high = answer->nearest.time;
+  if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
 
-  // What is proven of clearances and times.
-  const double until = nsvcd__clear_until(p) / (double)p->ask.motion->ticks;
-  double proven = is_free;
-  if (!is_free && p->given.share > 0 && !is_within) proven = fmin(fmax(until, 0), 1);
+  // What is proven of times and distances.
+  if (p->given.share > 0 && !is_free && !is_within) {
+    const double ticks = (double)p->ask.motion->ticks;
+    const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+    const double late = (double)answer->time.high - until;
+    answer->time.low = (float)(until * (1 - 1e-7));
+    if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+  }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
   if (names) {
@@ -13006,9 +13164,11 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
     high = found->distance + (double)quanta;
   }
-  answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
-  answer->clearance_low = (float)(low * unit * (1 - 1e-6));
-  answer->clearance_high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
+  answer->distance.low = (float)(low * unit * (1 - 1e-6));
+  answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
+  nsvcd__tell_safe_place(task, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
@@ -13016,13 +13176,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
-
-  answer->status = NSVCD_STATUS_UNDECIDED;
-  if (is_free) answer->status = NSVCD_STATUS_CERTIFIED_FREE;
-  if (is_within) answer->status = NSVCD_STATUS_INSIDE;
-  if (verdict == NSVCD__MEETS) answer->status = NSVCD_STATUS_WITNESS;
-  answer->collides = !is_free;
-  answer->logit = is_free ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13051,7 +13204,6 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const nsvcd_sweep_options *o = &question->options;
   nsvcd_result result = nsvcd__mover_check(a);
   if (!result) result = nsvcd__mover_check(b);
   if (result) return result;
@@ -13063,25 +13215,28 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
-  const float lengths[5] = {o->tolerance, o->clearance, o->measure, o->skin, o->first};
-  if ((unsigned)o->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if (o->segments > NSVCD__MAX_SEGMENTS || o->segments % NSVCD__LANES)
+  const nsvcd_question *q = question;
+  const float lengths[5] = {q->tolerance, q->clearance, q->to, q->skin, q->to_time};
+  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ARGUMENT;
+  if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
     return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 5; k++) {
     const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
     if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
     if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
   }
-  if (o->first > 0 && o->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
+  if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
-  const int needs_proof = o->clearance > 0 || o->measure > 0 || o->first > 0 || o->skin > 0;
-  if (needs_proof && o->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : o->method;
+  const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
+  if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
     return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
-  return nsvcd__settings_of(o, a->body->patches, b->body->patches, &unused);
+  return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);
 #else
   return NSVCD_OK;
 #endif
@@ -13118,16 +13273,16 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   if (!question) return needs;
   const nsvcd_body *a = question->a.body;
   const nsvcd_body *b = question->b.body;
-  const nsvcd_sweep_options *options = &question->options;
   const int swapped = nsvcd__is_swapped(&question->a, &question->b);
   const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
   needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  if (options->segments) needs.segments = nsvcd__round_up(options->segments, NSVCD__LANES);
-  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
+  if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
+  const nsvcd_network_options *options = &question->network;
   const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
   const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
   needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
@@ -13157,7 +13312,6 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
 // Lays a question that has been checked out in the workspace, and chooses who moves.
 static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                     void *workspace) {
-  const nsvcd_sweep_options *options = &question->options;
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
@@ -13169,8 +13323,8 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
-  task->options = options;
+  task->method = nsvcd__method_of(task->moving, task->fixed, question->method);
+  task->question = question;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
 #endif
@@ -13179,50 +13333,48 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
 
 // ---- answer, and write
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-// Adds the network's opinion, where it has one, to what a proof has left undecided.
-static void nsvcd__add_opinion(nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__task *task = &query->task;
-  const nsvcd_sweep_options *options = task->options;
-  nsvcd_answer opinion;
-  if (!task->moving->weights_id || !task->fixed->weights_id) return;
-  if (options->clearance > 0 || options->measure > 0 || options->skin > 0) return;
-  nsvcd__answer_by_network(query, NULL, &opinion);
-  answer->logit = opinion.logit;
-  answer->collides = opinion.collides;
-  answer->candidates = opinion.candidates;
-  if (answer->triangle_a != NSVCD_NO_TRIANGLE) return;
-  answer->contact_time = opinion.contact_time;
-  answer->patch_a = opinion.patch_a;
-  answer->patch_b = opinion.patch_b;
+// What was found out about the moving body and the fixed one, said about b and a.
+static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
+  const uint32_t first = *a;
+  *a = *b;
+  *b = first;
 }
-#endif
+static void nsvcd__swap_contact(nsvcd_contact *contact) {
+  nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
+  nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
+  for (size_t k = 0; k < 3; k++) contact->normal[k] = 0 - contact->normal[k];
+}
+static void nsvcd__swap_answer(nsvcd_answer *answer) {
+  const nsvcd_pose moving = answer->safe.a;
+  answer->safe.a = answer->safe.b;
+  answer->safe.b = moving;
+  nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
+  nsvcd__swap_contact(&answer->nearest);
+  for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
+  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+}
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
 // network.
 static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
   (void)hint;
 #ifndef NSVCD_NO_PROOF
-  if (query->task.method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
+  if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  if (query->task.method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
-    nsvcd__add_opinion(query, answer);
+  // What a proof has left undecided the network has an opinion on, if no more than yes or no is
+  // asked.
+  const nsvcd_question *q = task->question;
+  const int knows = task->moving->weights_id && task->fixed->weights_id &&
+                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->skin > 0);
+  if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
+    (void)nsvcd__ask_network(query, NULL, &answer->opinion);
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (query->task.method == NSVCD_METHOD_NETWORK)
-    nsvcd__answer_by_network(query, hint, answer);
+  if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
 #endif
-  if (!query->task.swapped) return;
-  // What was found out about moving and fixed, said about a and b.
-  const uint32_t patch = answer->patch_a;
-  const uint32_t triangle = answer->triangle_a;
-  answer->patch_a = answer->patch_b;
-  answer->patch_b = patch;
-  answer->triangle_a = answer->triangle_b;
-  answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+  if (task->swapped) nsvcd__swap_answer(answer);
 }
 
 // As nsvcd_sweep_batch.
@@ -13793,9 +13945,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                                           size_t workspace_size, nsvcd_answer *answer,
                                           float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
-  by_network.options.method = NSVCD_METHOD_NETWORK;
+  by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
@@ -13807,7 +13959,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
+  if (answer->by == NSVCD_BY_NETWORK && !answer->inside)
     nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
   return NSVCD_OK;
 }
@@ -13874,19 +14026,18 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
-#define nsvcd__add_opinion NSVCD__AT(add_opinion)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
+#define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
-#define nsvcd__answer_free NSVCD__AT(answer_free)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__answer_with_contact NSVCD__AT(answer_with_contact)
 #define nsvcd__arc NSVCD__AT(arc)
 #define nsvcd__arc_and_share NSVCD__AT(arc_and_share)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__at_origin NSVCD__AT(at_origin)
 #define nsvcd__bends NSVCD__AT(bends)
@@ -13914,6 +14065,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__candidates NSVCD__AT(candidates)
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
+#define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
 #define nsvcd__certify_block NSVCD__AT(certify_block)
 #define nsvcd__certify_couple NSVCD__AT(certify_couple)
 #define nsvcd__certify_disc NSVCD__AT(certify_disc)
@@ -14155,6 +14307,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_row NSVCD__AT(settle_row)
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
+#define nsvcd__share_of NSVCD__AT(share_of)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
@@ -14172,6 +14325,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__support_along NSVCD__AT(support_along)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__surroundings NSVCD__AT(surroundings)
+#define nsvcd__swap_answer NSVCD__AT(swap_answer)
+#define nsvcd__swap_contact NSVCD__AT(swap_contact)
+#define nsvcd__swap_patches NSVCD__AT(swap_patches)
 #define nsvcd__sweep_batch NSVCD__AT(sweep_batch)
 #define nsvcd__sweep_gradient NSVCD__AT(sweep_gradient)
 #define nsvcd__sweep_size NSVCD__AT(sweep_size)
@@ -14179,12 +14335,15 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__take_doubt NSVCD__AT(take_doubt)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
 #define nsvcd__task NSVCD__AT(task)
+#define nsvcd__tell_contact NSVCD__AT(tell_contact)
+#define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
+#define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
 #define nsvcd__touch NSVCD__AT(touch)
@@ -14199,6 +14358,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
 #define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
+#define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone NSVCD__AT(undone)
@@ -14708,7 +14868,7 @@ typedef struct nsvcd__cost {
   // of the last check, which looks closer: the most suspicious moment, and who is suspected
   float logit, time;
   size_t pair;
-  // a proof has found it, INSIDE too, or could not rule it out
+  // a proof has found it, of what is inside too, or could not rule it out
   int proven;
 } nsvcd__cost;
 
@@ -14779,7 +14939,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
     if (!nsvcd__is_finite(floats[k])) return 0;
   }
-  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
+  if (nsvcd__settings_of(&o->sweep.network, 1, 1, &unused)) return 0;
   if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
   if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
@@ -15044,6 +15204,13 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
   }
 }
 
+// A logit of any answer: what is undecided counts as a hit.
+static float nsvcd__logit_of(const nsvcd_answer *answer) {
+  if (answer->verdict != NSVCD_UNDECIDED && answer->opinion.asked)
+    return answer->opinion.logit;
+  return answer->verdict == NSVCD_FREE ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
+}
+
 // The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
 // end, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
@@ -15055,26 +15222,24 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  nsvcd_question question;
-  memset(&question, 0, sizeof question);
-  question.a.body = p->problem->bodies[pair->a];
-  question.a.poses = motion;
-  question.a.count = segments + 1;
-  question.b.body = p->problem->bodies[pair->b];
-  question.options = p->options.sweep;
+  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, 0};
+  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, 0};
+  nsvcd_question question = p->options.sweep;
+  question.a = a;
+  question.b = b;
+  question.ask = NSVCD_ASK_HIT;
+  question.to = question.to_time = 0;
   if (!at_end) {
-    question.options.method = NSVCD_METHOD_NETWORK;
-    question.options.clearance = 0;
-    question.options.measure = 0;
-    question.options.first = 0;
-    question.options.skin = 0;
+    question.method = NSVCD_METHOD_NETWORK;
+    question.clearance = 0;
+    question.skin = 0;
   }
 
   nsvcd_answer answer;
   nsvcd_result error;
   memset(&answer, 0, sizeof answer);
   // of an error
-  answer.logit = -NSVCD_LOGIT_CERTAIN;
+  answer.verdict = NSVCD_FREE;
   if (gradient)
     error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
   else
@@ -15105,16 +15270,20 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
   const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
-  if (answer.logit > cost->logit) {
-    const float at = (float)s + (float)how->stride * answer.contact_time;
-    cost->logit = answer.logit;
+  const float logit = nsvcd__logit_of(&answer);
+  const int collides = answer.verdict != NSVCD_FREE;
+  if (logit > cost->logit) {
+    const int by_proof = answer.by == NSVCD_BY_PROOF;
+    const float t = by_proof ? answer.nearest.time : answer.opinion.time;
+    const float at = (float)s + (float)how->stride * t;
+    cost->logit = logit;
     cost->pair = k;
     // only a proof takes work
-    cost->proven = answer.collides && answer.work > 0;
+    cost->proven = collides && answer.work > 0;
     cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
   }
-  cost->collides |= answer.collides;
-  cost->collision += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+  cost->collides |= collides;
+  cost->collision += nsvcd__cost_of_logit(logit, p->options.margin, &slope);
   for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
     const size_t row = (s + i) * p->problem->body_count;
     nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
@@ -15137,9 +15306,12 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
       size_t run = 1;
       while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
       seen = s + run;
-      if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
-        s += run - 1;
-        continue;
+      if (run > 1) {
+        const nsvcd_answer answer = nsvcd__ask(p, k, s, run, 0, NULL);
+        if (nsvcd__logit_of(&answer) <= -p->options.margin) {
+          s += run - 1;
+          continue;
+        }
       }
     }
     nsvcd__add_segment(p, k, s, how, cost);

@@ -35,12 +35,13 @@
 //     question.a.count = 2;
 //     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
 //     question.b.scale = 2;
-//     question.options.first = 0.01f;
+//     question.ask = NSVCD_ASK_FIRST;
+//     question.to = 0.001f;  // metres
 //
 //     nsvcd_answer answer;
 //     const size_t size = nsvcd_sweep_workspace_size(&question);
 //     if (nsvcd_sweep(&question, malloc(size), size, &answer)) return 1;
-//     if (answer.collides) printf("hits at t = %g\n", (double)answer.contact_time);
+//     if (answer.verdict == NSVCD_HIT) printf("hits at t = %g\n", (double)answer.time.high);
 //     return 0;
 //   }
 //
@@ -78,19 +79,18 @@
 //   that.
 //
 // WHAT AN ANSWER IS WORTH
-//   By proof, the default, WITNESS, CERTIFIED_FREE and INSIDE are facts, not opinions; the theorem
-//   stands in proof/proof. It is about the surfaces of the two meshes and the motion as
-//   described at nsvcd_sweep, and it is tested by replaying certificates in double precision
-//   (tests/test_proof.c). UNDECIDED says that surfaces come as close as the triangles are stored
-//   (nsvcd_body_facts.quantum of both bodies; with rounding, less than twice that), that of eight
-//   rays none could tell whether one is inside the other, or that the work allowed was not enough;
-//   then `collides` is the network's opinion, or yes. A component of a mesh is closed if every edge
-//   has its reverse; what is open encloses nothing.
-//   By the network, CERTIFIED_FREE is a proof too: spheres that cover the surfaces never meet.
-//   INSIDE is an estimate, a winding number of patches: reliable for closed meshes of one piece.
-//   Everything else is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
+//   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
+//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is
+//   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
+//   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
+//   with rounding, less than twice that), that of eight rays none could tell whether one is inside
+//   the other, or that the work allowed was not enough; then the network's opinion is added where
+//   it has one. A component of a mesh is closed if every edge has its reverse; what is open encloses
+//   nothing.
+//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
 //   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
-//   another, ask for a proof.
+//   another, ask for a proof. What is inside is an estimate, a winding number of patches: reliable
+//   for closed meshes of one piece.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
@@ -122,7 +122,7 @@
 //   times, points, patches and work differ.
 //   Logits differ, and by more than rounding: the search ends at the first pair that is clear, and
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
-//   So `collides` of the network may differ, where logits are near 0 or that of the ranker near its
+//   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
 //
 // CONTENTS

@@ -199,9 +199,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                                           size_t workspace_size, nsvcd_answer *answer,
                                           float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->options.method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
   nsvcd_question by_network = *question;
-  by_network.options.method = NSVCD_METHOD_NETWORK;
+  by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
@@ -213,7 +213,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT)
+  if (answer->by == NSVCD_BY_NETWORK && !answer->inside)
     nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
   return NSVCD_OK;
 }

@@ -1,4 +1,4 @@
-// In: a code or a status. Out: what it says, in English.
+// In: a code or a verdict. Out: what it says, in English.
 #pragma once
 #include "../interface/plans.h"
 #include "compiler.h"
@@ -35,16 +35,13 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       (size_t)result);
 }
 
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status) {
+NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict) {
   return nsvcd__text_of(
-      "ok\0"
-      "certified-free\0"
-      "inside\0"
-      "limit\0"
-      "witness\0"
       "undecided\0"
-      "unknown status\0",
-      (size_t)status);
+      "free\0"
+      "hit\0"
+      "unknown verdict\0",
+      (size_t)verdict);
 }
 
 #ifndef NSVCD_NO_OPTIMIZER

@@ -117,7 +117,7 @@ typedef struct nsvcd_plan_stage {
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.recall, `collision` or the bodies' number of patches; if
+// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if
 // the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
 // for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
@@ -143,9 +143,10 @@ typedef struct nsvcd_plan_options {
   // that limit. Limits are looked at between these and at via points. Twice as many take
   // answer.stray to a quarter
   size_t check;
-  // of all queries; recall = 0.999f keeps more distance. The search asks the network. `method` is
-  // that of start, goal and the last check, and so are `clearance`, `skin` and the like
-  nsvcd_sweep_options sweep;
+  // how all questions are asked; sweep.network.recall = 0.999f keeps more distance. The search asks
+  // the network. `method` is that of start, goal and the last check, and so are `clearance`, `skin`
+  // and the like. Not read: a, b, ask, to and to_time
+  nsvcd_question sweep;
 } nsvcd_plan_options;
 
 typedef struct nsvcd_plan_answer {

@@ -9,25 +9,23 @@ typedef struct nsvcd_pose {
   float rotation[4];
 } nsvcd_pose;
 
-typedef enum nsvcd_status {
-  // the network has answered
-  NSVCD_STATUS_OK = 0,
-  // proven: the surfaces never meet; and, by the proof, nothing is inside of anything
-  NSVCD_STATUS_CERTIFIED_FREE,
-  // one body, or a part of it, lies inside the other at the start: by the proof a fact, by the
-  // network's method an estimate. Surfaces may meet as well. Where first, measure or skin ask for
-  // more than yes or no, that is looked for, and a WITNESS is said if it is found soon
-  NSVCD_STATUS_INSIDE,
-  // the network has answered, but more pairs of patches overlapped than options.pairs let through
-  NSVCD_STATUS_LIMIT,
-  // proven: two triangles meet
-  NSVCD_STATUS_WITNESS,
-  // the proof came to no end: see nsvcd_answer
-  NSVCD_STATUS_UNDECIDED
-} nsvcd_status;
+// What is asked of two bodies that move.
+typedef enum nsvcd_ask {
+  // do they hit each other? Of the time, only that of some contact is told
+  NSVCD_ASK_HIT = 0,
+  // and when first?
+  NSVCD_ASK_FIRST,
+  // do they, and how near do they come?
+  NSVCD_ASK_DISTANCE
+} nsvcd_ask;
 
-// A status in a word or two, for a person; never NULL.
-NSVCDDEF const char *nsvcd_status_string(nsvcd_status status);
+// How a question is answered.
+typedef enum nsvcd_method {
+  // by proof where both bodies have triangles, else by the network
+  NSVCD_METHOD_DEFAULT = 0,
+  NSVCD_METHOD_PROOF,   // facts
+  NSVCD_METHOD_NETWORK  // an opinion, in a time that is bounded strictly
+} nsvcd_method;
 
 // The decoders, all on the same latents: about 4, 13 and 40 thousand multiplications for each pair
 // of patches.
@@ -45,62 +43,26 @@ typedef enum nsvcd_precision {
   NSVCD_PRECISION_INT8
 } nsvcd_precision;
 
-// How a question is answered.
-typedef enum nsvcd_method {
-  // by proof where both bodies have triangles, else by the network
-  NSVCD_METHOD_DEFAULT = 0,
-  NSVCD_METHOD_PROOF,   // a witness or a certificate
-  NSVCD_METHOD_NETWORK  // an opinion, in a time that is bounded strictly
-} nsvcd_method;
-
-#define NSVCD_DEFAULT_WORK 100000
-#define NSVCD_NO_TRIANGLE 0xffffffffu
-#define NSVCD_DEFAULT_PAIRS 8
-#define NSVCD_MAX_PAIRS 256
-// the logit of INSIDE; its negative is that of CERTIFIED_FREE
-#define NSVCD_LOGIT_CERTAIN 100.0f
-
-// What is zero is the default.
-typedef struct nsvcd_sweep_options {
-  // K, pairs of patches that the network looks at, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
+// What the network is told. What is zero is the default.
+typedef struct nsvcd_network_options {
+  // K, pairs of patches that it looks at, 1..NSVCD_MAX_PAIRS; 0: NSVCD_DEFAULT_PAIRS
   size_t pairs;
   nsvcd_model model;
   nsvcd_precision precision;
-  // share of collisions that the network is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
+  // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  nsvcd_method method;
-  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell
-  size_t work;
-  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
-  // what turns by more than 20 degrees in one of them takes longer to prove
-  size_t segments;
-  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
-  // may be left undecided
-  float tolerance;
+} nsvcd_network_options;
 
-  // By proof only:
-  // metres: to come as close as this counts as a collision; 0: to meet does
-  float clearance;
-  // share of the motion, up to 1: contact_time is that of the first contact, to this. 0: of any
-  // contact. It may be later where surfaces are within the quanta or the tolerance of each other
-  // for longer than this before they meet, or more work is needed: see free_until. An eighth of the
-  // work is kept for whether they meet at all
-  float first;
-  // metres: the least distance over the motion is between clearance_low and clearance_high. These
-  // are no farther apart than this, or than twice the bodies' quanta and the tolerance where that
-  // is more, and these quanta (nsvcd_body_facts.quantum) once more; farther where work ran out:
-  // then they are the best that was proven. 0: unasked. Not with `first`. The status is what it
-  // would be without
-  float measure;
-  // metres: a contact at the start that is no deeper than this does not count, nor does what is
-  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
-  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
-  // by this much along the normals of all that it touches, and touches nothing then: see
-  // answer.lift
-  float skin;
-} nsvcd_sweep_options;
+#define NSVCD_DEFAULT_WORK 100000
+#define NSVCD_NO_TRIANGLE 0xffffffffu
+// that an answer names at most
+#define NSVCD_MAX_CONTACTS 4
+#define NSVCD_DEFAULT_PAIRS 8
+#define NSVCD_MAX_PAIRS 256
+// the logit of what a proof says is a hit; its negative is that of what is free
+#define NSVCD_LOGIT_CERTAIN 100.0f
+// of the radius of the smaller body's sphere: what `to` is where nothing is said
+#define NSVCD_DEFAULT_TO 0.001f
 
 // A body in a scene: how it moves, and how large it is. Many may share one body.
 typedef struct nsvcd_mover {
@@ -119,64 +81,158 @@ typedef struct nsvcd_mover {
 typedef struct nsvcd_question {
   // either may move, or both, in the same time; their counts of poses may differ
   nsvcd_mover a, b;
-  nsvcd_sweep_options options;
+  nsvcd_ask ask;
+  // metres. FIRST: no point of one body moves farther than this, as the other sees it, from the
+  // time that is proven free to that of the contact. DISTANCE: how wide the bracket may be. 0 (and
+  // to_time 0): NSVCD_DEFAULT_TO of the smaller body. Not with HIT
+  float to;
+  // FIRST: the same as a share of the motion, up to 1. Where both are set, both hold
+  float to_time;
+  // metres: to come as near as this is a hit; 0: to meet is one
+  float clearance;
+  // metres: a contact at the start that is no deeper than this does not count, nor does what is
+  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
+  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
+  // by this much along the normals of all that it touches, and touches nothing then: see
+  // answer.lift
+  float skin;
+  // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
+  // may be left undecided
+  float tolerance;
+  nsvcd_method method;
+  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
+  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
+  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell;
+  // of FIRST an eighth is kept for whether they meet at all
+  size_t work;
+  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
+  // what turns by more than 20 degrees in one of them takes longer to prove
+  size_t segments;
+  // where it is the network that answers; it knows neither FIRST nor DISTANCE, nor a clearance or a
+  // skin
+  nsvcd_network_options network;
 } nsvcd_question;
 
-typedef struct nsvcd_answer {
-  // of collision; positive is yes. By the network: the greatest of the pairs looked at, less the
-  // threshold that options.recall asks for; the search ends at the first above 3. Where the tiny
-  // decoder, which ranks the pairs, is clear (beyond +-3), that one answers. By proof:
-  // +-NSVCD_LOGIT_CERTAIN; where it is undecided, the network's
-  float logit;
-  // logit > 0. UNDECIDED: the network's opinion on whether they meet, or yes where there is none or
-  // something else is asked
-  int collides;
-  // in [0,1]. WITNESS: when the triangles meet; with options.first the first contact is then, or
-  // before that but not before free_until; 0 if they meet at the start. UNDECIDED: when the
-  // triangles named are as near as clearance_high. INSIDE: 0. By the network, and UNDECIDED where
-  // no triangles are named: when the most suspicious pair comes closest
-  float contact_time;
-  // in [0,1]. By proof: no contact is before this. CERTIFIED_FREE: 1. With options.first: when
-  // doubt begins, or, where none does before it, contact_time - first of a WITNESS; earlier where
-  // work ran out. Otherwise 0
-  float free_until;
-  // metres. By proof: they stay farther apart than clearance_low until free_until, with
-  // options.measure all the time, and come as near as clearance_high, at contact_time if triangles
-  // are named. What stored triangles are off by is allowed for, and so clearance_high is not 0
-  // where they meet; it is HUGE_VALF where it is not known
-  float clearance_low;
-  float clearance_high;
-  // the pair that decided; 0, 0 where there is none
-  uint32_t patch_a;
-  uint32_t patch_b;
-  nsvcd_status status;
-  // by the network: pairs of patches whose spheres meet, each counted once for each stretch of
-  // time, until the search ends
-  size_t candidates;
-  // metres, world. Of the triangles named below, where they meet at that time, or on one of them
-  // where they are nearest; of a large one, which is stored in parts, the part that was looked at
-  // last. INSIDE: a point of what is inside
+typedef enum nsvcd_verdict {
+  NSVCD_UNDECIDED = 0,
+  // the surfaces never come within the clearance; and nothing is inside of anything
+  NSVCD_FREE,
+  // they do, or one body, or a part of it, is inside of the other
+  NSVCD_HIT
+} nsvcd_verdict;
+
+// A verdict in a word; never NULL.
+NSVCDDEF const char *nsvcd_verdict_string(nsvcd_verdict verdict);
+
+// Who says so.
+typedef enum nsvcd_by {
+  // it is a fact. Bodies without triangles may be FREE by it too: spheres that cover their surfaces
+  // never meet, and only that nothing is inside is an estimate
+  NSVCD_BY_PROOF = 0,
+  // it is an opinion
+  NSVCD_BY_NETWORK
+} nsvcd_by;
+
+// Why not all that was asked is answered.
+typedef enum nsvcd_why {
+  // all of it is
+  NSVCD_WHY_NOTHING = 0,
+  // surfaces come nearer than the quanta of both bodies and the tolerance, and do not meet; or, of
+  // eight rays, none could tell whether one is inside the other
+  NSVCD_WHY_TOO_NEAR,
+  // question.work was not enough
+  NSVCD_WHY_WORK
+} nsvcd_why;
+
+// What is known of a number: it is no less than `low`, and no more than `high`.
+typedef struct nsvcd_range {
+  float low, high;
+} nsvcd_range;
+
+// Two triangles, and where they meet or are nearest.
+typedef struct nsvcd_contact {
+  // metres, world. Where they meet, or on one of them where they are nearest; of a large triangle,
+  // which is stored in parts, the part that was looked at last
   float point[3];
-  // world. Unit normal of one of these, from b to a (an open surface met from behind: as it is
+  // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
   // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
   // where that triangle has no area
   float normal[3];
-  // as numbered in the caller's meshes. WITNESS: those that meet. UNDECIDED: two that come too near
-  // to tell, with options.first the earliest; NSVCD_NO_TRIANGLE where none are known. With
-  // options.measure the nearest ones found, but for INSIDE. Otherwise NSVCD_NO_TRIANGLE
-  uint32_t triangle_a;
-  uint32_t triangle_b;
-  // metres, world, at the start: by what a was lifted off b for options.skin; it turns with b, or,
-  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
-  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
-  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
+  // metres between the stored triangles; 0: they meet
+  float gap;
+  // in [0,1]: when
+  float time;
+  // as numbered in the caller's meshes; NSVCD_NO_TRIANGLE where none are named
+  uint32_t triangle_a, triangle_b;
+  // that list them
+  uint32_t patch_a, patch_b;
+} nsvcd_contact;
+
+// Where the bodies may go: to where they are at a time until which they are free of each other,
+// lifted off what they touch.
+typedef struct nsvcd_safe_place {
+  // time.low
+  float time;
+  // of both, world. The lift is in the pose of a; where only b moves, in that of b
+  nsvcd_pose a, b;
+} nsvcd_safe_place;
+
+// What the network thinks.
+typedef struct nsvcd_opinion {
+  // 1: it was asked. Otherwise all is 0
+  int asked;
+  // of collision, positive is yes: the greatest of the pairs looked at, less the threshold that
+  // `recall` asks for; the search ends at the first above 3. Where the tiny decoder, which ranks
+  // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
+  // decoder was needed
+  float logit;
+  // in [0,1]: when the most suspicious pair comes closest
+  float time;
+  // that pair
+  uint32_t patch_a, patch_b;
+  // pairs of patches whose spheres meet, each counted once for each stretch of time, until the
+  // search ends
+  size_t candidates;
+  // 1: there were more of these than `pairs` let through
+  int limited;
+} nsvcd_opinion;
+
+// One meaning a field, whatever was asked and whoever answers. What is not known is HUGE_VALF, or a
+// count of 0.
+typedef struct nsvcd_answer {
+  nsvcd_verdict verdict;
+  nsvcd_by by;
+  nsvcd_why why;
+  // 1: a hit, for one body or a part of it lies inside the other at the start, by proof or by the
+  // network's estimate. Surfaces may meet as well: a plain question does not look for that
+  int inside;
+  // in [0,1]. They are free of each other before `low`, and in contact at `high`. FREE: 1, 1. Low
+  // is 0 where not asked for FIRST
+  nsvcd_range time;
+  // metres: the least distance over the motion, up to time.high where that is known: to the
+  // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,
+  // and so `high` is not 0 where they meet
+  nsvcd_range distance;
+  nsvcd_safe_place safe;
+  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or, where
+  // a rests, or both move and a is the larger, with a. The answer is about the motion so displaced,
+  // which touches nothing at the start. 0: nothing was touched; or no lift does that, since a is
+  // pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
+  // of a HIT whose triangles are known, at time.high
+  size_t contact_count;
+  nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
+  // the triangles that distance.high is about, whatever the verdict: of a HIT the first contact
+  // above; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
+  // named where none were found. Of what is inside the point alone is set, one of it
+  nsvcd_contact nearest;
+  nsvcd_opinion opinion;
   // units that the proof took
   size_t work;
 } nsvcd_answer;
 
 // Bytes of the workspace that nsvcd_sweep needs; 0 if the question is refused. They depend on the
-// sizes of the bodies, the method, and options.segments, pairs and model.
+// sizes of the bodies, the method, the segments, and the network's pairs and model.
 //   question   NULL: enough for any question
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 
@@ -193,17 +249,17 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
-// CERTIFIED_FREE and INSIDE hold for the meshes themselves. The triangles of a WITNESS meet to
-// within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces that
-// come as close as that without meeting, or more work than was allowed. More work never leaves
-// undecided what less decides, but for luck: options.first with a few hundred units.
+// FREE, and a HIT of what is inside, hold for the meshes themselves. The triangles of any other HIT
+// meet to within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces
+// that come as close as that without meeting, or more work than was allowed. More work never leaves
+// undecided what less decides, but for luck: FIRST with a few hundred units.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
 // spheres against one; by the network, for motions that turn by more than 45 degrees, on machines
 // of less than 16 lanes, 34 S Ga Gb. Of bodies of more than 512 patches only those groups count
 // that the other body comes near, and some 16 tests more for each level of spheres and each 16
-// spheres of it that it comes near. Then a proof takes options.work units. The network takes the
+// spheres of it that it comes near. Then a proof takes question.work units. The network takes the
 // tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances for
 // each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
@@ -212,8 +268,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 // Workspaces as constants, for arrays of a fixed size, a little larger than need be. Where one
 // workspace is for both methods, take the larger.
 //   patches_a, patches_b patches of the bodies, or more
-//   segments             options.segments, 16 to 64
-//   pairs                options.pairs, K
+//   segments             question.segments, 16 to 64
+//   pairs                question.network.pairs, K
 // NSVCD_MEMORY declares an array that is aligned:
 //   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(64, 192, 16));
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
@@ -242,9 +298,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of answer->logit by the poses of a and b.
+// Answers a question by the network, with the derivatives of its logit by the poses of a and b.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
-//   question   options.method is not PROOF, and no option is set that only a proof has
+//   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep
 //   gradient_a, gradient_b   (count, 6), one row for a body without poses; one of them may be NULL;
 //              left as they were on failure. Of each pose: by a displacement of the body's origin
@@ -255,8 +311,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no network answered (CERTIFIED_FREE, INSIDE), and for poses that the decisive pair
-// does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
 // the greatest of several, and so has kinks, also where the network (ReLU) and the frame of a pair
 // have theirs. Where the pair is at rest, or does not turn, it is the mean of both sides. The ends
 // of the stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search

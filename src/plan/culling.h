@@ -152,6 +152,13 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
   }
 }
 
+// A logit of any answer: what is undecided counts as a hit.
+static float nsvcd__logit_of(const nsvcd_answer *answer) {
+  if (answer->verdict != NSVCD_UNDECIDED && answer->opinion.asked)
+    return answer->opinion.logit;
+  return answer->verdict == NSVCD_FREE ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
+}
+
 // The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
 // end, by the method of the options. gradient: (segments + 1, 6), or NULL.
 static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
@@ -163,26 +170,24 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  nsvcd_question question;
-  memset(&question, 0, sizeof question);
-  question.a.body = p->problem->bodies[pair->a];
-  question.a.poses = motion;
-  question.a.count = segments + 1;
-  question.b.body = p->problem->bodies[pair->b];
-  question.options = p->options.sweep;
+  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, 0};
+  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, 0};
+  nsvcd_question question = p->options.sweep;
+  question.a = a;
+  question.b = b;
+  question.ask = NSVCD_ASK_HIT;
+  question.to = question.to_time = 0;
   if (!at_end) {
-    question.options.method = NSVCD_METHOD_NETWORK;
-    question.options.clearance = 0;
-    question.options.measure = 0;
-    question.options.first = 0;
-    question.options.skin = 0;
+    question.method = NSVCD_METHOD_NETWORK;
+    question.clearance = 0;
+    question.skin = 0;
   }
 
   nsvcd_answer answer;
   nsvcd_result error;
   memset(&answer, 0, sizeof answer);
   // of an error
-  answer.logit = -NSVCD_LOGIT_CERTAIN;
+  answer.verdict = NSVCD_FREE;
   if (gradient)
     error = nsvcd_sweep_gradient(&question, p->query, p->query_size, &answer, gradient, NULL);
   else
@@ -213,16 +218,20 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
   const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
-  if (answer.logit > cost->logit) {
-    const float at = (float)s + (float)how->stride * answer.contact_time;
-    cost->logit = answer.logit;
+  const float logit = nsvcd__logit_of(&answer);
+  const int collides = answer.verdict != NSVCD_FREE;
+  if (logit > cost->logit) {
+    const int by_proof = answer.by == NSVCD_BY_PROOF;
+    const float t = by_proof ? answer.nearest.time : answer.opinion.time;
+    const float at = (float)s + (float)how->stride * t;
+    cost->logit = logit;
     cost->pair = k;
     // only a proof takes work
-    cost->proven = answer.collides && answer.work > 0;
+    cost->proven = collides && answer.work > 0;
     cost->time = how->moments > 1 ? at / (float)(how->moments - 1) : 0;
   }
-  cost->collides |= answer.collides;
-  cost->collision += nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+  cost->collides |= collides;
+  cost->collision += nsvcd__cost_of_logit(logit, p->options.margin, &slope);
   for (size_t i = 0; wanted && slope > 0 && i <= how->stride; i++) {
     const size_t row = (s + i) * p->problem->body_count;
     nsvcd__add_wrench(pair, p->poses + row, slope, gradient + 6 * i, how->wrenches + 6 * row);
@@ -245,9 +254,12 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
       size_t run = 1;
       while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
       seen = s + run;
-      if (run > 1 && nsvcd__ask(p, k, s, run, 0, NULL).logit <= -p->options.margin) {
-        s += run - 1;
-        continue;
+      if (run > 1) {
+        const nsvcd_answer answer = nsvcd__ask(p, k, s, run, 0, NULL);
+        if (nsvcd__logit_of(&answer) <= -p->options.margin) {
+          s += run - 1;
+          continue;
+        }
       }
     }
     nsvcd__add_segment(p, k, s, how, cost);

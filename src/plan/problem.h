@@ -157,7 +157,7 @@ typedef struct nsvcd__cost {
   // of the last check, which looks closer: the most suspicious moment, and who is suspected
   float logit, time;
   size_t pair;
-  // a proof has found it, INSIDE too, or could not rule it out
+  // a proof has found it, of what is inside too, or could not rule it out
   int proven;
 } nsvcd__cost;
 
@@ -228,7 +228,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
     if (!nsvcd__is_finite(floats[k])) return 0;
   }
-  if (nsvcd__settings_of(&o->sweep, 1, 1, &unused)) return 0;
+  if (nsvcd__settings_of(&o->sweep.network, 1, 1, &unused)) return 0;
   if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
   if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;

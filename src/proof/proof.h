@@ -2,7 +2,7 @@
 // certificate that the surfaces never do, or neither: undecided.
 //
 // THEOREM. Let both bodies be scaled and posed by the motions of motion/motion: between two
-// poses the position is linear in t and the rotation a slerp. If the proof ends in CERTIFIED_FREE,
+// poses the position is linear in t and the rotation a slerp. If the proof ends in FREE,
 // then at no t in [0,1] do the surfaces of the two meshes come within the clearance of each other,
 // and no component of one lies within what closed components of the other enclose (a body that is
 // said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
@@ -11,7 +11,7 @@
 //      to part each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
 //      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
-//      item is parted by one of the steps below, or the verdict is not CERTIFIED_FREE.
+//      item is parted by one of the steps below, or the verdict is not FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
 //      point x of the moving body (body frame) leaves the chord between its places at the ends by
 //      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
@@ -40,7 +40,7 @@
 //      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
 //      side of a plane, and agree.
 //
-// A WITNESS is a pair of stored triangles that share a point at the true pose, in double, or, where
+// A witness is a pair of stored triangles that share a point at the true pose, in double, or, where
 // a clearance is asked for, come within it; the mesh's own triangles are then within that and the
 // two quanta of each other. Faces that are parallel when
 // they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
@@ -233,8 +233,9 @@ typedef struct nsvcd__given {
   // beyond the quanta
   double tolerance;
   double clearance, skin;
-  // `first`, a share of the motion
-  double share;
+  // to which share of the motion the first contact is asked for, and to which width the least
+  // distance; 0: it is not
+  double share, width;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken
@@ -310,6 +311,8 @@ typedef struct nsvcd__proof {
   int within;
   nsvcd__d3 enclosed;
   int unclear;
+  // the least distance is not known as narrowly as was asked for
+  int wide;
 
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.

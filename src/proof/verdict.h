@@ -275,11 +275,11 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  int wide = !nsvcd__measure_once(p, search);
+  p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
-  for (p->ask.measure = p->high - p->low; wide && p->ask.measure > finest;) {
+  for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
     p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
-    wide = nsvcd__measure_once(p, search);
+    p->wide = nsvcd__measure_once(p, search);
   }
 }
 #endif  // NSVCD_NO_PROOF

@@ -10,7 +10,7 @@
 // there; *settings is then not whole. The threshold: weights.h has one per decoder, recall and N =
 // 32, 64, ..., 512; between those, and for two bodies that differ, it is interpolated at the mean
 // of log2 N.
-static nsvcd_result nsvcd__settings_of(const nsvcd_sweep_options *o, size_t points1,
+static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
     return NSVCD_ERROR_ARGUMENT;
@@ -94,11 +94,11 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
 
 // Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
-                               const nsvcd__decoder *decoder, nsvcd_answer *answer) {
-  answer->logit = candidate->score - task->settings.threshold;
-  answer->contact_time = candidate->t_least;
-  answer->patch_a = candidate->moving;
-  answer->patch_b = candidate->fixed;
+                               const nsvcd__decoder *decoder, nsvcd_opinion *out) {
+  out->logit = candidate->score - task->settings.threshold;
+  out->time = candidate->t_least;
+  out->patch_a = candidate->moving;
+  out->patch_b = candidate->fixed;
   if (task->decisive) {
     task->decisive->candidate = *candidate;
     task->decisive->decoder = decoder;
@@ -113,21 +113,21 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 // Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
 // all, clearly none? Then that is the answer, and no other decoder needs to look.
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
-                           nsvcd_answer *answer) {
+                           nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
   const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
-  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, answer);
+  if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, out);
   return yes || no;
 }
 
 // The verdict on the K most suspicious of the scored candidates, but for the harmless ones, a
 // portion at a time, until one is clearly positive.
 static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
-                         nsvcd_answer *answer) {
+                         nsvcd_opinion *out) {
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidate *items = kept->items;
   size_t count = kept->count < settings->pairs ? kept->count : settings->pairs;
@@ -144,7 +144,7 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   }
   while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
   for (size_t first = 0; first < count; first += NSVCD__PORTION) {
-    if (!(answer->logit < NSVCD__CLEAR_LOGIT)) break;
+    if (!(out->logit < NSVCD__CLEAR_LOGIT)) break;
     nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
@@ -155,15 +155,15 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
     }
     for (size_t k = 0; k < size; k++) {
       const int is_first = first + k == 0;
-      if (is_first || portion[k]->score - settings->threshold > answer->logit)
-        nsvcd__answer_with(task, portion[k], settings->decoder, answer);
+      if (is_first || portion[k]->score - settings->threshold > out->logit)
+        nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
 static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
-                                              nsvcd_answer *answer) {
+                                              nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
@@ -171,17 +171,17 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
-  answer->candidates = kept.total;
-  answer->status = kept.total > settings->pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
-  if (nsvcd__is_clear(task, &kept, 0, answer)) return 1;
+  out->candidates = kept.total;
+  out->limited = kept.total > settings->pairs;
+  if (nsvcd__is_clear(task, &kept, 0, out)) return 1;
   if (settings->decoder == settings->ranker) return 0;
-  nsvcd__judge(task, &kept, answer);
-  return answer->logit >= NSVCD__CLEAR_LOGIT;
+  nsvcd__judge(task, &kept, out);
+  return out->logit >= NSVCD__CLEAR_LOGIT;
 }
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
@@ -197,16 +197,15 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_answ
     // costs little.
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
-    clear = nsvcd__is_clear(task, &kept, 0, answer);
+    clear = nsvcd__is_clear(task, &kept, 0, out);
     if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
   }
 
-  answer->candidates = kept.total;
-  if (kept.total > 0)
-    answer->status = kept.total > task->settings.pairs ? NSVCD_STATUS_LIMIT : NSVCD_STATUS_OK;
+  out->candidates = kept.total;
+  out->limited = kept.total > task->settings.pairs;
   if (clear || kept.count == 0) return;
   nsvcd__score(task, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(task, &kept, 1, answer)) nsvcd__judge(task, &kept, answer);
+  if (!nsvcd__is_clear(task, &kept, 1, out)) nsvcd__judge(task, &kept, out);
 }
 
 // Is a part of one body inside of the other at the start?
@@ -215,34 +214,53 @@ static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
 
-// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch.
-static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
-                                     nsvcd_answer *answer) {
+// What is thought where no decoder is needed.
+static nsvcd_opinion nsvcd__certain_opinion(float logit) {
+  nsvcd_opinion out;
+  memset(&out, 0, sizeof out);
+  out.asked = 1;
+  out.logit = logit;
+  return out;
+}
+
+// Asks the network about a motion that has been prepared. hint: NULL, or that of a batch. Returns
+// whether one body seems to be inside the other at the start.
+static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
   const int hinted = hint && hint->known;
   // checked before
-  (void)nsvcd__settings_of(task->options, task->moving->patches, task->fixed->patches,
-                           &task->settings);
-  nsvcd__answer_free(answer);
-  if (nsvcd__motion_gap(&task->motion) > task->lengths) return;
+  (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
+                           task->fixed->patches, &task->settings);
+  *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  if (!hinted || !nsvcd__collides_again(query, hint, answer)) {
-    nsvcd__answer_free(answer);
+  if (!hinted || !nsvcd__collides_again(query, hint, out)) {
+    *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
-    nsvcd__search_and_judge(query, answer);
+    nsvcd__search_and_judge(query, out);
   }
-  if (hint && answer->logit >= NSVCD__CLEAR_LOGIT) {
-    const nsvcd__hint here = {1, 0, answer->patch_a, answer->patch_b};
+  if (hint && out->logit >= NSVCD__CLEAR_LOGIT) {
+    const nsvcd__hint here = {1, 0, out->patch_a, out->patch_b};
     *hint = here;
   }
 
   // a body inside another need not touch anything
-  if (nsvcd__starts_inside(task)) {
-    answer->status = NSVCD_STATUS_INSIDE;
-    answer->logit = NSVCD_LOGIT_CERTAIN;
-    answer->contact_time = 0;
-    answer->patch_a = answer->patch_b = 0;
-  }
-  answer->collides = answer->logit > 0;
+  if (!nsvcd__starts_inside(task)) return 0;
+  const size_t candidates = out->candidates;
+  *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
+  out->candidates = candidates;
+  return 1;
+}
+
+// The network's answer.
+static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
+                                     nsvcd_answer *answer) {
+  nsvcd_opinion opinion;
+  const int inside = nsvcd__ask_network(query, hint, &opinion);
+  nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
+  answer->inside = inside;
+  answer->opinion = opinion;
+  if (opinion.candidates > 0 || inside) answer->by = NSVCD_BY_NETWORK;
+  if (opinion.logit > 0) answer->time.high = opinion.time;
 }
 #endif  // NSVCD_NO_NETWORK

@@ -4,6 +4,18 @@
 #include "task.h"
 
 #ifndef NSVCD_NO_PROOF
+// Where a body is at time t in [0,1], in the world.
+static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__track *track,
+                                   double t, nsvcd__d3 *position) {
+  nsvcd__leg leg;
+  nsvcd__d3 ends[2];
+  double u;
+  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
+  nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
+  *position = nsvcd__d3_mix(ends[0], ends[1], u);
+  return nsvcd__leg_at(&leg, u);
+}
+
 // From the fixed body's frame and units to the world, at time t.
 typedef struct nsvcd__to_world {
   nsvcd__dmat3 rotation;
@@ -13,21 +25,43 @@ typedef struct nsvcd__to_world {
 
 static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t) {
   nsvcd__to_world out;
-  nsvcd__d3 ends[2];
-  double u;
-  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
-  nsvcd__leg leg;
-  nsvcd__leg_init(&motion->fixed, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
-  out.rotation = nsvcd__dmat3_of(nsvcd__leg_at(&leg, u));
-  out.position = nsvcd__d3_mix(ends[0], ends[1], u);
+  const nsvcd__dquat turn = nsvcd__turn_at(motion, &motion->fixed, t, &out.position);
+  out.rotation = nsvcd__dmat3_of(turn);
   out.unit = (double)motion->unit;
   return out;
+}
+
+// To how many of the fixed body's units an answer is asked for; 0: FIRST asks for a share of the
+// motion alone.
+static double nsvcd__to_of(const nsvcd__task *task) {
+  const nsvcd_question *q = task->question;
+  const float moving = task->motion.scale * task->moving->radius;
+  const float fixed = task->fixed->radius;
+  const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
+  if (q->to > 0) return (double)(q->to / task->motion.unit);
+  return q->ask == NSVCD_ASK_FIRST && q->to_time > 0 ? 0 : (double)usual;
+}
+
+// The share of the motion in which no point of the moving body goes farther than `to`, if that is
+// asked for, nor longer than `share`, if that is.
+static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const double most = share > 0 ? share : 1;
+  const double extent = (double)(motion->scale * p->moving.body->extent);
+  double fastest = 0;  // per tick
+  for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
+    const nsvcd__arc *arc = nsvcd__arc_at(p, first);
+    fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);
+    first += arc->ticks;
+  }
+  const double whole = fastest * (double)motion->ticks;
+  return to < most * whole ? to / whole : most;
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
 static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
-  const nsvcd_sweep_options *o = task->options;
+  const nsvcd_question *q = task->question;
   const float unit = task->motion.unit;
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
@@ -35,24 +69,27 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->given.tolerance = (double)(o->tolerance / unit);
-  p->given.clearance = p->ask.clearance = (double)(o->clearance / unit);
-  p->given.skin = (double)(o->skin / unit);
-  p->given.share = p->ask.share = (double)o->first;
-  p->given.work = p->ask.limit = o->work ? o->work : NSVCD_DEFAULT_WORK;
-  p->given.tells = o->first > 0 || o->measure / unit > 0 || o->skin / unit > 0;
-  p->ask.measure = p->ask.first = p->low = 0;
+  p->given.tolerance = (double)(q->tolerance / unit);
+  p->given.clearance = p->ask.clearance = (double)(q->clearance / unit);
+  p->given.skin = (double)(q->skin / unit);
+  p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
+  p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = 0;
+  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  const double to = nsvcd__to_of(task);
+  if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
+  if (q->ask == NSVCD_ASK_FIRST)
+    p->given.share = p->ask.share = nsvcd__share_of(p, to, (double)q->to_time);
   nsvcd__proof_restart(p);
 }
 
-// Answers with the contact that a proof has found: when, where, and of what. swapped: it is the
-// fixed body that counts as lifted, the other way.
-static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped,
-                                       nsvcd_answer *answer) {
-  const nsvcd__contact *found = &p->known.found;
+// The contact that a proof has found: when, where, and of what. swapped: it is the fixed body that
+// counts as lifted, the other way.
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
+                                             const nsvcd__contact *found, int swapped,
+                                             nsvcd_contact *out) {
   const int rests = p->ask.motion->moving.count == 1 && !p->ask.motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)p->ask.motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(p->ask.motion, time);
@@ -61,28 +98,52 @@ static void nsvcd__answer_with_contact(const nsvcd__proof *p, int swapped,
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
-  answer->contact_time = (float)time;
-  answer->patch_a = found->moving_patch;
-  answer->patch_b = found->fixed_patch;
-  answer->triangle_a = found->moving_triangle;
-  answer->triangle_b = found->fixed_triangle;
-  nsvcd__f3_store(nsvcd__f3_round(point), answer->point);
-  nsvcd__f3_store(nsvcd__f3_round(normal), answer->normal);
+  nsvcd__f3_store(nsvcd__f3_round(point), out->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
+  out->gap = (float)(found->distance * world.unit);
+  out->time = (float)time;
+  out->triangle_a = found->moving_triangle;
+  out->triangle_b = found->fixed_triangle;
+  out->patch_a = found->moving_patch;
+  out->patch_b = found->fixed_patch;
 }
 
-// Proves a question whose motion has been prepared, if it can; else the answer is UNDECIDED and
-// says yes.
+// Where the bodies may go, which are proven free until answer->time.low. The one that moves takes
+// the lift; if both do, a.
+static NSVCD__APART void nsvcd__tell_safe_place(const nsvcd__task *task,
+                                                nsvcd_answer *answer) {
+  const nsvcd__motion *motion = &task->motion;
+  const double t = (double)answer->time.low;
+  const int lifts_fixed = task->swapped && (motion->fixed_moves || motion->moving.count == 1);
+  const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(motion->lift));
+  for (int moving = 0; moving < 2; moving++) {
+    const double by = moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit;
+    nsvcd_pose *out = moving ? &answer->safe.a : &answer->safe.b;
+    nsvcd__d3 place;
+    const nsvcd__dquat turn =
+        nsvcd__turn_at(motion, moving ? &motion->moving : &motion->fixed, t, &place);
+    place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, by));
+    nsvcd__f3_store(nsvcd__f3_round(place), out->position);
+    out->rotation[0] = (float)turn.x;
+    out->rotation[1] = (float)turn.y;
+    out->rotation[2] = (float)turn.z;
+    out->rotation[3] = (float)turn.w;
+  }
+  answer->safe.time = answer->time.low;
+}
+
+// Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const double unit = (double)task->motion.unit;
-  const double measure = (double)(task->options->measure / task->motion.unit);
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
   nsvcd__proof_begin(query);
   if (p->given.skin > 0) nsvcd__lift_motion(p, search);
   nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (measure > 0 && verdict != NSVCD__WITHIN) {
-    nsvcd__measure(p, search, verdict, measure);
+  if (p->given.width > 0 && verdict != NSVCD__WITHIN) {
+    nsvcd__measure(p, search, verdict, p->given.width);
     // A distance decides what was left undecided, but tells nothing of what is inside of what.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
@@ -92,18 +153,32 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   }
 
   // The triangles that the answer names are those of a contact, or else of a doubt.
-  const int is_doubt = verdict == NSVCD__UNDECIDED && p->known.unsure < NSVCD__NEVER;
-  const int names = p->known.has_contact || is_doubt;
+  const int has_doubt = p->known.unsure < NSVCD__NEVER;
+  const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
   const int is_within = verdict == NSVCD__WITHIN;
   const int is_free = verdict == NSVCD__FREE;
-  nsvcd__answer_free(answer);
+  const int is_hit = is_within || verdict == NSVCD__MEETS;
+  nsvcd__answer_begin(task,
+                      is_free  ? NSVCD_FREE
+                      : is_hit ? NSVCD_HIT
+                               : NSVCD_UNDECIDED,
+                      answer);
+  answer->inside = is_within;
   answer->work = p->work;
-  if (names || is_within) nsvcd__answer_with_contact(p, task->swapped, answer);
+  if (names || is_within)
+    nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
+  if (is_within) answer->nearest.gap = HUGE_VALF;
+  if (is_hit) answer->time.high = answer->nearest.time;
+  if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
 
-  // What is proven of clearances and times.
-  const double until = nsvcd__clear_until(p) / (double)p->ask.motion->ticks;
-  double proven = is_free;
-  if (!is_free && p->given.share > 0 && !is_within) proven = fmin(fmax(until, 0), 1);
+  // What is proven of times and distances.
+  if (p->given.share > 0 && !is_free && !is_within) {
+    const double ticks = (double)p->ask.motion->ticks;
+    const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
+    const double late = (double)answer->time.high - until;
+    answer->time.low = (float)(until * (1 - 1e-7));
+    if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+  }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
   if (names) {
@@ -111,9 +186,11 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
     high = found->distance + (double)quanta;
   }
-  answer->free_until = (float)(proven < 1 ? proven * (1 - 1e-7) : 1);
-  answer->clearance_low = (float)(low * unit * (1 - 1e-6));
-  answer->clearance_high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
+  answer->distance.low = (float)(low * unit * (1 - 1e-6));
+  answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
+  nsvcd__tell_safe_place(task, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
@@ -121,12 +198,5 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
-
-  answer->status = NSVCD_STATUS_UNDECIDED;
-  if (is_free) answer->status = NSVCD_STATUS_CERTIFIED_FREE;
-  if (is_within) answer->status = NSVCD_STATUS_INSIDE;
-  if (verdict == NSVCD__MEETS) answer->status = NSVCD_STATUS_WITNESS;
-  answer->collides = !is_free;
-  answer->logit = is_free ? -NSVCD_LOGIT_CERTAIN : NSVCD_LOGIT_CERTAIN;
 }
 #endif  // NSVCD_NO_PROOF

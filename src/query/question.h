@@ -25,7 +25,6 @@ static nsvcd_method nsvcd__method_of(const nsvcd_body *moving, const nsvcd_body 
 static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const nsvcd_sweep_options *o = &question->options;
   nsvcd_result result = nsvcd__mover_check(a);
   if (!result) result = nsvcd__mover_check(b);
   if (result) return result;
@@ -37,25 +36,28 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
-  const float lengths[5] = {o->tolerance, o->clearance, o->measure, o->skin, o->first};
-  if ((unsigned)o->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if (o->segments > NSVCD__MAX_SEGMENTS || o->segments % NSVCD__LANES)
+  const nsvcd_question *q = question;
+  const float lengths[5] = {q->tolerance, q->clearance, q->to, q->skin, q->to_time};
+  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ARGUMENT;
+  if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
     return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 5; k++) {
     const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
     if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
     if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
   }
-  if (o->first > 0 && o->measure > 0) return NSVCD_ERROR_ARGUMENT;
+  if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
+  if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
-  const int needs_proof = o->clearance > 0 || o->measure > 0 || o->first > 0 || o->skin > 0;
-  if (needs_proof && o->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : o->method;
+  const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
+  if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
     return NSVCD_ERROR_BODY;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
-  return nsvcd__settings_of(o, a->body->patches, b->body->patches, &unused);
+  return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);
 #else
   return NSVCD_OK;
 #endif
@@ -92,16 +94,16 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   if (!question) return needs;
   const nsvcd_body *a = question->a.body;
   const nsvcd_body *b = question->b.body;
-  const nsvcd_sweep_options *options = &question->options;
   const int swapped = nsvcd__is_swapped(&question->a, &question->b);
   const size_t moving_groups = nsvcd__body_groups(swapped ? b : a);
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
   needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
-  if (options->segments) needs.segments = nsvcd__round_up(options->segments, NSVCD__LANES);
-  needs.proof = nsvcd__method_of(a, b, options->method) == NSVCD_METHOD_PROOF;
+  if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
+  needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
+  const nsvcd_network_options *options = &question->network;
   const size_t pairs = options->pairs ? options->pairs : NSVCD_DEFAULT_PAIRS;
   const size_t most = options->model == NSVCD_MODEL_TINY ? pairs : NSVCD__SHORTLIST * pairs;
   needs.candidates = most > NSVCD__PORTION ? most : NSVCD__PORTION;
@@ -131,7 +133,6 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
 // Lays a question that has been checked out in the workspace, and chooses who moves.
 static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
                                                     void *workspace) {
-  const nsvcd_sweep_options *options = &question->options;
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
@@ -143,8 +144,8 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   task->moving = moving->body;
   task->fixed = fixed->body;
   task->lengths = task->motion.scale * task->moving->extent + task->fixed->extent;
-  task->method = nsvcd__method_of(task->moving, task->fixed, options->method);
-  task->options = options;
+  task->method = nsvcd__method_of(task->moving, task->fixed, question->method);
+  task->question = question;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
 #endif
@@ -153,50 +154,48 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
 
 // ---- answer, and write
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-// Adds the network's opinion, where it has one, to what a proof has left undecided.
-static void nsvcd__add_opinion(nsvcd__query *query, nsvcd_answer *answer) {
-  const nsvcd__task *task = &query->task;
-  const nsvcd_sweep_options *options = task->options;
-  nsvcd_answer opinion;
-  if (!task->moving->weights_id || !task->fixed->weights_id) return;
-  if (options->clearance > 0 || options->measure > 0 || options->skin > 0) return;
-  nsvcd__answer_by_network(query, NULL, &opinion);
-  answer->logit = opinion.logit;
-  answer->collides = opinion.collides;
-  answer->candidates = opinion.candidates;
-  if (answer->triangle_a != NSVCD_NO_TRIANGLE) return;
-  answer->contact_time = opinion.contact_time;
-  answer->patch_a = opinion.patch_a;
-  answer->patch_b = opinion.patch_b;
+// What was found out about the moving body and the fixed one, said about b and a.
+static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
+  const uint32_t first = *a;
+  *a = *b;
+  *b = first;
 }
-#endif
+static void nsvcd__swap_contact(nsvcd_contact *contact) {
+  nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
+  nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
+  for (size_t k = 0; k < 3; k++) contact->normal[k] = 0 - contact->normal[k];
+}
+static void nsvcd__swap_answer(nsvcd_answer *answer) {
+  const nsvcd_pose moving = answer->safe.a;
+  answer->safe.a = answer->safe.b;
+  answer->safe.b = moving;
+  nsvcd__swap_patches(&answer->opinion.patch_a, &answer->opinion.patch_b);
+  nsvcd__swap_contact(&answer->nearest);
+  for (size_t n = 0; n < answer->contact_count; n++) nsvcd__swap_contact(&answer->contacts[n]);
+  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+}
 
 // Answers a question that has been checked and laid out. hint: NULL, or that of a batch, for the
 // network.
 static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
   (void)hint;
 #ifndef NSVCD_NO_PROOF
-  if (query->task.method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
+  if (task->method == NSVCD_METHOD_PROOF) nsvcd__answer_by_proof(query, answer);
 #endif
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_NETWORK)
-  if (query->task.method == NSVCD_METHOD_PROOF && answer->status == NSVCD_STATUS_UNDECIDED)
-    nsvcd__add_opinion(query, answer);
+  // What a proof has left undecided the network has an opinion on, if no more than yes or no is
+  // asked.
+  const nsvcd_question *q = task->question;
+  const int knows = task->moving->weights_id && task->fixed->weights_id &&
+                    !(q->clearance > 0 || q->ask == NSVCD_ASK_DISTANCE || q->skin > 0);
+  if (task->method == NSVCD_METHOD_PROOF && answer->verdict == NSVCD_UNDECIDED && knows)
+    (void)nsvcd__ask_network(query, NULL, &answer->opinion);
 #endif
 #ifndef NSVCD_NO_NETWORK
-  if (query->task.method == NSVCD_METHOD_NETWORK)
-    nsvcd__answer_by_network(query, hint, answer);
+  if (task->method == NSVCD_METHOD_NETWORK) nsvcd__answer_by_network(query, hint, answer);
 #endif
-  if (!query->task.swapped) return;
-  // What was found out about moving and fixed, said about a and b.
-  const uint32_t patch = answer->patch_a;
-  const uint32_t triangle = answer->triangle_a;
-  answer->patch_a = answer->patch_b;
-  answer->patch_b = patch;
-  answer->triangle_a = answer->triangle_b;
-  answer->triangle_b = triangle;
-  for (size_t k = 0; k < 3; k++) answer->normal[k] = 0 - answer->normal[k];
-  for (size_t k = 0; k < 3; k++) answer->lift[k] = 0 - answer->lift[k];
+  if (task->swapped) nsvcd__swap_answer(answer);
 }
 
 // As nsvcd_sweep_batch.

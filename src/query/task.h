@@ -25,7 +25,7 @@
 //
 // The search finds pairs of patches whose balls meet. The deepest of them make the shortlist. The
 // ranker, which is the tiny decoder, scores these while the search goes on, and the chosen decoder
-// judges the K most suspicious. K is options.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
+// judges the K most suspicious. K is network.pairs, NSVCD_DEFAULT_PAIRS where nothing is said. That
 // a motion is cut into 16 to 64 segments stands in *broad phase*, what goes through the decoder at
 // once (NSVCD__BATCH, NSVCD__ROWS) in *decoder*, and what a proof may take in *proof*.
 
@@ -77,7 +77,7 @@ typedef struct nsvcd__task {
   float lengths;
   nsvcd_method method;  // PROOF or NETWORK
   // the caller's
-  const nsvcd_sweep_options *options;
+  const nsvcd_question *question;
 #ifndef NSVCD_NO_NETWORK
   // of the network
   nsvcd__settings settings;
@@ -145,14 +145,23 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   return (size_t)end;
 }
 
-// What is said of bodies that never meet.
-static void nsvcd__answer_free(nsvcd_answer *answer) {
+// What is said where no more than a verdict is known: they may go to where they are in the end if
+// they are free all the way, else nowhere.
+static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
+                                nsvcd_answer *answer) {
+  const nsvcd__track *moving = &task->motion.moving;
+  const nsvcd__track *fixed = &task->motion.fixed;
+  const int is_free = verdict == NSVCD_FREE;
   memset(answer, 0, sizeof *answer);
-  answer->logit = -NSVCD_LOGIT_CERTAIN;
-  answer->status = NSVCD_STATUS_CERTIFIED_FREE;
-  answer->clearance_high = HUGE_VALF;
-  answer->triangle_a = NSVCD_NO_TRIANGLE;
-  answer->triangle_b = NSVCD_NO_TRIANGLE;
+  answer->verdict = verdict;
+  answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
+  answer->time.high = is_free ? 1 : HUGE_VALF;
+  answer->distance.high = HUGE_VALF;
+  answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
+  answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
+  answer->nearest.gap = HUGE_VALF;
+  answer->nearest.triangle_a = NSVCD_NO_TRIANGLE;
+  answer->nearest.triangle_b = NSVCD_NO_TRIANGLE;
 }
 
 // Where the last of a batch collided by the network: the next is asked there first. Forgotten when
