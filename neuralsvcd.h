@@ -80,13 +80,13 @@
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
-//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is
+//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
 //   with rounding, less than twice that), that of eight rays none could tell whether one is inside
 //   the other, or that the work allowed was not enough; then the network's opinion is added where
-//   it has one. A component of a mesh is closed if every edge has its reverse; what is open encloses
-//   nothing.
+//   it has one. A component of a mesh is closed if every edge has its reverse; what is open
+//   encloses nothing.
 //   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
 //   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
 //   another, ask for a proof. What is inside is an estimate, a winding number of patches: reliable
@@ -782,10 +782,10 @@ typedef struct nsvcd_answer {
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
   nsvcd_safe_place safe;
-  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or, where
-  // a rests, or both move and a is the larger, with a. The answer is about the motion so displaced,
-  // which touches nothing at the start. 0: nothing was touched; or no lift does that, since a is
-  // pressed in deeper than the skin, or held from all sides: then the contact counts
+  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
+  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
+  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
+  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
   // of a HIT whose triangles are known, at time.high
   size_t contact_count;
@@ -879,13 +879,14 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
-// the greatest of several, and so has kinks, also where the network (ReLU) and the frame of a pair
-// have theirs. Where the pair is at rest, or does not turn, it is the mean of both sides. The ends
-// of the stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
-// begins or ends. The unit of length, and the spheres' allowance for what the motion does between
-// its knots, are taken as constant. In int8 arithmetic it is the derivative of the float decoder,
-// or, without that, of the function that the int8 one rounds.
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
+// the gradient of the pair and the stretch of time that decided: the logit is the greatest of
+// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs.
+// Where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
+// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
+// begins or ends. The unit of length, and the spheres' allowance for what the motion does
+// between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float
+// decoder, or, without that, of the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
@@ -1009,9 +1010,9 @@ typedef struct nsvcd_plan_stage {
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if
-// the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
-// for ways of hundreds of metres, raise `duration` or `collision`.
+// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of
+// patches; if the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and
+// metres alike: for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   // of all random numbers
   uint64_t seed;
@@ -13027,6 +13028,8 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const double most = share > 0 ? share : 1;
   const double extent = (double)(motion->scale * p->moving.body->extent);
   double fastest = 0;  // per tick
+  // that of the question before
+  p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
     const nsvcd__arc *arc = nsvcd__arc_at(p, first);
     fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);

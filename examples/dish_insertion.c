@@ -88,7 +88,7 @@ int main(int argc, char **argv) {
   nsvcd_plan_options options;
   memset(&options, 0, sizeof options);  // the defaults, but:
   // rather a wider way than a wire missed: the decision shifts towards "hits"
-  options.sweep.recall = 0.999f;
+  options.sweep.network.recall = 0.999f;
 
   int good = 0;
   for (int i = 0; i < scene.problem_count; i++) {

@@ -108,14 +108,14 @@ static int fly(flight *f, const nsvcd_body *drone, const nsvcd_body *level, void
     question.a.poses = ahead;
     question.a.count = 2;
     question.b.body = level;
-    question.options.clearance = ROOM;
+    question.clearance = ROOM;
     const double start = seconds();
     if (nsvcd_sweep(&question, workspace, size, &answer)) return 0;
     const double took = 1e6 * (seconds() - start);
     f->questions++;
     f->microseconds += took;
     f->worst = fmax(f->worst, took);
-    if (answer.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
+    if (answer.verdict != NSVCD_FREE) continue;
     f->turned += n > 0;
     f->at = pose_after(&f->at, way, SPEED * STEP);
     f->path[f->frames++] = f->at;

@@ -232,11 +232,12 @@ static nsvcd_result ask(world *w) {
     memset(q, 0, sizeof *q);
     q->a = mover_of(w, a);
     q->b = mover_of(w, b);
-    q->options.first = FIRST;
-    q->options.clearance = GAP;
+    q->ask = NSVCD_ASK_FIRST;
+    q->to_time = FIRST;
+    q->clearance = GAP;
     // finer than that nobody sees: what is left undecided counts as a contact
-    q->options.tolerance = 0.05f * GAP;
-    q->options.skin = a->pressed || b->pressed ? 0.95f * GAP : SKIN;
+    q->tolerance = 0.05f * GAP;
+    q->skin = a->pressed || b->pressed ? 0.95f * GAP : SKIN;
   }
   return nsvcd_sweep_batch(w->questions, w->pair_count, w->workspace,
                            nsvcd_sweep_workspace_size(NULL), w->answers);
@@ -343,7 +344,8 @@ static void advance(world *w) {
     const size_t root = root_of(parents, mover);
     // then it stays, and only its speed changes
     const int was_touching = vec_length(vec_from(answer->lift)) > 0;
-    if (answer->collides) shares[root] = fminf(shares[root], was_touching ? 0 : answer->free_until);
+    if (answer->verdict == NSVCD_FREE) continue;
+    shares[root] = fminf(shares[root], was_touching ? 0 : answer->time.low);
   }
   for (size_t i = 0; i < MOVERS; i++) {
     thing *t = &w->things[i];
@@ -399,9 +401,9 @@ static void respond(world *w, size_t k) {
   const nsvcd_answer *answer = &w->answers[k];
   thing *a = &w->things[w->pairs[k].a];
   thing *b = &w->things[w->pairs[k].b];
-  const vec normal = vec_from(answer->normal);
-  const vec point = vec_from(answer->point);
-  if (!answer->collides || !(vec_length(normal) > 0.5f)) return;
+  const vec normal = vec_from(answer->nearest.normal);
+  const vec point = vec_from(answer->nearest.point);
+  if (answer->verdict == NSVCD_FREE || !(vec_length(normal) > 0.5f)) return;
   const vec arm_a = vec_sub(point, vec_from(a->poses[0].position));
   const vec arm_b = vec_sub(point, vec_from(b->poses[0].position));
   const vec relative = vec_sub(velocity_at(a, arm_a), velocity_at(b, arm_b));
@@ -532,8 +534,8 @@ static void write_problems(FILE *file, const world *w, size_t frame) {
     const nsvcd_mover of_a = mover_of(w, a);
     const nsvcd_mover of_b = mover_of(w, b);
     fprintf(file, "problem f%zu.%zu.%d %zu %.9g %zu %.9g 0 0 0 0 0 0 1 -1 nan %zu %zu\n", frame, k,
-            answer->collides, a->mesh, (double)a->scale, b->mesh, (double)b->scale, of_a.count,
-            of_b.count);
+            answer->verdict != NSVCD_FREE, a->mesh, (double)a->scale, b->mesh, (double)b->scale,
+            of_a.count, of_b.count);
     for (size_t i = 0; i < of_a.count; i++)
       write_pose(file, &a->poses[i], moves(a) ? answer->lift : none);
     for (size_t i = 0; i < of_b.count; i++) write_pose(file, &b->poses[i], moves(a) ? none : back);
@@ -559,12 +561,13 @@ static nsvcd_result play_round(world *w, report *r, size_t frame) {
   for (size_t k = 0; k < w->pair_count; k++) {
     const nsvcd_answer *answer = &w->answers[k];
     const int was_lifted = vec_length(vec_from(answer->lift)) > 0;
-    const int is_pressed = answer->collides && !(answer->contact_time > 0) && !was_lifted;
+    const int touches = answer->verdict != NSVCD_FREE;
+    const int is_pressed = touches && !(answer->nearest.time > 0) && !was_lifted;
     w->things[w->pairs[k].a].pressed |= is_pressed;
     w->things[w->pairs[k].b].pressed |= is_pressed;
-    r->contacts += answer->collides != 0;
+    r->contacts += touches != 0;
     r->stuck += is_pressed != 0;
-    r->undecided += answer->status == NSVCD_STATUS_UNDECIDED;
+    r->undecided += answer->verdict == NSVCD_UNDECIDED;
     respond(w, k);
   }
   return NSVCD_OK;

@@ -72,7 +72,7 @@ int main(int argc, char **argv) {
   options.acceleration = 10;
   options.jerk = 50;  // a long way: speed costs less, jerks more
   // rather a wider way than a beam touched
-  options.sweep.recall = 0.999f;
+  options.sweep.network.recall = 0.999f;
   planner_user user = {&scene, seconds() + patience};
   if (!planner_plan(&user, bodies, &options, watch, &motion)) return 1;
   planner_judge(&scene, &motion);

@@ -111,8 +111,8 @@ static void picture_contact(FILE *svg, const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
   double world[3], tip[3], p[3], q[3];
   for (int k = 0; k < 3; k++) {
-    world[k] = (double)a->point[k];
-    tip[k] = world[k] + 0.12 * (double)a->normal[k];
+    world[k] = (double)a->nearest.point[k];
+    tip[k] = world[k] + 0.12 * (double)a->nearest.normal[k];
   }
   draw_project(&picture_view, world, p);
   draw_project(&picture_view, tip, q);
@@ -176,9 +176,10 @@ static void picture_stand(const oracle_mesh *mesh, const oracle_pose *pose, doub
 static void picture_scene(FILE *svg, const oracle_mesh *moving, const oracle_mesh *fixed,
                           const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
-  const draw_colour *colour = a->collides ? &draw_red : &draw_green;
+  const int is_free = a->verdict == NSVCD_FREE;
+  const draw_colour *colour = is_free ? &draw_green : &draw_red;
   const size_t last = panel->count - 1;
-  const size_t shown = a->collides ? (size_t)((double)a->contact_time * (double)last + 0.5) : last;
+  const size_t shown = is_free ? last : (size_t)((double)a->nearest.time * (double)last + 0.5);
   const oracle_pose pose = pose_widened(&panel->poses[shown]);
   double depth, lowest;
   picture_shadow(svg, fixed, &picture_origin);
@@ -190,39 +191,41 @@ static void picture_scene(FILE *svg, const oracle_mesh *moving, const oracle_mes
     if (at != shown)
       picture_ghost(svg, moving, &panel->poses[at], colour, 1 - (double)at / (double)last);
   }
-  picture_path(svg, panel, a->collides ? "#b3202c" : "#12824c");
+  picture_path(svg, panel, is_free ? "#12824c" : "#b3202c");
   draw_list list = {&picture_view, NULL, 0, 0, 0};
   draw_solid(&list, moving, &pose, colour, 1);
   draw_flush(svg, &list);
   picture_fixed(svg, fixed, depth, lowest, 1);
-  if (a->status == NSVCD_STATUS_WITNESS) picture_contact(svg, panel);
+  if (a->contact_count > 0) picture_contact(svg, panel);
 }
 
 // Name and verdict above, facts below.
 static void picture_captions(FILE *svg, const picture_panel *panel) {
   const nsvcd_answer *a = &panel->answer;
-  int pill = a->collides ? 170 : 130;
+  const int is_free = a->verdict == NSVCD_FREE;
+  const char *const says[3] = {"MAY HIT IT", "CLEARS IT", "HITS THE RACK"};  // by the verdict
+  const int pill = is_free ? 130 : 170;
   fprintf(
       svg,
       "<text x=\"24\" y=\"41\" font-size=\"20\" font-weight=\"600\" fill=\"#2b3440\">%s</text>\n",
       panel->name);
   fprintf(svg, "<rect x=\"%d\" y=\"18\" width=\"%d\" height=\"34\" rx=\"17\" fill=\"%s\"/>\n",
-          PICTURE_WIDTH - 20 - pill, pill, a->collides ? "#b3202c" : "#12824c");
+          PICTURE_WIDTH - 20 - pill, pill, is_free ? "#12824c" : "#b3202c");
   fprintf(svg,
           "<text x=\"%d\" y=\"41\" font-size=\"16\" font-weight=\"700\" fill=\"#fff\" "
           "text-anchor=\"middle\">%s</text>\n",
-          PICTURE_WIDTH - 20 - pill / 2, a->collides ? "HITS THE RACK" : "CLEARS IT");
+          PICTURE_WIDTH - 20 - pill / 2, says[a->verdict]);
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n",
           PICTURE_HEIGHT - 44, PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
-  if (a->collides) fprintf(svg, "at t = %.2f of the way, ", (double)a->contact_time);
-  if (a->status == NSVCD_STATUS_CERTIFIED_FREE) {
+  if (!is_free) fprintf(svg, "at t = %.2f of the way, ", (double)a->nearest.time);
+  if (is_free) {
     fprintf(svg, "certified free");
-  } else if (a->status == NSVCD_STATUS_WITNESS) {
-    fprintf(svg, "triangle %lu meets triangle %lu", (unsigned long)a->triangle_a,
-            (unsigned long)a->triangle_b);
+  } else if (a->contact_count > 0) {
+    fprintf(svg, "triangle %lu meets triangle %lu", (unsigned long)a->nearest.triangle_a,
+            (unsigned long)a->nearest.triangle_b);
   } else {
-    fprintf(svg, "%s", nsvcd_status_string(a->status));
+    fprintf(svg, "%s", a->inside ? "inside" : "undecided");
   }
   fprintf(svg, ", answered in %.0f µs</text>\n", panel->microseconds);
 }

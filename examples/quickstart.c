@@ -91,13 +91,16 @@ int main(void) {
     }
     if (result) return fprintf(stderr, "%s\n", nsvcd_result_string(result)), 1;
 
-    printf("%-12s -> %s (%s; %.0f us)", names[i], answer.collides ? "HITS" : "clears",
-           nsvcd_status_string(answer.status), least);
-    if (answer.collides) {
-      const float *p = answer.point;
-      const float *n = answer.normal;
+    // What the answer says is proven: two triangles that meet are the witness of a hit.
+    const char *const says[3] = {"may hit", "clears", "HITS"};  // by the verdict
+    const char *const proofs[3] = {"undecided", "certified-free", "witness"};
+    printf("%-12s -> %s (%s; %.0f us)", names[i], says[answer.verdict],
+           answer.inside ? "inside" : proofs[answer.verdict], least);
+    if (answer.verdict == NSVCD_HIT) {
+      const float *p = answer.nearest.point;
+      const float *n = answer.nearest.normal;
       printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)",
-             (double)answer.contact_time, (double)p[0], (double)p[1], (double)p[2], (double)n[0],
+             (double)answer.time.high, (double)p[0], (double)p[1], (double)p[2], (double)n[0],
              (double)n[1], (double)n[2]);
     }
     printf("\n");

@@ -8,6 +8,7 @@
 #include "../neuralsvcd.h"
 #define PROGRAM "svcd"
 #include "scenery/problem_file.h"
+#include "scenery/status_of.h"
 // these call problem_file.h's
 #include "scenery/load.h"
 #include "scenery/options.h"
@@ -23,7 +24,8 @@ enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8 };
 
 typedef struct settings {  // of all commands
   nsvcd_encode_options encode;
-  nsvcd_sweep_options sweep;
+  nsvcd_question sweep;  // what is asked, of whatever bodies
+  float first, measure;  // a share of the motion, metres; 0: not asked for
   size_t repeat;
   const char *from, *to, *rotate, *scale, *picture;
   int int8, help;
@@ -42,11 +44,11 @@ static const option options[] = {
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL},
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL},
     {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL},
-    {"--measure", SWEEP, OPTION_NUMBER, AT(sweep.measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
+    {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
     {"--clearance", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE"},
-    {"--first", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.first), 0, 1, NULL},
+    {"--first", CHECK | SWEEP, OPTION_NUMBER, AT(first), 0, 1, NULL},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network"},
     {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
@@ -56,9 +58,11 @@ static const option options[] = {
     {"--no-triangles", ENCODE, OPTION_FLAG, AT(encode.no_triangles), 0, 0, NULL},
     {"--no-latents", ENCODE, OPTION_FLAG, AT(encode.no_latents), 0, 0, NULL},
     {"--latents", ENCODE, OPTION_FLAG, AT(encode.latents), 0, 0, NULL},
-    {"--pairs", CHECK, OPTION_COUNT, AT(sweep.pairs), 1, NSVCD_MAX_PAIRS, "NSVCD_MAX_PAIRS"},
-    {"--model", CHECK, OPTION_WORD, AT(sweep.model), NSVCD_MODEL_TINY, 0, "tiny|small|base"},
-    {"--recall", CHECK, OPTION_NUMBER, AT(sweep.recall), 0, 1, NULL},
+    {"--pairs", CHECK, OPTION_COUNT, AT(sweep.network.pairs), 1, NSVCD_MAX_PAIRS,
+     "NSVCD_MAX_PAIRS"},
+    {"--model", CHECK, OPTION_WORD, AT(sweep.network.model), NSVCD_MODEL_TINY, 0,
+     "tiny|small|base"},
+    {"--recall", CHECK, OPTION_NUMBER, AT(sweep.network.recall), 0, 1, NULL},
     {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL},
     {"--work", CHECK | SWEEP, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL},
@@ -92,22 +96,30 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
   return 1;
 }
 
-// Is a contact known, but not to `first`, if that was asked for, whether it is the first one?
-// Surfaces that come nearer than triangles are stored can hide that.
-static int hides_first(const nsvcd_answer *answer, float first) {
-  const float late = answer->contact_time - answer->free_until;
-  const int is_wide = late > first * 1.0001f + 1e-6f;
-  return first > 0 && answer->status == NSVCD_STATUS_WITNESS && is_wide;
+// Is a contact known, but not whether it is the first one, if that was asked for? Surfaces that come
+// nearer than triangles are stored can hide that.
+static int hides_first(const nsvcd_answer *answer) {
+  return answer->verdict == NSVCD_HIT && answer->why != NSVCD_WHY_NOTHING;
+}
+
+// Asks for the first contact, to a share of the motion, or, if that is 0, for any.
+static void ask_first(nsvcd_question *question, float share) {
+  question->ask = share > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+  question->to_time = share;
+  question->to = 0;
 }
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
 // what is longer is the machine doing something else.
 static int answer(const session *s, const settings *options, void *workspace, const problem *p,
                   outcome *out) {
-  nsvcd_question question = question_of_problem(&s->file, p);
+  const nsvcd_question movers = question_of_problem(&s->file, p);
+  nsvcd_question question = options->sweep;
+  question.a = movers.a;
+  question.b = movers.b;
   question.a.body = s->bodies[p->moving].body;
   question.b.body = s->bodies[p->fixed].body;
-  question.options = options->sweep;
+  ask_first(&question, options->first);
   out->microseconds = HUGE_VAL;
   for (size_t i = 0; i <= options->repeat; i++) {
     const double start = seconds();
@@ -118,7 +130,6 @@ static int answer(const session *s, const settings *options, void *workspace, co
       return complain("%s:%zu: problem %s: %s", s->file.path, p->line, p->id, reason_of(result));
     if (i > 0) out->microseconds = fmin(out->microseconds, taken);
   }
-  if (hides_first(&out->answer, options->sweep.first)) out->answer.status = NSVCD_STATUS_UNDECIDED;
   return 1;
 }
 
@@ -135,9 +146,12 @@ static int answer_all(session *s, const settings *options) {
 static int print_answers(const session *s) {
   for (size_t i = 0; i < s->file.problem_count; i++) {
     const nsvcd_answer *a = &s->outcomes[i].answer;
-    printf("%s\t%.9g\t%d\t%.9g\t%lu\t%lu\t%s\t%.2f\n", s->file.problems[i].id, (double)a->logit,
-           a->collides, (double)a->contact_time, (unsigned long)a->patch_a,
-           (unsigned long)a->patch_b, nsvcd_status_string(a->status), s->outcomes[i].microseconds);
+    uint32_t patch_a, patch_b;
+    patches_of(a, &patch_a, &patch_b);
+    printf("%s\t%.9g\t%d\t%.9g\t%lu\t%lu\t%s\t%.2f\n", s->file.problems[i].id, (double)logit_of(a),
+           collides_of(a), (double)contact_time_of(a), (unsigned long)patch_a,
+           (unsigned long)patch_b, status_string(hides_first(a) ? STATUS_UNDECIDED : status_of(a)),
+           s->outcomes[i].microseconds);
   }
   if (fflush(stdout) == 0 && !ferror(stdout)) return 1;
   return complain("standard output: %s", strerror(errno));
@@ -145,7 +159,7 @@ static int print_answers(const session *s) {
 
 // The library knows which recalls it was calibrated for: ask it before any work is done. A body of
 // one triangle serves.
-static int recall_is_known(const nsvcd_sweep_options *options) {
+static int recall_is_known(const nsvcd_question *asked) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
@@ -156,11 +170,10 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
   void *workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   nsvcd_result result = nsvcd_encode(&mesh, &one_point, NULL, NULL, 0, &body);
   if (!result) {
-    nsvcd_question question = {0};
+    nsvcd_question question = *asked;
     question.a.body = question.b.body = body;
     question.a.poses = &pose;
     question.a.count = 1;
-    question.options = *options;
     result = nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &unused);
     nsvcd_body_free(body, NULL);
   }
@@ -169,12 +182,13 @@ static int recall_is_known(const nsvcd_sweep_options *options) {
 }
 
 static int check_options(settings *options) {
-  nsvcd_sweep_options *sweep = &options->sweep;
+  nsvcd_question *sweep = &options->sweep;
   if (options->path_count != 1)
     return usage_error("check", "a problem file is wanted ('svcd check --help')");
-  if (options->int8) sweep->precision = NSVCD_PRECISION_INT8;
+  if (options->int8) sweep->network.precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
-  if (options->encode.no_triangles && (sweep->clearance > 0 || sweep->first > 0 || sweep->skin > 0))
+  if (options->encode.no_triangles &&
+      (sweep->clearance > 0 || options->first > 0 || sweep->skin > 0))
     return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
   if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
@@ -382,7 +396,8 @@ typedef struct sweep_job {
 
 // The network answers where a body holds no triangles: then nothing may be asked that it does not
 // know. Returns a status.
-static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
+static int sweep_method(sweep_job *job, settings *options) {
+  const nsvcd_question *sweep = &options->sweep;
   const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
   const int proof = sweep->method != NSVCD_METHOD_NETWORK;
   job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
@@ -391,7 +406,7 @@ static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
     complain("%s: it holds no triangles, and so there is no proof", bare->path);
     return REFUSED;
   }
-  if (sweep->clearance > 0 || sweep->measure > 0 || sweep->skin > 0) {
+  if (sweep->clearance > 0 || options->measure > 0 || sweep->skin > 0) {
     complain("%s: the network knows neither --clearance, --measure nor --skin",
              proof ? bare->path : "--method network");
     return proof ? REFUSED : USAGE;
@@ -403,7 +418,7 @@ static int sweep_method(sweep_job *job, nsvcd_sweep_options *sweep) {
       return REFUSED;
     }
   }
-  sweep->first = 0;
+  options->first = 0;
   return DONE;
 }
 
@@ -432,27 +447,26 @@ static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
 // The answer, and, where they are free of each other, how near they come.
 static int sweep_ask(sweep_job *job, const settings *options) {
   nsvcd_question *question = &job->question;
+  *question = options->sweep;
   question->a.body = job->a.body;
   question->a.poses = job->poses;
   question->a.count = job->motion.count;
   question->a.scale = job->a.scale;
   question->b.body = job->b.body;
   question->b.scale = job->b.scale;
-  question->options = options->sweep;
-  question->options.measure = 0;
   for (size_t i = 0; i < job->motion.count; i++)
     job->poses[i] = pose_rounded(&job->motion.poses[i]);
-  question->options.first = 0;
   job->microseconds = sweep_timed(job, options->repeat, &job->answer);
   if (job->microseconds < 0) return 0;
-  if (job->answer.status != NSVCD_STATUS_CERTIFIED_FREE && options->sweep.first > 0) {
-    question->options.first = options->sweep.first;
+  if (job->answer.verdict != NSVCD_FREE && options->first > 0) {
+    ask_first(question, options->first);
     job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
   }
-  if (!(options->sweep.measure > 0) || job->answer.collides) return job->microseconds_first >= 0;
-  question->options.first = 0;
-  question->options.clearance = 0;
-  question->options.measure = options->sweep.measure;
+  if (!(options->measure > 0) || collides_of(&job->answer)) return job->microseconds_first >= 0;
+  ask_first(question, 0);
+  question->clearance = 0;
+  question->ask = NSVCD_ASK_DISTANCE;
+  question->to = options->measure;
   return sweep_once(job, &job->nearest);
 }
 
@@ -460,42 +474,44 @@ static int sweep_ask(sweep_job *job, const settings *options) {
 static void sweep_reason(const sweep_job *job, const settings *options, char *out, size_t size) {
   const int proof = job->by_proof;
   const char *reason = "the network's opinion";
-  if (job->answer.status == NSVCD_STATUS_WITNESS)
+  const status s = status_of(&job->answer);
+  if (s == STATUS_WITNESS)
     reason = options->sweep.clearance > 0 ? "proven, two triangles come so near"
                                           : "proven, two triangles meet";
-  if (job->answer.status == NSVCD_STATUS_CERTIFIED_FREE)
+  if (s == STATUS_CERTIFIED_FREE)
     reason = proof ? "proven, the surfaces never meet" : "proven, spheres about them never meet";
-  if (job->answer.status == NSVCD_STATUS_INSIDE)
+  if (s == STATUS_INSIDE)
     reason = proof ? "proven, one is inside of the other at the start"
                    : "estimated, one is inside of the other at the start";
-  if (job->answer.status == NSVCD_STATUS_UNDECIDED)
+  if (s == STATUS_UNDECIDED)
     reason = "nearer than triangles are stored, or more work than --work allows";
   snprintf(out, size, "%s", reason);
-  if (job->answer.status == NSVCD_STATUS_OK || job->answer.status == NSVCD_STATUS_LIMIT)
-    snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.logit);
+  if (job->answer.by == NSVCD_BY_NETWORK && !job->answer.inside)
+    snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.opinion.logit);
 }
 
 // "hit at t = 0.4, the first contact: proven, two triangles meet".
 static void sweep_verdict(const sweep_job *job, const settings *options, char *out, size_t size) {
   const nsvcd_answer *a = &job->answer;
-  const nsvcd_sweep_options *asked = &options->sweep;
-  const char *word = a->collides ? "hit" : "free";
+  const float clearance = options->sweep.clearance;
+  const int collides = collides_of(a);
+  const char *word = collides ? "hit" : "free";
   char when[60] = "";
   char near_by[60] = "";
   char reason[120];
-  if (a->collides)
-    snprintf(when, sizeof when, " at t = %.4f%s", (double)a->contact_time,
-             asked->first > 0 ? ", the first contact" : "");
-  if (hides_first(a, asked->first))
-    snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->contact_time,
-             (double)a->free_until);
-  if (a->status == NSVCD_STATUS_UNDECIDED) {
-    word = a->collides ? "undecided, taken as a hit" : "undecided, taken as free";
-    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->free_until);
+  if (collides)
+    snprintf(when, sizeof when, " at t = %.4f%s", (double)contact_time_of(a),
+             options->first > 0 ? ", the first contact" : "");
+  if (hides_first(a))
+    snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->time.high,
+             (double)a->time.low);
+  if (a->verdict == NSVCD_UNDECIDED) {
+    word = collides ? "undecided, taken as a hit" : "undecided, taken as free";
+    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->time.low);
   }
-  if (asked->clearance > 0)
-    snprintf(near_by, sizeof near_by, ", %s %g m", a->collides ? "as near as" : "never as near as",
-             (double)asked->clearance);
+  if (clearance > 0)
+    snprintf(near_by, sizeof near_by, ", %s %g m", collides ? "as near as" : "never as near as",
+             (double)clearance);
   sweep_reason(job, options, reason, sizeof reason);
   snprintf(out, size, "%s%s%s: %s", word, when, near_by, reason);
 }
@@ -515,18 +531,18 @@ static void print_answer(const sweep_job *job, const settings *options) {
   for (int k = 0; k < 3; k++) size = fmax(size, job->b.high[k] - job->b.low[k]);
   sweep_verdict(job, options, verdict, sizeof verdict);
   printf("%s\n", verdict);
-  if (a->status == NSVCD_STATUS_WITNESS || a->status == NSVCD_STATUS_INSIDE)
-    print_vector("point", a->point, size, " m");
-  if (a->status == NSVCD_STATUS_WITNESS) {
+  const int is_proven = a->verdict == NSVCD_HIT && a->by == NSVCD_BY_PROOF;
+  if (is_proven) print_vector("point", a->nearest.point, size, " m");
+  if (a->contact_count > 0) {
     // what is met of a sheet has a normal by its winding, on whichever side A is
     const int sure = is_solid(&job->a) && is_solid(&job->b);
-    print_vector("normal", a->normal, 1, sure ? ", from B to A" : "");
-    printf("triangles  %lu of A, %lu of B, counted from 0\n", (unsigned long)a->triangle_a,
-           (unsigned long)a->triangle_b);
+    print_vector("normal", a->contacts[0].normal, 1, sure ? ", from B to A" : "");
+    printf("triangles  %lu of A, %lu of B, counted from 0\n",
+           (unsigned long)a->contacts[0].triangle_a, (unsigned long)a->contacts[0].triangle_b);
   }
-  if (job->nearest.clearance_high > 0)
-    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.clearance_low,
-           (double)job->nearest.clearance_high, (double)job->nearest.contact_time);
+  if (job->nearest.distance.high > 0)
+    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.distance.low,
+           (double)job->nearest.distance.high, (double)job->nearest.nearest.time);
   print_motion(&job->motion);
   printf("time       %.1f us", job->microseconds);
   if (job->microseconds_first > 0)
@@ -572,21 +588,22 @@ static int draw_job(const sweep_job *job, const settings *options) {
   char verdict[320];
   memset(&p, 0, sizeof p);
   sweep_verdict(job, options, verdict, sizeof verdict);
-  p.title = a->collides ? "A hits B" : "A is free of B";
-  if (a->status == NSVCD_STATUS_UNDECIDED) p.title = "Undecided";
+  const int collides = collides_of(a);
+  p.title = collides ? "A hits B" : "A is free of B";
+  if (a->verdict == NSVCD_UNDECIDED) p.title = "Undecided";
   p.verdict = verdict;
   p.poses = job->motion.poses;
   p.count = job->motion.count;
-  p.collides = a->collides;
-  p.shown = a->collides ? (double)a->contact_time : 0.5;
-  p.shown_as = a->collides ? "contact" : "half way";
-  if (job->nearest.clearance_high > 0) {
-    p.shown = (double)job->nearest.contact_time;
+  p.collides = collides;
+  p.shown = collides ? (double)contact_time_of(a) : 0.5;
+  p.shown_as = collides ? "contact" : "half way";
+  if (job->nearest.distance.high > 0) {
+    p.shown = (double)job->nearest.nearest.time;
     p.shown_as = "nearest";
   }
-  if (a->status == NSVCD_STATUS_WITNESS) {
-    p.point = a->point;
-    p.normal = a->normal;
+  if (a->contact_count > 0) {
+    p.point = a->contacts[0].point;
+    p.normal = a->contacts[0].normal;
   }
   const int good = picture_body(&job->a, &p.a) && picture_body(&job->b, &p.b) &&
                    sweep_draw(options->picture, &p);
@@ -597,14 +614,13 @@ static int draw_job(const sweep_job *job, const settings *options) {
 }
 
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
-  nsvcd_sweep_options *ask = &options->sweep;
   const motion_told told = {options->from, options->to, options->rotate};
-  if (ask->method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
+  if (options->sweep.method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
   if (!load_thing(options->paths[0], scales[0], &options->encode, &job->a) ||
       !load_thing(options->paths[1], scales[1], &options->encode, &job->b))
     return REFUSED;
   if (!take_motion(&told, &job->a, &job->b, &job->motion)) return USAGE;
-  const int status = sweep_method(job, ask);
+  const int status = sweep_method(job, options);
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
   print_answer(job, options);
@@ -763,7 +779,7 @@ static int run(const command *c, int argc, char **argv) {
   settings given;
   memset(&given, 0, sizeof given);
   given.repeat = c->repeat;
-  given.sweep.first = c->first;
+  given.first = c->first;
   const int status = take_options(&line, &given, given.paths, c->paths, &given.path_count);
   if (status != DONE) return status;
   if (!given.help) return c->run(&given);

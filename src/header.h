@@ -80,13 +80,13 @@
 //
 // WHAT AN ANSWER IS WORTH
 //   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
-//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and it is
+//   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
 //   with rounding, less than twice that), that of eight rays none could tell whether one is inside
 //   the other, or that the work allowed was not enough; then the network's opinion is added where
-//   it has one. A component of a mesh is closed if every edge has its reverse; what is open encloses
-//   nothing.
+//   it has one. A component of a mesh is closed if every edge has its reverse; what is open
+//   encloses nothing.
 //   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
 //   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
 //   another, ask for a proof. What is inside is an estimate, a winding number of patches: reliable

@@ -6,9 +6,9 @@
 
 static inline nsvcd_result ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                                const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                               const nsvcd_sweep_options *options, void *workspace,
-                               size_t workspace_size, nsvcd_answer *answer) {
-  const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, options);
+                               const nsvcd_question *asked, void *workspace, size_t workspace_size,
+                               nsvcd_answer *answer) {
+  const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, asked);
   return nsvcd_sweep(&question, workspace, workspace_size, answer);
 }
 

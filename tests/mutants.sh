@@ -113,7 +113,7 @@ asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
 asks: a gap lost|p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
-asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; wide|for (p->ask.measure = p->high - p->low; 0 \&\& wide
+asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; p->wide|for (p->ask.measure = p->high - p->low; 0 \&\& p->wide
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 LIST

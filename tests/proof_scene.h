@@ -574,8 +574,8 @@ static void *proof_workspace(void) {
   return memory;
 }
 
-static nsvcd_sweep_options proof_options(void) {
-  nsvcd_sweep_options options;
+static nsvcd_question proof_options(void) {
+  nsvcd_question options;
   memset(&options, 0, sizeof options);
   options.method = NSVCD_METHOD_PROOF;
   return options;

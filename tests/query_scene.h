@@ -7,6 +7,7 @@
 #include "../examples/scenery/shapes.h"
 #include "ask.h"
 #include "check.h"
+#include "../examples/scenery/status_of.h"
 
 #include <stdlib.h>
 
@@ -91,8 +92,8 @@ static nsvcd_answer query_answer(const nsvcd_question *question) {
 }
 static nsvcd_answer query_ask(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
                               const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
-                              const nsvcd_sweep_options *options) {
-  const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, options);
+                              const nsvcd_question *asked) {
+  const nsvcd_question question = question_of(moving, poses, count, fixed, fixed_pose, asked);
   return query_answer(&question);
 }
 
@@ -127,12 +128,12 @@ static nsvcd_pose query_moved(const nsvcd_pose *common, const nsvcd_pose *pose) 
   return out;
 }
 
-static nsvcd_sweep_options query_options(size_t pairs, nsvcd_model model, float recall) {
-  nsvcd_sweep_options options;
+static nsvcd_question query_options(size_t pairs, nsvcd_model model, float recall) {
+  nsvcd_question options;
   memset(&options, 0, sizeof options);
-  options.pairs = pairs;
-  options.model = model;
-  options.recall = recall;
+  options.network.pairs = pairs;
+  options.network.model = model;
+  options.network.recall = recall;
   return options;
 }
 
@@ -182,20 +183,21 @@ static nsvcd_answer query_scene_ask(const query_scene *s) {
   return query_ask(s->moving, s->motion, QUERY_POSES, s->fixed, &s->fixed_pose, NULL);
 }
 static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  // to the bit
-  return memcmp(&a->logit, &b->logit, sizeof a->logit) == 0 &&
-         memcmp(&a->contact_time, &b->contact_time, sizeof a->contact_time) == 0 &&
-         a->collides == b->collides && a->patch_a == b->patch_a && a->patch_b == b->patch_b &&
-         a->status == b->status && a->candidates == b->candidates;
+  const nsvcd_opinion *x = &a->opinion;
+  const nsvcd_opinion *y = &b->opinion;
+  return a->verdict == b->verdict && a->by == b->by && a->inside == b->inside &&
+         memcmp(&a->time, &b->time, sizeof a->time) == 0 && x->asked == y->asked &&
+         memcmp(&x->logit, &y->logit, sizeof x->logit) == 0 &&
+         memcmp(&x->time, &y->time, sizeof x->time) == 0 && x->patch_a == y->patch_a &&
+         x->patch_b == y->patch_b && x->candidates == y->candidates && x->limited == y->limited;
 }
 // The same, and all that only a proof says.
 static int query_same_proof(const nsvcd_answer *a, const nsvcd_answer *b) {
-  return query_same_answer(a, b) && a->work == b->work && a->triangle_a == b->triangle_a &&
-         a->triangle_b == b->triangle_b &&
-         memcmp(&a->free_until, &b->free_until, sizeof a->free_until) == 0 &&
-         memcmp(&a->clearance_low, &b->clearance_low, sizeof a->clearance_low) == 0 &&
-         memcmp(&a->clearance_high, &b->clearance_high, sizeof a->clearance_high) == 0 &&
-         memcmp(a->point, b->point, sizeof a->point) == 0 &&
-         memcmp(a->normal, b->normal, sizeof a->normal) == 0 &&
+  return query_same_answer(a, b) && a->work == b->work && a->why == b->why &&
+         a->contact_count == b->contact_count &&
+         memcmp(&a->nearest, &b->nearest, sizeof a->nearest) == 0 &&
+         memcmp(&a->distance, &b->distance, sizeof a->distance) == 0 &&
+         memcmp(&a->safe, &b->safe, sizeof a->safe) == 0 &&
          memcmp(a->lift, b->lift, sizeof a->lift) == 0;
 }
 

@@ -11,6 +11,7 @@
 #include "../examples/scenery/shapes.h"
 #include "ask.h"
 #include "check.h"
+#include "../examples/scenery/status_of.h"
 
 void test_asks(void);
 
@@ -99,16 +100,16 @@ static void asks_skin_lifts_what_stands(void) {
                                   asks_pose(x + way, 0.01, -depth, turn)};
       nsvcd_question question =
           question_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16], NULL, NULL);
-      question.options.skin = (float)skin;
+      question.skin = (float)skin;
       const nsvcd_answer answer = asks(&question);
-      CHECK_EQ(answer.status == NSVCD_STATUS_CERTIFIED_FREE, k < 7);
+      CHECK_EQ(answer.verdict == NSVCD_FREE, k < 7);
       CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
       CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
       const nsvcd_mover mover = question.a;
       question.a = question.b;
       question.b = mover;
       const nsvcd_answer swapped = asks(&question);
-      CHECK_EQ(swapped.status, answer.status);
+      CHECK_EQ(status_of(&swapped), status_of(&answer));
       CHECK_EQ(swapped.lift[2], -answer.lift[2]);
     }
     nsvcd_body_free(body, NULL);
@@ -131,9 +132,9 @@ static void asks_skin_in_a_corner(void) {
       const double in = 0.2 * k * skin;
       const nsvcd_pose pose = asks_pose(0.25 + in, 0.25 + in, 0.05 - in, 0);
       nsvcd_question question = question_of(box, &pose, 1, corner, NULL, NULL);
-      question.options.skin = (float)skin;
+      question.skin = (float)skin;
       const nsvcd_answer answer = asks(&question);
-      CHECK_EQ(answer.status, NSVCD_STATUS_CERTIFIED_FREE);
+      CHECK_EQ(answer.verdict, NSVCD_FREE);
       CHECK_NEAR(answer.lift[0], -skin, 0.02 * skin);
       CHECK_NEAR(answer.lift[1], -skin, 0.02 * skin);
       CHECK_NEAR(answer.lift[2], skin, 0.02 * skin);
@@ -147,9 +148,9 @@ static void asks_skin_in_a_corner(void) {
     shapes_box_at(&shape, -0.05, 0, 0, 0.1, 0.1, 0.1);
     const nsvcd_body *held = asks_body(&shape, 0);
     nsvcd_question question = question_of(held, NULL, 0, slot, NULL, NULL);
-    question.options.skin = (float)skin;
+    question.skin = (float)skin;
     const nsvcd_answer answer = asks(&question);
-    CHECK_EQ(answer.collides, 1);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
     CHECK_EQ(asks_length(answer.lift), 0);
     nsvcd_body_free(held, NULL);
     nsvcd_body_free(slot, NULL);
@@ -194,28 +195,27 @@ static void asks_measure_loses_nothing(void) {
       static const float clearances[3] = {0, 1e-3f, 1e-2f};
       nsvcd_question question = question_of(ball, path, k % 2 ? 65 : 2, ball, NULL, NULL);
       path[1] = k % 2 ? path[1] : asks_pose(distances[k], 0.2, 0, 0.3);
-      question.options.clearance = clearances[c];
+      question.clearance = clearances[c];
       const nsvcd_answer plain = asks(&question);
-      CHECK(plain.status != NSVCD_STATUS_UNDECIDED);
+      CHECK(plain.verdict != NSVCD_UNDECIDED);
       for (int m = 0; m < 4; m++) {
         float low = 0;
-        question.options.measure = (float)pow(10, -2 - m);
+        question.ask = NSVCD_ASK_DISTANCE;
+        question.to = (float)pow(10, -2 - m);
         const size_t least = plain.work ? 16 * (plain.work + 1) : 1;
-        for (question.options.work = least; question.options.work < 2000000;
-             question.options.work *= 16) {
+        for (question.work = least; question.work < 2000000; question.work *= 16) {
           const nsvcd_answer answer = asks(&question);
-          CHECK_EQ(answer.status, plain.status);
-          CHECK_LE(answer.clearance_low, gap + 0.002);
-          CHECK_GE(answer.clearance_high, gap);
-          CHECK_GE(answer.clearance_low, gap - 0.2);  // the balls about their boxes' corners
+          CHECK_EQ(status_of(&answer), status_of(&plain));
+          CHECK_LE(answer.distance.low, gap + 0.002);
+          CHECK_GE(answer.distance.high, gap);
+          CHECK_GE(answer.distance.low, gap - 0.2);  // the balls about their boxes' corners
           const double quanta = 2 * (double)nsvcd_body_describe(ball).quantum;
-          const double wide = fmax((double)question.options.measure, 2 * quanta) + quanta;
+          const double wide = fmax((double)question.to, 2 * quanta) + quanta;
           const double allowed = wide + 3e-6 * distances[k];
-          const double high = (double)answer.clearance_high;
-          if (answer.work < question.options.work)
-            CHECK_LE(high - (double)answer.clearance_low, allowed);
-          CHECK_GE(answer.clearance_low, fmin(0.99 * (double)low, high - allowed));
-          low = answer.clearance_low;
+          const double high = (double)answer.distance.high;
+          if (answer.work < question.work) CHECK_LE(high - (double)answer.distance.low, allowed);
+          CHECK_GE(answer.distance.low, fmin(0.99 * (double)low, high - allowed));
+          low = answer.distance.low;
         }
       }
     }
@@ -227,8 +227,8 @@ static void asks_measure_loses_nothing(void) {
 // first contact
 
 // A box stands on a table, nearer than triangles are stored, for a third of the motion, then is
-// carried through a post: the contact that a plain question finds is known to `first` as well, and
-// what is free before the doubt stays free.
+// carried through a post: the contact that a plain question finds is known to one that asks when as
+// well, and what is free before the doubt stays free.
 static void asks_first_keeps_what_is_proven(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
@@ -250,15 +250,16 @@ static void asks_first_keeps_what_is_proven(void) {
     }
     nsvcd_question question = question_of(box, path, 33, table, NULL, NULL);
     const nsvcd_answer plain = asks(&question);
-    CHECK_EQ(plain.status, NSVCD_STATUS_WITNESS);
+    CHECK_EQ(status_of(&plain), STATUS_WITNESS);
     for (int m = 1; m < 5; m++) {
-      question.options.first = (float)pow(10, -m);
+      question.ask = NSVCD_ASK_FIRST;
+      question.to_time = (float)pow(10, -m);
       const nsvcd_answer answer = asks(&question);
-      CHECK_EQ(answer.status, NSVCD_STATUS_WITNESS);
-      CHECK_LE(answer.free_until, answer.contact_time);
-      CHECK_GE(answer.free_until, until - question.options.first);
-      CHECK(!start || answer.free_until > 0.2f - question.options.first);
-      until = answer.free_until;
+      CHECK_EQ(status_of(&answer), STATUS_WITNESS);
+      CHECK_LE(answer.time.low, answer.nearest.time);
+      CHECK_GE(answer.time.low, until - question.to_time);
+      CHECK(!start || answer.time.low > 0.2f - question.to_time);
+      until = answer.time.low;
     }
   }
   nsvcd_body_free(table, NULL);
@@ -285,7 +286,7 @@ static void asks_contacts_at_the_ends(void) {
       }
       nsvcd_question question = question_of(piston, path, count, cylinder, NULL, NULL);
       const nsvcd_answer answer = asks(&question);
-      CHECK_EQ(answer.status, NSVCD_STATUS_WITNESS);
+      CHECK_EQ(status_of(&answer), STATUS_WITNESS);
       CHECK_LE(answer.work, 9000);
     }
   }
@@ -304,22 +305,124 @@ static void asks_names_what_meets_inside(void) {
   const nsvcd_pose path[2] = {asks_pose(0, 0, -0.01, 0), asks_pose(0.2, 0, 0.1, 0)};
   for (int k = 0; k < 4; k++) {
     nsvcd_question question = question_of(box, path, 2, table, NULL, NULL);
-    question.options.first = k == 1 ? 0.01f : 0;
-    question.options.measure = k == 2 ? 0.01f : 0;
-    question.options.skin = k == 3 ? 0.001f : 0;
+    question.ask = k == 1 ? NSVCD_ASK_FIRST : k == 2 ? NSVCD_ASK_DISTANCE : NSVCD_ASK_HIT;
+    question.to_time = k == 1 ? 0.01f : 0;
+    question.to = k == 2 ? 0.01f : 0;
+    question.skin = k == 3 ? 0.001f : 0;
     const nsvcd_answer answer = asks(&question);
-    CHECK_EQ(answer.collides, 1);
-    CHECK_EQ(answer.contact_time, 0);
-    CHECK_EQ(answer.free_until, 0);
-    CHECK_EQ(answer.status, k ? NSVCD_STATUS_WITNESS : NSVCD_STATUS_INSIDE);
-    CHECK_EQ(answer.triangle_a != NSVCD_NO_TRIANGLE, k > 0);
-    CHECK(k == 0 || fabs((double)answer.point[2]) < 1e-4);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_EQ(answer.nearest.time, 0);
+    CHECK_EQ(answer.time.low, 0);
+    CHECK_EQ(answer.inside, k == 0);
+    CHECK_EQ(answer.nearest.triangle_a != NSVCD_NO_TRIANGLE, k > 0);
+    CHECK(k == 0 || fabs((double)answer.nearest.point[2]) < 1e-4);
   }
   nsvcd_body_free(table, NULL);
   nsvcd_body_free(box, NULL);
 }
 
+// -------------------------------------------------------------------------------------------------
+// first, in metres, and the poses that are safe
+
+// How far some point of the body goes on its way, as the other sees it, at least: `turn` is its angle
+// about z, of which a tenth is left to the radius, `rises` the other's way up.
+static double asks_way(const nsvcd_body *body, const nsvcd_pose *path, double turn, double rises) {
+  double square = 0;
+  for (int k = 0; k < 3; k++) {
+    const double step = (double)path[1].position[k] - (double)path[0].position[k];
+    square += (step - (k == 2 ? rises : 0)) * (step - (k == 2 ? rises : 0));
+  }
+  return sqrt(square) + 0.9 * fabs(turn) * (double)nsvcd_body_describe(body).radius;
+}
+
+// Is the answer as narrow as it was asked for, and are the bodies where it sends them free of each
+// other, and not elsewhere than on their ways?
+static void asks_check_first(const nsvcd_question *question, const nsvcd_answer *answer,
+                             double way) {
+  const double late = (double)answer->time.high - (double)answer->time.low;
+  const double share = (double)answer->safe.time;
+  nsvcd_question still = *question;
+  CHECK_EQ(answer->verdict, NSVCD_HIT);
+  // flat on flat it is wider than by its own measure, by what triangles are stored to
+  CHECK(answer->why != NSVCD_WHY_WORK);
+  CHECK(late > 0);
+  if (question->to > 0) CHECK(late * way <= 1.001 * (double)question->to + 1e-6 * way);
+  if (question->to_time > 0) CHECK(late <= 1.001 * (double)question->to_time + 1e-6);
+  CHECK(answer->safe.time >= answer->time.low && answer->safe.time <= answer->time.low);
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_mover *mover = k ? &question->b : &question->a;
+    const nsvcd_pose *safe = k ? &answer->safe.b : &answer->safe.a;
+    const nsvcd_pose *last = mover->poses + mover->count - 1;
+    for (int i = 0; i < 3; i++) {
+      const double from = (double)mover->poses->position[i];
+      const double place = from + share * ((double)last->position[i] - from);
+      CHECK_NEAR((double)safe->position[i], place, 1e-6);
+    }
+  }
+  still.ask = NSVCD_ASK_HIT;
+  still.to = still.to_time = 0;
+  still.clearance *= 0.99f;
+  still.a.poses = &answer->safe.a;
+  still.b.poses = &answer->safe.b;
+  still.a.count = still.b.count = 1;
+  CHECK_EQ(asks(&still).verdict, NSVCD_FREE);
+}
+
+static void asks_first_is_to_metres(void) {
+  shapes_rng rng = {2711};
+  const nsvcd_body *table = asks_table(0, 4);
+  for (int n = 0; n < STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n, &rng);
+    for (int round = 0; round < 12; round++) {
+      const double turn = shapes_uniform(&rng, -1, 1);
+      const double from = shapes_uniform(&rng, 0.1, 0.3);
+      const nsvcd_pose path[2] = {
+          asks_pose(0, 0, from, 0),
+          asks_pose(shapes_uniform(&rng, -0.1, 0.1), 0, shapes_uniform(&rng, -0.3, -0.1), turn)};
+      // the table comes up as well, by as much at most
+      const nsvcd_pose rising[2] = {asks_pose(0, 0, 0, 0), asks_pose(0, 0, 0.5 * from, 0)};
+      nsvcd_question question;
+      memset(&question, 0, sizeof question);
+      question.a.body = body;
+      question.a.poses = path;
+      question.a.count = 2;
+      question.b.body = table;
+      question.b.poses = rising;
+      question.b.count = round % 3 == 2 ? 2 : 1;
+      question.ask = NSVCD_ASK_FIRST;
+      question.clearance = round % 2 ? 0.002f : 0.0f;
+      if (round % 4 < 3) question.to = round % 4 == 1 ? 10 : 0.0005f;
+      if (round % 4 > 0) question.to_time = 0.003f;
+      const double way = asks_way(body, path, turn, question.b.count > 1 ? 0.5 * from : 0);
+      const nsvcd_answer answer = asks(&question);
+      asks_check_first(&question, &answer, way);
+      const nsvcd_mover a = question.a;
+      question.a = question.b;
+      question.b = a;
+      const nsvcd_answer swapped = asks(&question);
+      asks_check_first(&question, &swapped, way);
+    }
+    // what is not said: a thousandth of the smaller body
+    const nsvcd_pose down[2] = {asks_pose(0, 0, 0.5, 0), asks_pose(0, 0, -0.5, 0)};
+    nsvcd_question question;
+    memset(&question, 0, sizeof question);
+    question.a.body = body;
+    question.a.poses = down;
+    question.a.count = 2;
+    question.b.body = table;
+    question.ask = NSVCD_ASK_FIRST;
+    const nsvcd_answer answer = asks(&question);
+    const double to = (double)(NSVCD_DEFAULT_TO * nsvcd_body_describe(body).radius);
+    const double late = (double)answer.time.high - (double)answer.time.low;
+    CHECK_LE(late, 1.001 * to + 1e-6);
+    CHECK_GE(late, 0.1 * to);
+    nsvcd_body_free(body, NULL);
+  }
+  nsvcd_body_free(table, NULL);
+}
+
 void test_asks(void) {
+  RUN(asks_first_is_to_metres);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
   RUN(asks_faces_without_area);

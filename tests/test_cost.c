@@ -87,7 +87,7 @@ static void cost_is_bounded(void) {
     share = fmax(share, (double)tally.tests / (double)bound);
     for (size_t n = 0; n < 12; n++) {
       const size_t k = pairs[n / 3];
-      const nsvcd_sweep_options options = query_options(k, models[n % 3], 0);
+      const nsvcd_question options = query_options(k, models[n % 3], 0);
       memset(&tally, 0, sizeof tally);
       query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
       CHECK_GE(bound, tally.tests);
@@ -132,7 +132,7 @@ static void cost_open(cost_batch *b, uint64_t seed) {
   }
 }
 
-static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_sweep_options *options,
+static nsvcd_result cost_ask_batch(const cost_batch *b, const nsvcd_question *options,
                                    void *workspace, nsvcd_answer *answers) {
   const query_scene *s = &b->scene;
   nsvcd_question questions[COST_MOTIONS];
@@ -153,20 +153,20 @@ static void cost_batch_agrees_with_single_queries(void) {
   for (uint64_t seed = 1; seed <= 30; seed++) {
     cost_open(&b, seed);
     for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
-      const nsvcd_sweep_options options =
-          query_options(0, (nsvcd_model)model, seed % 2 ? 0 : 0.999f);
+      const nsvcd_question options = query_options(0, (nsvcd_model)model, seed % 2 ? 0 : 0.999f);
       memset(b.batch, 0xff, sizeof b.batch);
       CHECK_EQ(cost_ask_batch(&b, &options, query_workspace(), b.batch), NSVCD_OK);
       for (size_t m = 0; m < COST_MOTIONS; m++) {
         const nsvcd_answer one = query_ask(b.scene.moving, b.poses + m * QUERY_POSES, QUERY_POSES,
                                            b.scene.fixed, &b.scene.fixed_pose, &options);
-        hits += one.collides != 0;
+        hits += collides_of(&one) != 0;
         if (query_same_answer(&one, &b.batch[m])) {
           same++;
           continue;
         }
         otherwise++;
-        CHECK(one.collides && b.batch[m].collides && b.batch[m].logit >= NSVCD__CLEAR_LOGIT);
+        CHECK(collides_of(&one) && collides_of(&b.batch[m]) &&
+              logit_of(&b.batch[m]) >= NSVCD__CLEAR_LOGIT);
       }
     }
     query_scene_close(&b.scene);
@@ -181,7 +181,7 @@ static void cost_batch_agrees_with_single_queries(void) {
 // no use to the other: every answer is nsvcd_sweep's.
 static void cost_batch_follows_who_moves(void) {
   static cost_batch b;
-  const nsvcd_sweep_options options = query_options(0, NSVCD_MODEL_TINY, 0);
+  const nsvcd_question options = query_options(0, NSVCD_MODEL_TINY, 0);
   nsvcd_question questions[COST_MOTIONS];
   size_t clear = 0;
   size_t other = 0;
@@ -201,7 +201,7 @@ static void cost_batch_follows_who_moves(void) {
     for (size_t m = 0; m < COST_MOTIONS; m++) {
       nsvcd_answer one;
       CHECK_EQ(nsvcd_sweep(&questions[m], w, size, &one), NSVCD_OK);
-      clear += one.logit >= NSVCD__CLEAR_LOGIT;
+      clear += logit_of(&one) >= NSVCD__CLEAR_LOGIT;
       other += !query_same_answer(&one, &b.batch[m]);
     }
     query_scene_close(&b.scene);
@@ -244,7 +244,7 @@ static void cost_batch_refuses_as_a_query_does(void) {
 typedef struct cost_thread {
   pthread_t thread;
   const cost_batch *work;
-  const nsvcd_sweep_options *options;
+  const nsvcd_question *options;
   size_t first;  // question: threads do not all ask the same at a time
   nsvcd_answer single[COST_MOTIONS], batch[COST_MOTIONS];
   nsvcd_result result;
@@ -270,7 +270,7 @@ static void *cost_run(void *argument) {
 
 // Threads that share bodies, each with a workspace of its own, answer as one thread does, to the
 // bit.
-static void cost_check_threads(const cost_batch *work, const nsvcd_sweep_options *options) {
+static void cost_check_threads(const cost_batch *work, const nsvcd_question *options) {
   static cost_thread threads[COST_THREADS], alone;
   alone.work = work;
   alone.options = options;
@@ -306,7 +306,7 @@ static void cost_threads_agree(void) {
 static void cost_threads_agree_by_proof(void) {
   static cost_batch b;
   for (uint64_t seed = 1; seed <= 8; seed++) {
-    nsvcd_sweep_options options = query_options(0, NSVCD_MODEL_DEFAULT, 0);
+    nsvcd_question options = query_options(0, NSVCD_MODEL_DEFAULT, 0);
     nsvcd_encode_options encoding;
     const nsvcd_body *bodies[2];
     cost_open(&b, seed);
@@ -320,8 +320,13 @@ static void cost_threads_agree_by_proof(void) {
     }
     b.scene.moving = bodies[0];
     b.scene.fixed = bodies[1];
-    options.first = seed % 4 == 1 ? 0.01f : 0;
-    options.measure = seed % 4 == 2 ? 0.001f : 0;
+    if (seed % 4 == 1) {
+      options.ask = NSVCD_ASK_FIRST;
+      options.to_time = 0.01f;
+    } else if (seed % 4 == 2) {
+      options.ask = NSVCD_ASK_DISTANCE;
+      options.to = 0.001f;
+    }
     options.skin = seed % 4 == 3 ? 0.001f : 0;
     cost_check_threads(&b, &options);
     nsvcd_body_free(bodies[0], NULL);
@@ -353,7 +358,7 @@ static void cost_reads_numbers_once(void) {
   memset(&tally, 0, sizeof tally);
   const nsvcd_answer answer = query_ask(small, &pose, 1, large, &still, NULL);
   printf("  %zu numbers read on a ray past %zu triangles\n", tally.numbers, mesh.triangle_count);
-  CHECK_EQ(answer.status, NSVCD_STATUS_INSIDE);
+  CHECK_EQ(status_of(&answer), STATUS_INSIDE);
   CHECK_GE(tally.numbers, 500);  // or the ray is not where it should be
   CHECK_LE(tally.numbers, 4 * mesh.triangle_count);
   nsvcd_body_free(large, NULL);
@@ -411,7 +416,7 @@ static void cost_stack_is_bounded(void) {
   static cost_asker asker;
   void *stack;
   size_t most = 0;
-  size_t statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
+  size_t statuses[STATUS_UNDECIDED + 1] = {0};
   asker.workspace = query_workspace();
   asker.fixed_pose = query_pose(0, 0, 0);
   CHECK_EQ(posix_memalign(&stack, 4096, COST_STACK), 0);
@@ -436,14 +441,14 @@ static void cost_stack_is_bounded(void) {
     cost_ask(&asker);
     const size_t used = cost_stack_of(&asker, (unsigned char *)stack) - idle;
     most = used > most ? used : most;
-    statuses[asker.answer.status]++;
+    statuses[status_of(&asker.answer)]++;
     nsvcd_body_free(asker.bodies[0], NULL);
     nsvcd_mesh_free(&mesh, NULL);
   }
-  printf("  at most %zu bytes of stack; %zu witnesses, %zu free\n", most,
-         statuses[NSVCD_STATUS_WITNESS], statuses[NSVCD_STATUS_CERTIFIED_FREE]);
-  CHECK_GE(statuses[NSVCD_STATUS_WITNESS], 5);
-  CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 5);
+  printf("  at most %zu bytes of stack; %zu witnesses, %zu free\n", most, statuses[STATUS_WITNESS],
+         statuses[STATUS_CERTIFIED_FREE]);
+  CHECK_GE(statuses[STATUS_WITNESS], 5);
+  CHECK_GE(statuses[STATUS_CERTIFIED_FREE], 5);
 #if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__SANITIZE_ADDRESS__)
   CHECK_GE(COST_MOST_STACK, most);
 #endif

@@ -115,8 +115,9 @@ static void query_scaled_bodies_are_bodies_of_scaled_meshes(void) {
     if (encoded && scaled) {
       nsvcd_answer a = query_ask(encoded, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
       nsvcd_answer b = query_ask(scaled, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
-      int near = fabs((double)(a.logit - b.logit)) <= 0.05 * (1 + fabs((double)a.logit));
-      CHECK_EQ(a.status, b.status);
+      int near =
+          fabs((double)(logit_of(&a) - logit_of(&b))) <= 0.05 * (1 + fabs((double)logit_of(&a)));
+      CHECK_EQ(status_of(&a), status_of(&b));
       if (seed % 2) CHECK(near);
       close += near;
       compared++;
@@ -318,7 +319,7 @@ static void proof_forge_header(const nsvcd_body *body, const nsvcd__facets *f) {
 // nothing that is not there.
 static void proof_forge_anything(const nsvcd_body *body, shapes_rng *rng, size_t *accepted) {
   forgery f = proof_forge(body);
-  nsvcd_sweep_options options = proof_options();
+  nsvcd_question options = proof_options();
   const size_t from = (size_t)((char *)f.inner - (char *)f.memory) + sizeof(struct nsvcd_body);
   const int changes = 1 + shapes_pick(rng, 4);
   for (int k = 0; k < changes; k++) {

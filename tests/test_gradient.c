@@ -28,7 +28,7 @@ typedef struct scene {
   const nsvcd_body *moving, *fixed;
   nsvcd_pose poses[REFERENCE_POSES], fixed_pose;
   size_t count;
-  nsvcd_sweep_options options;
+  nsvcd_question options;
 } scene;
 
 static query_memory pool_memory[2][POOL], scaled_memory[2];
@@ -65,12 +65,12 @@ static nsvcd_answer ask_sweep(const scene *s) {
 static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisive) {
   nsvcd_question question =
       question_of(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose, &s->options);
-  question.options.method = NSVCD_METHOD_NETWORK;
+  question.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd__question_check(&question), NSVCD_OK);
   nsvcd__query *query = nsvcd__query_open(&question, query_workspace());
   query->task.decisive = decisive;
   nsvcd__answer_query(query, NULL, answer);
-  return answer->status == NSVCD_STATUS_OK || answer->status == NSVCD_STATUS_LIMIT;
+  return status_of(answer) == STATUS_OK || status_of(answer) == STATUS_LIMIT;
 }
 
 // ---------------------------------------------------------------------------------------- families
@@ -355,14 +355,14 @@ static int grazing_spheres(scene *s, shapes_rng *rng, size_t n) {
 static int other_options(scene *s, shapes_rng *rng, size_t n) {
   const float recall[4] = {0, 0.99f, 0.999f, 0.9999f};
 #if defined(NSVCD_NO_SMALL) || defined(NSVCD_NO_BASE)
-  s->options.model = NSVCD_MODEL_TINY;
+  s->options.network.model = NSVCD_MODEL_TINY;
 #else
-  s->options.model = (nsvcd_model)shapes_pick(rng, 4);
+  s->options.network.model = (nsvcd_model)shapes_pick(rng, 4);
 #endif
-  s->options.recall = recall[n % 4];
-  s->options.pairs = count_between(rng, 1, 64);
+  s->options.network.recall = recall[n % 4];
+  s->options.network.pairs = count_between(rng, 1, 64);
 #if !defined(NSVCD_NO_INT8)
-  s->options.precision = shapes_pick(rng, 2) ? NSVCD_PRECISION_INT8 : NSVCD_PRECISION_FLOAT;
+  s->options.network.precision = shapes_pick(rng, 2) ? NSVCD_PRECISION_INT8 : NSVCD_PRECISION_FLOAT;
 #endif
   return moderate(s, rng, n);
 }
@@ -512,7 +512,7 @@ static void gradient_matches_the_reference(void) {
       reference_gradient(&pair, poses, metres, radians, expected);
       const double error = relative_error(found, expected, s.count, length);
 #ifndef NSVCD_NO_FLOAT
-      if (!s.options.precision) {
+      if (!s.options.network.precision) {
         logit_off =
             fmax(logit_off, fabs(logit - (double)decisive.candidate.score) / fmax(1, fabs(logit)));
       }
@@ -599,11 +599,12 @@ static void gradient_follows_the_logit(void) {
         for (int side = 0; side < 2; side++) {
           const scene moved = displaced(&s, side ? 5e-4 : -5e-4, along);
           nsvcd_answer there = ask_sweep(&moved);
-          same = same && there.patch_a == answer.patch_a && there.patch_b == answer.patch_b &&
+          same = same && there.opinion.patch_a == answer.opinion.patch_a &&
+                 there.opinion.patch_b == answer.opinion.patch_b &&
                  decide(&moved, &there, &beside[side]) &&
                  beside[side].decoder == decisive.decoder &&
                  fabsf(beside[side].candidate.t_least - decisive.candidate.t_least) < 0.1f;
-          logit[side] = (double)there.logit;
+          logit[side] = (double)logit_of(&there);
         }
         asked++;
         if (!same) continue;
@@ -627,7 +628,7 @@ static void gradient_follows_the_logit(void) {
 // Calls with every argument as it should be but for those given; answer and gradient must be left
 // alone.
 static void check_refused(const scene *s, const nsvcd_pose *poses, size_t count, void *workspace,
-                          size_t size, const nsvcd_sweep_options *options, int with_gradient,
+                          size_t size, const nsvcd_question *options, int with_gradient,
                           nsvcd_result expected) {
   float gradient[6 * REFERENCE_POSES], before[6 * REFERENCE_POSES];
   nsvcd_answer answer, untouched;
@@ -653,7 +654,7 @@ static void gradient_refuses(void) {
   size_t n = 0;
   pool_open();
   while (!scene_of(0, n, &s, &answer, &decisive) || s.count < 3) n++;
-  const nsvcd_sweep_options wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
+  const nsvcd_question wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
   nsvcd_pose broken[REFERENCE_POSES];
   check_refused(&s, s.poses, s.count, workspace, size, NULL, 0, NSVCD_ERROR_ARGUMENT);
   check_refused(&s, NULL, s.count, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
@@ -661,7 +662,7 @@ static void gradient_refuses(void) {
   check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_ARGUMENT);
   check_refused(&s, s.poses, s.count, NULL, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
   nsvcd_question by_network = question_of(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL);
-  by_network.options.method = NSVCD_METHOD_NETWORK;
+  by_network.method = NSVCD_METHOD_NETWORK;
   const size_t least = nsvcd_sweep_workspace_size(&by_network);
   check_refused(&s, s.poses, s.count, workspace, least - 1, NULL, 1, NSVCD_ERROR_WORKSPACE);
   check_refused(&s, s.poses, s.count, workspace + 1, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
@@ -693,7 +694,7 @@ static void gradient_check_balance(const scene *s, int both, double *worst, size
     question.b.poses = others;
     question.b.count = 3;
   }
-  question.options.method = NSVCD_METHOD_NETWORK;
+  question.method = NSVCD_METHOD_NETWORK;
   CHECK_EQ(nsvcd_sweep_gradient(&question, query_workspace(), nsvcd_sweep_workspace_size(NULL),
                                 &answer, gradients[0], gradients[1]),
            NSVCD_OK);
@@ -771,15 +772,15 @@ static void gradient_answers_as_sweep(void) {
       CHECK(memcmp(gradient[0], gradient[1], 6 * s.count * sizeof(float)) == 0);
       double most = 0;
       for (size_t k = 0; k < 6 * s.count; k++) most = fmax(most, fabs((double)gradient[0][k]));
-      const int network = answer.status == NSVCD_STATUS_OK || answer.status == NSVCD_STATUS_LIMIT;
+      const int network = status_of(&answer) == STATUS_OK || status_of(&answer) == STATUS_LIMIT;
       CHECK(network ? most > 0 : !(most > 0));
-      statuses[answer.status]++;
+      statuses[status_of(&answer)]++;
     }
   }
-  CHECK_GE(statuses[NSVCD_STATUS_OK], 10);
-  CHECK_GE(statuses[NSVCD_STATUS_CERTIFIED_FREE], 10);
-  CHECK_GE(statuses[NSVCD_STATUS_LIMIT], 10);
-  CHECK_GE(statuses[NSVCD_STATUS_INSIDE], 1);
+  CHECK_GE(statuses[STATUS_OK], 10);
+  CHECK_GE(statuses[STATUS_CERTIFIED_FREE], 10);
+  CHECK_GE(statuses[STATUS_LIMIT], 10);
+  CHECK_GE(statuses[STATUS_INSIDE], 1);
 }
 
 // Of two poses that nothing distinguishes but their order, a pose that the decisive pair does not

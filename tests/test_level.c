@@ -15,6 +15,7 @@
 #include "failing_heap.h"
 #include "bench/meter.h"
 #include "level_scene.h"
+#include "../examples/scenery/status_of.h"
 
 void test_level(void);
 
@@ -188,8 +189,9 @@ static void level_mapped_from_a_file(void) {
     const nsvcd_question from_file = level_question(&way, body);
     const nsvcd_answer a = level_ask(&question);
     const nsvcd_answer b = level_ask(&from_file);
-    CHECK_EQ(a.status, b.status);
-    CHECK(a.work == b.work && memcmp(&a.contact_time, &b.contact_time, sizeof(float)) == 0);
+    CHECK_EQ(status_of(&a), status_of(&b));
+    CHECK_EQ(a.work, b.work);
+    CHECK(memcmp(&a.nearest, &b.nearest, sizeof a.nearest) == 0);
   }
   body = NULL;
   CHECK_EQ(nsvcd_body_trust(NULL, size, &body), NSVCD_ERROR_ARGUMENT);
@@ -216,17 +218,17 @@ static void level_verdicts_are_right(void) {
       const nsvcd_question question = level_question(&way, w->level.body);
       const nsvcd_answer answer = level_ask(&question);
       const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
-      undecided += answer.status == NSVCD_STATUS_UNDECIDED;
+      undecided += status_of(&answer) == STATUS_UNDECIDED;
       hits += collides != 0;
       asked++;
       if (label.status == ORACLE_FREE && label.distance < 1e-4) continue;
-      CHECK_EQ(answer.collides, collides);
+      CHECK_EQ(collides_of(&answer), collides);
 
       const nsvcd_body *piece = level_piece(&w->level, way.body, way.stored);
       if (piece) {
         const nsvcd_question local = level_question(&way, piece);
         const nsvcd_answer other = level_ask(&local);
-        if (label.status != ORACLE_INSIDE) CHECK_EQ(other.collides, collides);
+        if (label.status != ORACLE_INSIDE) CHECK_EQ(collides_of(&other), collides);
         nsvcd_body_free(piece, NULL);
       }
 
@@ -238,7 +240,7 @@ static void level_verdicts_are_right(void) {
       turned.a = rest.b;
       turned.b = rest.a;
       const nsvcd_answer there = level_ask(&turned);
-      CHECK_EQ(here.status, there.status);
+      CHECK_EQ(status_of(&here), status_of(&there));
     }
   }
   printf("  %zu motions, %zu hits, %zu undecided\n", asked, hits, undecided);
@@ -270,9 +272,9 @@ static void level_that_moves(void) {
     question.b.poses = back;
     question.b.count = 2;
     const nsvcd_answer other = level_ask(&question);
-    CHECK_EQ(one.collides, other.collides);
-    CHECK(other.status != NSVCD_STATUS_UNDECIDED);
-    hits += (size_t)other.collides;
+    CHECK_EQ(collides_of(&one), collides_of(&other));
+    CHECK(status_of(&other) != STATUS_UNDECIDED);
+    hits += (size_t)collides_of(&other);
   }
   CHECK(hits > 5 && hits < 35);
 }
@@ -288,36 +290,37 @@ static void level_contacts_are_those_of_the_piece(void) {
     if (!piece) continue;
     nsvcd_question question = level_question(&way, w->level.body);
     nsvcd_question local = level_question(&way, piece);
-    question.options.first = local.options.first = 0.001f;
+    question.ask = local.ask = NSVCD_ASK_FIRST;
+    question.to_time = local.to_time = 0.001f;
     const nsvcd_answer whole = level_ask(&question);
     const nsvcd_answer part = level_ask(&local);
-    if (whole.status == NSVCD_STATUS_WITNESS && part.status == NSVCD_STATUS_WITNESS) {
-      CHECK_NEAR(whole.contact_time, part.contact_time, 0.0021);
-      CHECK_LE(whole.free_until, whole.contact_time);
-      CHECK_LE(whole.contact_time - 0.00101f, whole.free_until);
+    if (status_of(&whole) == STATUS_WITNESS && status_of(&part) == STATUS_WITNESS) {
+      CHECK_NEAR(contact_time_of(&whole), contact_time_of(&part), 0.0021);
+      CHECK_LE(whole.time.low, contact_time_of(&whole));
+      CHECK_LE(contact_time_of(&whole) - 0.00101f, whole.time.low);
       contacts++;
     }
-    if (whole.status != NSVCD_STATUS_INSIDE) CHECK_EQ(whole.collides, part.collides);
+    if (status_of(&whole) != STATUS_INSIDE) CHECK_EQ(collides_of(&whole), collides_of(&part));
     nsvcd_body_free(piece, NULL);
 
-    question.options.first = 0;
-    question.options.measure = 0.001f;
+    question.ask = NSVCD_ASK_DISTANCE;
+    question.to_time = 0;
+    question.to = 0.001f;
     const nsvcd_answer measured = level_ask(&question);
     const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
     const oracle_options exact = {1e-4, 0, 0, 1};
-    if (measured.status != NSVCD_STATUS_CERTIFIED_FREE) continue;
+    if (status_of(&measured) != STATUS_CERTIFIED_FREE) continue;
     const oracle_result label =
         oracle_sweep(&way.body->oracle, way.poses, 2, &w->level.oracle, &origin, &exact);
-    CHECK_LE(measured.clearance_low, label.distance);
-    CHECK_LE(label.lower, measured.clearance_high);
-    CHECK_LE(measured.clearance_high - measured.clearance_low, 0.0013);
+    CHECK_LE(measured.distance.low, label.distance);
+    CHECK_LE(label.lower, measured.distance.high);
+    CHECK_LE(measured.distance.high - measured.distance.low, 0.0013);
   }
   CHECK(contacts > 10);
 }
 
 // What is said of a body that rests upright at (x, y, 0).
-static nsvcd_status level_status_at(const nsvcd_body *body, float x, float y,
-                                    const nsvcd_body *fixed) {
+static status level_status_at(const nsvcd_body *body, float x, float y, const nsvcd_body *fixed) {
   const nsvcd_pose at = {{x, y, 0}, {0, 0, 0, 1}};
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -325,7 +328,8 @@ static nsvcd_status level_status_at(const nsvcd_body *body, float x, float y,
   question.a.poses = &at;
   question.a.count = 1;
   question.b.body = fixed;
-  return level_ask(&question).status;
+  const nsvcd_answer answer = level_ask(&question);
+  return status_of(&answer);
 }
 
 // Pebbles that float: one within a box is found, though there are many, and one outside of it is
@@ -352,9 +356,9 @@ static void level_components_are_found(void) {
   for (int i = 0; i < PEBBLES; i += 41) {
     const float x = 0.2f * (float)(i % 30);
     const float y = 0.2f * (float)(i / 30);
-    CHECK_EQ(level_status_at(box.body, x, y, pebbles.body), NSVCD_STATUS_INSIDE);
+    CHECK_EQ(level_status_at(box.body, x, y, pebbles.body), STATUS_INSIDE);
     // Between two of them.
-    CHECK_EQ(level_status_at(box.body, x + 0.1f, y, pebbles.body), NSVCD_STATUS_CERTIFIED_FREE);
+    CHECK_EQ(level_status_at(box.body, x + 0.1f, y, pebbles.body), STATUS_CERTIFIED_FREE);
   }
   level_free(&pebbles);
   level_free(&box);
@@ -522,17 +526,17 @@ static void level_by_the_network(void) {
     const oracle_result label = level_label(&way, &w->level);
     const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
     nsvcd_question question = level_question(&way, level_with_latents());
-    question.options.method = NSVCD_METHOD_NETWORK;
+    question.method = NSVCD_METHOD_NETWORK;
     const nsvcd_answer answer = level_ask(&question);
-    if (answer.status == NSVCD_STATUS_CERTIFIED_FREE) CHECK(!collides);
-    certified += answer.status == NSVCD_STATUS_CERTIFIED_FREE;
-    wrong += answer.collides != collides;
+    if (status_of(&answer) == STATUS_CERTIFIED_FREE) CHECK(!collides);
+    certified += status_of(&answer) == STATUS_CERTIFIED_FREE;
+    wrong += collides_of(&answer) != collides;
     hits += collides != 0;
     asked++;
     nsvcd_question turned = question;
     turned.a = question.b;
     turned.b = question.a;
-    CHECK_EQ(level_ask(&turned).collides, answer.collides);
+    CHECK_EQ(level_ask(&turned).verdict != NSVCD_FREE, collides_of(&answer));
   }
   printf("  by the network: %zu of %zu wrong, %zu hits, %zu certified\n", wrong, asked, hits,
          certified);
@@ -542,7 +546,7 @@ static void level_by_the_network(void) {
   const level_way way = level_draw(&(shapes_rng){11}, LEVEL_NEAR, w->bodies, &w->level);
   nsvcd_question question = level_question(&way, w->level.body);
   nsvcd_answer answer;
-  question.options.method = NSVCD_METHOD_NETWORK;  // which this one has nothing for
+  question.method = NSVCD_METHOD_NETWORK;  // which this one has nothing for
   CHECK_EQ(nsvcd_sweep(&question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
            NSVCD_ERROR_BODY);
 }
@@ -570,8 +574,8 @@ static void level_containment_by_the_network(void) {
   for (int i = 0; i < 400; i += 13) {
     const float x = 0.4f * (float)(i % 20);
     const float y = 0.4f * (float)(i / 20);
-    CHECK_EQ(level_status_at(ball.body, x, y, crates.body), NSVCD_STATUS_INSIDE);
-    CHECK_EQ(level_status_at(ball.body, x + 0.2f, y, crates.body), NSVCD_STATUS_CERTIFIED_FREE);
+    CHECK_EQ(level_status_at(ball.body, x, y, crates.body), STATUS_INSIDE);
+    CHECK_EQ(level_status_at(ball.body, x + 0.2f, y, crates.body), STATUS_CERTIFIED_FREE);
   }
   level_free(&crates);
   level_free(&ball);
@@ -633,9 +637,10 @@ static void level_planning(void) {
     const nsvcd_question straight = level_question(&way, w->level.body);
     nsvcd_question end = straight;
     end.a.count = 1;
-    if (level_ask(&end).collides || !level_ask(&straight).collides) continue;
+    if (level_ask(&end).verdict != NSVCD_FREE || level_ask(&straight).verdict == NSVCD_FREE)
+      continue;
     end.a.poses = way.stored + 1;
-    if (level_ask(&end).collides) continue;
+    if (level_ask(&end).verdict != NSVCD_FREE) continue;
     barred++;
     CHECK_EQ(nsvcd_plan(&problem, &options, workspace, size, control, &answer), NSVCD_OK);
     if (answer.status != NSVCD_PLAN_CONVERGED) continue;
@@ -690,11 +695,11 @@ static void level_of_bad_triangles(void) {
   for (int trial = 0; trial < 30; trial++) {
     const level_way way = level_draw(&rng, LEVEL_NEAR, w->bodies, &w->level);
     nsvcd_question question = level_question(&way, w->level.body);
-    const int collides = level_ask(&question).collides;
+    const int collides = level_ask(&question).verdict != NSVCD_FREE;
     question.b.body = half;
-    CHECK_EQ(level_ask(&question).collides, collides);
+    CHECK_EQ(level_ask(&question).verdict != NSVCD_FREE, collides);
     question.b.body = turned;  // it winds once the other way about what is inside
-    CHECK_EQ(level_ask(&question).collides, collides);
+    CHECK_EQ(level_ask(&question).verdict != NSVCD_FREE, collides);
   }
   nsvcd_body_free(half, NULL);
   nsvcd_body_free(turned, NULL);
@@ -728,7 +733,7 @@ static void level_of_bad_triangles(void) {
     question.a.count = 1;
     question.b.body = crumbs;
     at.position[2] = trial % 2 ? 0.0502f : 0.0498f;
-    CHECK_EQ(level_ask(&question).collides, trial % 2 == 0);
+    CHECK_EQ(level_ask(&question).verdict != NSVCD_FREE, trial % 2 == 0);
   }
   level_free(&solid);
 }

@@ -136,9 +136,9 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->moments; s++) {
       const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
-      if (answer.logit <= -p->options.margin) continue;
+      if (logit_of(&answer) <= -p->options.margin) continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
-      hash = (hash ^ (answer.patch_a * 512 + answer.patch_b)) * 1099511628211u;
+      hash = (hash ^ (answer.opinion.patch_a * 512 + answer.opinion.patch_b)) * 1099511628211u;
     }
   }
   return hash;
@@ -169,7 +169,7 @@ static void plan_network_gradient_case(plan_kind kind, int *tried, int *smooth, 
   s.options.velocity = s.options.jerk = 0.1f;
   s.options.acceleration = -1;
   s.options.collision = 1;
-  s.options.sweep.precision = NSVCD_PRECISION_FLOAT;
+  s.options.sweep.network.precision = NSVCD_PRECISION_FLOAT;
   if (!plan_open(&s, &in)) return;
   nsvcd__planner *p = &in.planner;
   const size_t f = s.problem.joints;
@@ -432,12 +432,12 @@ static void plan_culling_misses_nothing(void) {
         nsvcd__find_meetings(p, &s.problem.pairs[k], samples, stride);
         for (size_t i = 0; i + stride < samples; i++) {
           const nsvcd_answer answer = nsvcd__ask(p, k, i, stride, 0, NULL);
-          const int certain = answer.status == NSVCD_STATUS_CERTIFIED_FREE;
+          const int certain = status_of(&answer) == STATUS_CERTIFIED_FREE;
           segments++;
           uncertain += !certain;
           culled += !p->meets[i];
           missed += !certain && !p->meets[i];
-          missed_by_network += answer.logit > -2 && !p->meets[i];
+          missed_by_network += logit_of(&answer) > -2 && !p->meets[i];
         }
       }
     }
@@ -497,24 +497,27 @@ static void plan_cost_is_the_sum_over_segments(void) {
       for (size_t i = 0; i + 1 < stage->moments;) {  // which runs are clear
         size_t length = 0;
         while (length < 8 && i + length + 1 < stage->moments && meets[i + length]) length++;
-        if (length > 1 && nsvcd__ask(p, k, i, length, 0, NULL).logit <= -p->options.margin)
-          memset(runs + i, 1, length);
+        if (length > 1) {
+          const nsvcd_answer run = nsvcd__ask(p, k, i, length, 0, NULL);
+          memset(runs + i, logit_of(&run) <= -p->options.margin, length);
+        }
         i += length ? length : 1;
       }
       for (size_t i = 0; i + 1 < stage->moments; i++) {
         const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, 0, NULL);
-        const double share = (double)nsvcd__cost_of_logit(answer.logit, p->options.margin, &slope);
+        const double share =
+            (double)nsvcd__cost_of_logit(logit_of(&answer), p->options.margin, &slope);
         sum += share;
-        collides_at_all |= answer.collides;
+        collides_at_all |= collides_of(&answer);
         costly += share > 0;
         if (!meets[i]) CHECK_EQ(share, 0);
         if (runs[i]) {
           without += share;
           dropped += share > 0;
-          dropped_hits += answer.collides;
+          dropped_hits += collides_of(&answer);
           dropped_here += share > 0;
         } else {
-          collides |= answer.collides;
+          collides |= collides_of(&answer);
         }
       }
     }
@@ -1219,7 +1222,7 @@ static void plan_refuses_options_out_of_range(void) {
                            &o->refine.draws,
                            &o->seeds,
                            &o->check,
-                           &o->sweep.pairs};
+                           &o->sweep.network.pairs};
   const size_t most[] = {32,    4096, 100000, 10000,          32, 4096, 100000,
                          10000, 1000, 16384,  NSVCD_MAX_PAIRS};
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
@@ -1235,7 +1238,7 @@ static void plan_refuses_options_out_of_range(void) {
   }
   float *const floats[] = {&o->velocity,      &o->acceleration, &o->jerk,
                            &o->collision,     &o->duration,     &o->margin,
-                           &o->explore.noise, &o->refine.noise, &o->sweep.recall};
+                           &o->explore.noise, &o->refine.noise, &o->sweep.network.recall};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
     *floats[k] = NAN;
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
@@ -1243,11 +1246,11 @@ static void plan_refuses_options_out_of_range(void) {
     plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
     *o = none;
   }
-  o->sweep.recall = 0.5f;
+  o->sweep.network.recall = 0.5f;
   plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
-  *o = none, o->sweep.model = (nsvcd_model)17;
+  *o = none, o->sweep.network.model = (nsvcd_model)17;
   plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
-  *o = none, o->sweep.precision = (nsvcd_precision)5;
+  *o = none, o->sweep.network.precision = (nsvcd_precision)5;
   plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
 }
 
@@ -1493,7 +1496,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
       s.goal[j] = s.rest[1].position[j];
       s.start[j] = s.goal[j] + (j == joint ? 0.6f : 0);
     }
-    o->sweep.recall = 0.999f;
+    o->sweep.network.recall = 0.999f;
   }
   if (trouble == PLAN_SAME_BODY) s.pairs[0].a = s.pairs[0].b = (uint32_t)shapes_pick(&rng, 2);
   if (trouble == PLAN_ZERO_LENGTH) memcpy(s.goal, s.start, sizeof s.goal);

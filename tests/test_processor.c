@@ -77,12 +77,12 @@ static void processor_proofs_agree(void) {
     processor_scene s;
     processor_open(&s, seed);
     const nsvcd_answer first = processor_ask(&processor_sets[0], &s.question);
-    hits += first.collides != 0;
-    undecided += first.status == NSVCD_STATUS_UNDECIDED;
+    hits += collides_of(&first) != 0;
+    undecided += status_of(&first) == STATUS_UNDECIDED;
     for (size_t n = 1; n < processor_count(); n++) {
       const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
-      CHECK_EQ(answer.status, first.status);
-      CHECK_EQ(answer.collides, first.collides);
+      CHECK_EQ(status_of(&answer), status_of(&first));
+      CHECK_EQ(collides_of(&answer), collides_of(&first));
     }
     processor_close(&s);
   }
@@ -97,14 +97,15 @@ static float processor_worst_logit(nsvcd_precision precision) {
   for (uint64_t seed = 1; seed <= 60; seed++) {
     processor_scene s;
     processor_open(&s, seed);
-    s.question.options.method = NSVCD_METHOD_NETWORK;
-    s.question.options.model = NSVCD_MODEL_TINY;  // no other decoder is asked
-    s.question.options.precision = precision;
+    s.question.method = NSVCD_METHOD_NETWORK;
+    s.question.network.model = NSVCD_MODEL_TINY;  // no other decoder is asked
+    s.question.network.precision = precision;
     const nsvcd_answer first = processor_ask(&processor_sets[0], &s.question);
     for (size_t n = 1; n < processor_count(); n++) {
       const nsvcd_answer answer = processor_ask(&processor_sets[n], &s.question);
-      CHECK_EQ(answer.status, first.status);
-      if (first.status == NSVCD_STATUS_OK) worst = fmaxf(worst, fabsf(answer.logit - first.logit));
+      CHECK_EQ(status_of(&answer), status_of(&first));
+      if (status_of(&first) == STATUS_OK)
+        worst = fmaxf(worst, fabsf(logit_of(&answer) - logit_of(&first)));
     }
     processor_close(&s);
   }
@@ -131,7 +132,7 @@ static void processor_the_best_answers(void) {
     float one[6 * QUERY_POSES];
     float other[6 * QUERY_POSES];
     processor_open(&s, seed);
-    s.question.options.method = NSVCD_METHOD_NETWORK;
+    s.question.method = NSVCD_METHOD_NETWORK;
     const size_t size = nsvcd_sweep_workspace_size(&s.question);
     CHECK_EQ(size, best->size(&s.question));
     CHECK_EQ(nsvcd_sweep(&s.question, query_workspace(), size, &answer), NSVCD_OK);

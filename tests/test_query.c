@@ -34,16 +34,17 @@ static void query_answers_make_sense(void) {
     query_scene s;
     query_scene_open(&s, seed);
     nsvcd_answer a = query_scene_ask(&s);
-    CHECK(isfinite(a.logit) && fabsf(a.logit) <= NSVCD_LOGIT_CERTAIN);
-    CHECK_EQ(a.collides, a.logit > 0);
-    CHECK(a.contact_time >= 0 && a.contact_time <= 1);
-    CHECK(a.patch_a < nsvcd_body_describe(s.moving).patches &&
-          a.patch_b < nsvcd_body_describe(s.fixed).patches);
-    CHECK_EQ(a.status == NSVCD_STATUS_CERTIFIED_FREE,
-             a.candidates == 0 && a.status != NSVCD_STATUS_INSIDE);
-    CHECK_EQ(a.status == NSVCD_STATUS_LIMIT, a.candidates > 8 && a.status != NSVCD_STATUS_INSIDE);
-    certified += a.status == NSVCD_STATUS_CERTIFIED_FREE;
-    answered += a.candidates > 0;
+    CHECK(isfinite(logit_of(&a)) && fabsf(logit_of(&a)) <= NSVCD_LOGIT_CERTAIN);
+    CHECK_EQ(collides_of(&a), logit_of(&a) > 0);
+    CHECK(contact_time_of(&a) >= 0 && contact_time_of(&a) <= 1);
+    CHECK(a.opinion.patch_a < nsvcd_body_describe(s.moving).patches &&
+          a.opinion.patch_b < nsvcd_body_describe(s.fixed).patches);
+    CHECK_EQ(status_of(&a) == STATUS_CERTIFIED_FREE,
+             a.opinion.candidates == 0 && status_of(&a) != STATUS_INSIDE);
+    CHECK_EQ(status_of(&a) == STATUS_LIMIT,
+             a.opinion.candidates > 8 && status_of(&a) != STATUS_INSIDE);
+    certified += status_of(&a) == STATUS_CERTIFIED_FREE;
+    answered += a.opinion.candidates > 0;
     query_scene_close(&s);
   }
   CHECK_GE(certified, 1);  // else this test saw only one kind
@@ -68,9 +69,10 @@ static void query_logit_is_invariant_under_rigid_motion(void) {
     for (int i = 0; i < QUERY_POSES; i++) s.motion[i] = query_moved(&common, &s.motion[i]);
     s.fixed_pose = query_moved(&common, &s.fixed_pose);
     nsvcd_answer after = query_scene_ask(&s);
-    CHECK_NEAR(before.logit, after.logit, QUERY_RIGID_TOLERANCE * (1 + fabs((double)before.logit)));
-    if (fabsf(before.logit) > 0.01f) CHECK_EQ(before.collides, after.collides);
-    compared += before.candidates > 0;
+    CHECK_NEAR(logit_of(&before), logit_of(&after),
+               QUERY_RIGID_TOLERANCE * (1 + fabs((double)logit_of(&before))));
+    if (fabsf(logit_of(&before)) > 0.01f) CHECK_EQ(collides_of(&before), collides_of(&after));
+    compared += before.opinion.candidates > 0;
     query_scene_close(&s);
   }
   CHECK_GE(compared, 10);
@@ -103,10 +105,10 @@ static void query_logit_is_invariant_under_scale(void) {
     }
     if (to[0] && to[1]) {
       nsvcd_answer after = query_scene_ask(&scaled);
-      CHECK_EQ(before.logit, after.logit);
-      CHECK_EQ(before.status, after.status);
+      CHECK_EQ(logit_of(&before), logit_of(&after));
+      CHECK_EQ(status_of(&before), status_of(&after));
     }
-    compared += before.candidates > 0;
+    compared += before.opinion.candidates > 0;
     query_release(&memory[0]);
     query_release(&memory[1]);
     query_scene_close(&s);
@@ -123,15 +125,15 @@ static void query_far_apart_is_certified(void) {
   nsvcd_pose poses[2] = {query_pose(1, 0, 0), query_pose(0, 1, 0)};
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(body, poses, 2, body, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
-  CHECK_EQ(a.logit, -NSVCD_LOGIT_CERTAIN);
-  CHECK_EQ(a.collides, 0);
-  CHECK_EQ(a.candidates, 0);
-  CHECK_EQ(a.patch_a + a.patch_b, 0);
+  CHECK_EQ(status_of(&a), STATUS_CERTIFIED_FREE);
+  CHECK_EQ(logit_of(&a), -NSVCD_LOGIT_CERTAIN);
+  CHECK_EQ(collides_of(&a), 0);
+  CHECK_EQ(a.opinion.candidates, 0);
+  CHECK_EQ(a.opinion.patch_a + a.opinion.patch_b, 0);
   poses[1] = query_pose(-1, 0, 0);  // right through: the spheres must meet
   a = query_ask(body, poses, 2, body, &origin, NULL);
-  CHECK(a.status == NSVCD_STATUS_OK || a.status == NSVCD_STATUS_LIMIT);
-  CHECK_GE(a.candidates, 1);
+  CHECK(status_of(&a) == STATUS_OK || status_of(&a) == STATUS_LIMIT);
+  CHECK_GE(a.opinion.candidates, 1);
   query_release(&memory);
   nsvcd_mesh_free(&mesh, NULL);
 }
@@ -146,18 +148,18 @@ static void query_inside_is_inside(void) {
   nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)};
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, poses, 2, outer, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
-  CHECK_EQ(a.collides, 1);
-  CHECK_EQ(a.logit, NSVCD_LOGIT_CERTAIN);
-  CHECK_EQ(a.contact_time, 0);
+  CHECK_EQ(status_of(&a), STATUS_INSIDE);
+  CHECK_EQ(collides_of(&a), 1);
+  CHECK_EQ(logit_of(&a), NSVCD_LOGIT_CERTAIN);
+  CHECK_EQ(contact_time_of(&a), 0);
   a = query_ask(outer, poses, 2, inner, &origin, NULL);  // and the other way round
-  CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
+  CHECK_EQ(status_of(&a), STATUS_INSIDE);
   a = query_ask(inner, poses, 1, outer, &origin, NULL);  // one pose
-  CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
+  CHECK_EQ(status_of(&a), STATUS_INSIDE);
   poses[0] = query_pose(0.3, 0, 0);
   poses[1] = query_pose(0.3, 0.02, 0);  // beside it
   a = query_ask(inner, poses, 2, outer, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
+  CHECK_EQ(status_of(&a), STATUS_CERTIFIED_FREE);
   query_release(&memory[0]);
   query_release(&memory[1]);
   nsvcd_mesh_free(&small, NULL);
@@ -179,7 +181,7 @@ static void query_inside_an_open_body(void) {
   CHECK_EQ(nsvcd_body_load(memory[1].at, nsvcd_body_size(512), &loaded), NSVCD_OK);
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, &origin, 1, loaded, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
+  CHECK_EQ(status_of(&a), STATUS_CERTIFIED_FREE);
   query_release(&memory[0]);
   query_release(&memory[1]);
   nsvcd_mesh_free(&small, NULL);
@@ -200,7 +202,7 @@ static void query_inside_an_inside_out_body(void) {
   const nsvcd_body *outer = query_encode(&large, 0, &memory[1]);
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, &origin, 1, outer, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_INSIDE);
+  CHECK_EQ(status_of(&a), STATUS_INSIDE);
   query_release(&memory[0]);
   query_release(&memory[1]);
   nsvcd_mesh_free(&small, NULL);
@@ -225,9 +227,9 @@ static void query_sizes_at_the_limits(void) {
              NSVCD_OK);
     nsvcd_pose through[2] = {query_pose(-0.9 * a, 0, 0), query_pose(0.9 * a, 0, 0)};
     nsvcd_pose origin = query_pose(0, 0, 0);
-    CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 1);
+    CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).verdict != NSVCD_FREE, 1);
     for (int k = 0; k < 2; k++) through[k].position[1] = (float)(1.1 * a);  // a gap of a tenth
-    CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).collides, 0);
+    CHECK_EQ(query_ask(body, through, 2, same, &origin, NULL).verdict != NSVCD_FREE, 0);
     query_release(&memory[0]);
     query_release(&memory[1]);
     nsvcd_mesh_free(&cube, NULL);
@@ -258,7 +260,7 @@ static void query_a_cavity_is_not_inside(void) {
   nsvcd_pose poses[2] = {query_pose(0.01, 0, 0), query_pose(0, 0.02, 0)};
   nsvcd_pose origin = query_pose(0, 0, 0);
   nsvcd_answer a = query_ask(inner, poses, 2, outer, &origin, NULL);
-  CHECK_EQ(a.status, NSVCD_STATUS_CERTIFIED_FREE);
+  CHECK_EQ(status_of(&a), STATUS_CERTIFIED_FREE);
   query_release(&memory[0]);
   query_release(&memory[1]);
   nsvcd_mesh_free(&small, NULL);
@@ -274,8 +276,8 @@ static void query_standing_still_is_one_pose(void) {
     nsvcd_pose still[3] = {s.motion[4], s.motion[4], s.motion[4]};
     nsvcd_answer one = query_ask(s.moving, still, 1, s.fixed, &s.fixed_pose, NULL);
     nsvcd_answer three = query_ask(s.moving, still, 3, s.fixed, &s.fixed_pose, NULL);
-    CHECK_NEAR(one.logit, three.logit, 1e-3 * (1 + fabs((double)one.logit)));
-    CHECK_EQ(one.status, three.status);
+    CHECK_NEAR(logit_of(&one), logit_of(&three), 1e-3 * (1 + fabs((double)logit_of(&one))));
+    CHECK_EQ(status_of(&one), status_of(&three));
     query_scene_close(&s);
   }
 }
@@ -316,11 +318,12 @@ static void query_both_may_move(void) {
     const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
     const nsvcd_answer answer = query_answer(&question);
     // seen from the same body
-    if (before.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
+    if (before.opinion.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
       compared++;
-      same += answer.collides == before.collides;
+      same += collides_of(&answer) == collides_of(&before);
       if (seed % 2 == 0)
-        CHECK_NEAR(answer.logit, before.logit, 1e-3 * (1 + fabs((double)before.logit)));
+        CHECK_NEAR(logit_of(&answer), logit_of(&before),
+                   1e-3 * (1 + fabs((double)logit_of(&before))));
     }
     query_scene_close(&s);
   }
@@ -344,9 +347,9 @@ static void query_sides_do_not_matter(void) {
     question.a = question.b;
     question.b = a;
     nsvcd_answer other = query_answer(&question);
-    const uint32_t patch = other.patch_a;
-    other.patch_a = other.patch_b;
-    other.patch_b = patch;
+    const uint32_t patch = other.opinion.patch_a;
+    other.opinion.patch_a = other.opinion.patch_b;
+    other.opinion.patch_b = patch;
     CHECK(query_same_answer(&one, &other));
     query_scene_close(&s);
   }
@@ -377,8 +380,8 @@ static void query_scales_in_the_question(void) {
       mover->scale = 0;
     }
     other = query_answer(&question);
-    CHECK_EQ(one.status, other.status);
-    CHECK_NEAR(one.logit, other.logit, 1e-3 * (1 + fabs((double)one.logit)));
+    CHECK_EQ(status_of(&one), status_of(&other));
+    CHECK_NEAR(logit_of(&one), logit_of(&other), 1e-3 * (1 + fabs((double)logit_of(&one))));
     query_release(&memory[0]);
     query_release(&memory[1]);
     query_scene_close(&s);
@@ -393,20 +396,20 @@ static void query_all_pairs_are_enough(void) {
     query_scene s;
     query_scene_open(&s, seed);
     for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
-      nsvcd_sweep_options few = query_options(NSVCD_MAX_PAIRS / 2, (nsvcd_model)model, 0);
-      nsvcd_sweep_options many = few;
-      many.pairs = NSVCD_MAX_PAIRS;
+      nsvcd_question few = query_options(NSVCD_MAX_PAIRS / 2, (nsvcd_model)model, 0);
+      nsvcd_question many = few;
+      many.network.pairs = NSVCD_MAX_PAIRS;
       nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &few);
       nsvcd_answer b = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &many);
       // then the searches keep different pairs, and may end at different times
-      if (a.candidates > few.pairs) {
-        CHECK_GE(b.candidates, few.pairs + 1);
+      if (a.opinion.candidates > few.network.pairs) {
+        CHECK_GE(b.opinion.candidates, few.network.pairs + 1);
         continue;
       }
-      CHECK_EQ(a.candidates, b.candidates);
-      if (a.candidates == 0) continue;
+      CHECK_EQ(a.opinion.candidates, b.opinion.candidates);
+      if (a.opinion.candidates == 0) continue;
       CHECK(query_same_answer(&a, &b));
-      CHECK(a.status != NSVCD_STATUS_LIMIT);
+      CHECK(status_of(&a) != STATUS_LIMIT);
       compared++;
     }
     query_scene_close(&s);
@@ -423,11 +426,11 @@ static void query_more_pairs_never_lose_a_collision(void) {
     query_scene_open(&s, seed);
     int before = 0;
     for (size_t pairs = 1; pairs <= NSVCD_MAX_PAIRS; pairs *= 4) {
-      nsvcd_sweep_options options = query_options(pairs, NSVCD_MODEL_TINY, 0);
+      nsvcd_question options = query_options(pairs, NSVCD_MODEL_TINY, 0);
       nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-      CHECK_GE(a.collides, before);
-      before = a.collides;
-      collisions += a.collides;
+      CHECK_GE(collides_of(&a), before);
+      before = collides_of(&a);
+      collisions += collides_of(&a);
     }
     query_scene_close(&s);
   }
@@ -441,21 +444,21 @@ static void query_recall_raises_the_logit(void) {
   query_scene_open(&s, 1);
   float previous = 0;
   for (int i = 0; i < 4; i++) {
-    nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, recalls[i]);
+    nsvcd_question options = query_options(8, NSVCD_MODEL_BASE, recalls[i]);
     nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-    if (i > 1) CHECK_GE(a.logit, previous);
-    previous = a.logit;
+    if (i > 1) CHECK_GE(logit_of(&a), previous);
+    previous = logit_of(&a);
   }
   query_scene_close(&s);
 }
 
 // What a query about bodies of so many patches subtracts from its logits.
 static double query_threshold(size_t model, size_t column, size_t a, size_t b) {
-  nsvcd_sweep_options options = query_options(8, NSVCD_MODEL_BASE, nsvcd_w_recall[column]);
+  nsvcd_question options = query_options(8, NSVCD_MODEL_BASE, nsvcd_w_recall[column]);
   nsvcd__settings settings;
   memset(&settings, 0, sizeof settings);
-  options.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
-  CHECK_EQ(nsvcd__settings_of(&options, a, b, &settings), NSVCD_OK);
+  options.network.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
+  CHECK_EQ(nsvcd__settings_of(&options.network, a, b, &settings), NSVCD_OK);
   return (double)settings.threshold;
 }
 
@@ -505,7 +508,7 @@ static nsvcd_answer query_untouched(void) {
 
 // Asks with one thing wrong; the answer must stay as it was.
 static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t count,
-                          const nsvcd_pose *fixed_pose, const nsvcd_sweep_options *options,
+                          const nsvcd_pose *fixed_pose, const nsvcd_question *options,
                           nsvcd_result expected) {
   nsvcd_answer answer = query_untouched();
   nsvcd_answer before = query_untouched();
@@ -532,7 +535,7 @@ static void query_refuses_bad_arguments(void) {
                nsvcd_sweep_workspace_size(NULL), NULL),
            NSVCD_ERROR_ARGUMENT);
 
-  nsvcd_sweep_options bad[7];
+  nsvcd_question bad[7];
   bad[0] = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
   bad[1] = query_options((size_t)-1, NSVCD_MODEL_DEFAULT, 0);
   bad[2] = query_options(0, (nsvcd_model)(NSVCD_MODEL_BASE + 1), 0);
@@ -540,7 +543,7 @@ static void query_refuses_bad_arguments(void) {
   bad[4] = query_options(0, NSVCD_MODEL_DEFAULT, -1);
   bad[5] = query_options(0, NSVCD_MODEL_DEFAULT, NAN);
   bad[6] = query_options(0, NSVCD_MODEL_DEFAULT, 0);
-  bad[6].precision = (nsvcd_precision)(NSVCD_PRECISION_INT8 + 1);
+  bad[6].network.precision = (nsvcd_precision)(NSVCD_PRECISION_INT8 + 1);
   for (int i = 0; i < 7; i++)
     query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], NSVCD_ERROR_ARGUMENT);
   query_scene_close(&s);
@@ -725,10 +728,10 @@ static int query_answer_problem(FILE *file, const query_library *library, void *
   const nsvcd_body *fixed = query_scaled(library, names[1], scales[1], memory[1]);
   if (!moving || !fixed) return 0;
   nsvcd_answer a = query_ask(moving, motion, count, fixed, &fixed_pose, NULL);
-  CHECK_EQ(a.collides, a.logit > 0);
+  CHECK_EQ(collides_of(&a), logit_of(&a) > 0);
   for (int i = 0; i < 3; i++)
     if (strncmp(id, scores[i].set, strlen(scores[i].set)) == 0)
-      scores[i].counts[label][a.collides]++;
+      scores[i].counts[label][collides_of(&a)]++;
   return 1;
 }
 
@@ -801,11 +804,11 @@ static void query_sizes_are_what_is_asked(void) {
     }
     for (size_t segments = 16; segments <= 64; segments += 16) {
       nsvcd_question question = question_of(bodies[0], &at, 1, bodies[1], NULL, NULL);
-      question.options.segments = segments;
+      question.segments = segments;
       const size_t proof = nsvcd_sweep_workspace_size(&question);
       const size_t proof_constant = NSVCD_PROOF_WORKSPACE_BYTES(points[0], points[1], segments);
-      question.options.method = NSVCD_METHOD_NETWORK;
-      question.options.pairs = 16;
+      question.method = NSVCD_METHOD_NETWORK;
+      question.network.pairs = 16;
       const size_t network = nsvcd_sweep_workspace_size(&question);
       const size_t network_constant =
           NSVCD_NETWORK_WORKSPACE_BYTES(points[0], points[1], segments, 16);
@@ -878,7 +881,7 @@ static void query_proofs_stay_within_their_workspace(void) {
   static const size_t sizes[5] = {1, 64, 192, 512, 700};
   const nsvcd_body *bodies[2][5];
   nsvcd_pose spin[QUERY_POSES];
-  size_t statuses[NSVCD_STATUS_UNDECIDED + 1] = {0};
+  size_t statuses[STATUS_UNDECIDED + 1] = {0};
   size_t unused = SIZE_MAX;
   for (size_t n = 0; n < 10; n++) {
     const nsvcd_encode_options options = {.patches = sizes[n % 5], .no_latents = n % 5 == 2};
@@ -896,23 +899,28 @@ static void query_proofs_stay_within_their_workspace(void) {
     }
     nsvcd_question question =
         question_of(bodies[0][n / 5 % 5], spin, QUERY_POSES, bodies[1][n / 25 % 5], NULL, NULL);
-    question.options.method = NSVCD_METHOD_PROOF;
-    question.options.segments = n < 125 ? 16 : 0;
-    question.options.first = n % 7 == 1 ? 0.01f : 0;
-    question.options.measure = n % 7 == 2 ? 0.001f : 0;
-    question.options.skin = n % 7 == 3 ? 0.002f : 0;
-    question.options.clearance = n % 7 == 4 ? 0.01f : 0;
-    question.options.work = n % 7 == 5 ? 20 : 0;
+    question.method = NSVCD_METHOD_PROOF;
+    question.segments = n < 125 ? 16 : 0;
+    if (n % 7 == 1) {
+      question.ask = NSVCD_ASK_FIRST;
+      question.to_time = 0.01f;
+    } else if (n % 7 == 2) {
+      question.ask = NSVCD_ASK_DISTANCE;
+      question.to = 0.001f;
+    }
+    question.skin = n % 7 == 3 ? 0.002f : 0;
+    question.clearance = n % 7 == 4 ? 0.01f : 0;
+    question.work = n % 7 == 5 ? 20 : 0;
     const size_t left = query_stays_within(&question);
     unused = left < unused ? left : unused;
     const nsvcd_answer answer = query_answer(&question);
-    statuses[answer.status]++;
+    statuses[status_of(&answer)]++;
   }
   printf("  %zu witnesses, %zu free, %zu undecided; %zu bytes unused at the end\n",
-         statuses[NSVCD_STATUS_WITNESS], statuses[NSVCD_STATUS_CERTIFIED_FREE],
-         statuses[NSVCD_STATUS_UNDECIDED], unused);
-  CHECK(statuses[NSVCD_STATUS_WITNESS] > 10 && statuses[NSVCD_STATUS_CERTIFIED_FREE] > 10);
-  CHECK(statuses[NSVCD_STATUS_UNDECIDED] > 5);
+         statuses[STATUS_WITNESS], statuses[STATUS_CERTIFIED_FREE], statuses[STATUS_UNDECIDED],
+         unused);
+  CHECK(statuses[STATUS_WITNESS] > 10 && statuses[STATUS_CERTIFIED_FREE] > 10);
+  CHECK(statuses[STATUS_UNDECIDED] > 5);
   CHECK_LE(unused, 64);  // else nothing came near the end
   for (size_t n = 0; n < 10; n++) nsvcd_body_free(bodies[n / 5][n % 5], NULL);
 }
@@ -938,7 +946,7 @@ static void query_few_segments_are_as_right(void) {
       spin[k].rotation[3] = cosf(half);
     }
     s.fixed_pose.position[2] += 0.08f * (float)(seed % 5);
-    nsvcd_sweep_options options;
+    nsvcd_question options;
     memset(&options, 0, sizeof options);
     const nsvcd_answer many =
         query_ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options);
@@ -950,11 +958,11 @@ static void query_few_segments_are_as_right(void) {
     CHECK_EQ(ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options,
                  query_workspace(), nsvcd_sweep_workspace_size(NULL), &none),
              NSVCD_ERROR_ARGUMENT);
-    if (many.status != NSVCD_STATUS_UNDECIDED && few.status != NSVCD_STATUS_UNDECIDED)
-      CHECK_EQ(many.collides, few.collides);
-    CHECK(many.status == NSVCD_STATUS_WITNESS || many.status == NSVCD_STATUS_CERTIFIED_FREE ||
-          many.status == NSVCD_STATUS_INSIDE);
-    hits += (size_t)many.collides;
+    if (status_of(&many) != STATUS_UNDECIDED && status_of(&few) != STATUS_UNDECIDED)
+      CHECK_EQ(collides_of(&many), collides_of(&few));
+    CHECK(status_of(&many) == STATUS_WITNESS || status_of(&many) == STATUS_CERTIFIED_FREE ||
+          status_of(&many) == STATUS_INSIDE);
+    hits += (size_t)collides_of(&many);
     for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
     query_scene_close(&s);
   }
@@ -964,10 +972,10 @@ static void query_few_segments_are_as_right(void) {
 // Asks whether two boxes, the one at rest at a pose that the other may have, are nearer than that.
 static int query_is_near(const nsvcd_body *a, const nsvcd_pose *pose, const nsvcd_body *b,
                          float clearance) {
-  nsvcd_sweep_options options;
+  nsvcd_question options;
   memset(&options, 0, sizeof options);
   options.clearance = clearance;
-  return query_ask(a, pose, 1, b, NULL, &options).collides;
+  return query_ask(a, pose, 1, b, NULL, &options).verdict != NSVCD_FREE;
 }
 
 // A path along the top of a box of this height, over it by less than triangles are stored to.
@@ -990,34 +998,35 @@ static void query_opinions_leave_what_is_known(void) {
     CHECK_EQ(nsvcd_encode(&meshes[k], NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
     nsvcd_mesh_free(&meshes[k], NULL);
   }
-  nsvcd_sweep_options by_network;
+  nsvcd_question by_network;
   memset(&by_network, 0, sizeof by_network);
   by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_answer opinion = query_ask(bodies[0], NULL, 0, bodies[1], NULL, &by_network);
-  CHECK_EQ(opinion.clearance_high, HUGE_VALF);  // it knows of none
+  CHECK_EQ(opinion.distance.high, HUGE_VALF);  // it knows of none
   for (size_t n = 0; n < 600; n++) {
     nsvcd_pose path[2];
-    nsvcd_sweep_options options;
+    nsvcd_question options;
     memset(&options, 0, sizeof options);
     query_random_pose(&rng, 0.3, &path[0]);
     path[1] = path[0];
     for (size_t k = 0; k < 3; k++) path[1].position[k] += (float)shapes_uniform(&rng, -0.5, 0.5);
-    options.first = n % 3 ? 1e-3f : 0;
+    options.ask = n % 3 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+    options.to_time = n % 3 ? 1e-3f : 0;
     options.work = n % 4 ? 1 + n % 20 : 1000;
     if (n % 4 == 0) query_slide(&rng, 0.2, path);
     options.tolerance = n % 2 ? 0.02f : 0;
     const nsvcd_answer answer = query_ask(bodies[0], path, 2, bodies[1], NULL, &options);
-    if (answer.status != NSVCD_STATUS_UNDECIDED) continue;
-    const int names = answer.triangle_a != NSVCD_NO_TRIANGLE;
-    CHECK_EQ(names, answer.clearance_high < HUGE_VALF);
-    CHECK_EQ(names, answer.triangle_b != NSVCD_NO_TRIANGLE);
+    if (status_of(&answer) != STATUS_UNDECIDED) continue;
+    const int names = answer.nearest.triangle_a != NSVCD_NO_TRIANGLE;
+    CHECK_EQ(names, answer.distance.high < HUGE_VALF);
+    CHECK_EQ(names, answer.nearest.triangle_b != NSVCD_NO_TRIANGLE);
     known += names;
-    opinions += !(fabsf(answer.logit) >= NSVCD_LOGIT_CERTAIN);
+    opinions += !(fabsf(logit_of(&answer)) >= NSVCD_LOGIT_CERTAIN);
     if (!names) continue;
     nsvcd_pose then = path[0];
     for (size_t k = 0; k < 3; k++)
-      then.position[k] += answer.contact_time * (path[1].position[k] - path[0].position[k]);
-    CHECK_EQ(query_is_near(bodies[0], &then, bodies[1], 1.001f * answer.clearance_high + 1e-6f), 1);
+      then.position[k] += contact_time_of(&answer) * (path[1].position[k] - path[0].position[k]);
+    CHECK_EQ(query_is_near(bodies[0], &then, bodies[1], 1.001f * answer.distance.high + 1e-6f), 1);
   }
   printf("  undecided: %zu name triangles; %zu have an opinion\n", known, opinions);
   CHECK_GE(known, 20);

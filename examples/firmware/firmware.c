@@ -1,7 +1,7 @@
 // firmware.c - collision checks on a microcontroller: bodies in flash, no heap, no files, no stdio.
 //
 // A mug is moved past a dish rack in 32 ways. A line each says what came of it: method, number,
-// status, and whether it collides. Lines that begin with # are measurements, by the board alone.
+// verdict, and whether that is proven. Lines that begin with # are measurements, by the board alone.
 // The Makefile builds this for Cortex-M and for the host, and holds the answers of the one against
 // those of the other.
 #define NEURALSVCD_IMPLEMENTATION
@@ -51,8 +51,10 @@ static void print_answer(const char *method, uint32_t number, const nsvcd_answer
   board_print(" ");
   print_number(number);
   board_print(" ");
-  board_print(nsvcd_status_string(answer->status));
-  board_print(answer->collides ? " collides\n" : " free\n");
+  board_print(nsvcd_verdict_string(answer->verdict));
+  if (answer->inside) board_print(" inside");
+  if (answer->opinion.limited) board_print(" limited");
+  board_print(answer->by == NSVCD_BY_PROOF ? " proof\n" : " opinion\n");
 }
 
 // --------------------------------------------------------------------------------------- questions
@@ -143,13 +145,13 @@ static int ask_all(const char *name, nsvcd_method method, const nsvcd_body *mug,
   for (uint32_t i = 0; i < QUESTIONS; i++) {
     nsvcd_pose poses[POSES];
     nsvcd_pose b_poses[POSES];
-    nsvcd_answer answer;
+    static nsvcd_answer answer;  // 380 bytes
     nsvcd_question question = {0};
     question.a.body = mug;
     question.b.body = rack;
-    question.options.method = method;
-    question.options.segments = SEGMENTS;
-    question.options.pairs = PAIRS;
+    question.method = method;
+    question.segments = SEGMENTS;
+    question.network.pairs = PAIRS;
     pose_question(i, poses, b_poses, &question);
 
     const uint64_t before = board_instructions();

@@ -2,7 +2,7 @@
 
     rack = Body(*load_obj("dish_rack.obj"))
     answer = sweep(mug, rack, path)          # path: (k, 7)
-    if answer.collides: print(answer.contact_time)
+    if answer.verdict == "hit": print(answer.time.high)
 
 Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
 motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
@@ -16,6 +16,7 @@ ValueError and TypeError.
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import enum
 import functools
 import math
@@ -33,9 +34,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "Answer", "Body", "Code", "Error", "Facts", "Gradient", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE",
-    "Options", "Plan", "PlanOptions", "PlanStatus", "Precision", "Progress", "Stage", "Status", "cut_mesh", "load_obj",
-    "parse_obj", "plan", "spline", "sweep", "sweep_batch", "sweep_gradient",
+    "Answer", "Ask", "Body", "By", "Code", "Contact", "Error", "Facts", "Gradient", "LEAVE_OUT", "Mesh", "Method",
+    "Model", "NO_TRIANGLE", "Opinion", "Options", "Plan", "PlanOptions", "PlanStatus", "Precision", "Progress", "Range",
+    "SafePlace", "Stage", "Verdict", "Why", "cut_mesh", "load_obj", "parse_obj", "plan", "spline", "sweep",
+    "sweep_batch", "sweep_gradient",
 ]
 
 Floats = NDArray[np.float32]
@@ -64,35 +66,58 @@ class Code(enum.IntEnum):
     BUILD = 16
 
 
-class Status(enum.IntEnum):
-    """What an answer is: nsvcd_status."""
-    OK = 0
-    CERTIFIED_FREE = 1
-    INSIDE = 2
-    LIMIT = 3
-    WITNESS = 4
-    UNDECIDED = 5
+class _Word(str, enum.Enum):
+    """A word for each number of C's, from 0: Verdict.FREE == "free"."""
+    __str__ = str.__str__
+    __format__ = str.__format__
 
 
-class Model(enum.IntEnum):
+class Ask(_Word):
+    """What is asked: nsvcd_ask."""
+    HIT = "hit"
+    FIRST = "first"
+    DISTANCE = "distance"
+
+
+class Verdict(_Word):
+    """nsvcd_verdict."""
+    UNDECIDED = "undecided"
+    FREE = "free"
+    HIT = "hit"
+
+
+class By(_Word):
+    """Who says so: nsvcd_by."""
+    PROOF = "proof"
+    NETWORK = "network"
+
+
+class Why(_Word):
+    """Why not all that was asked is answered: nsvcd_why."""
+    NOTHING = "nothing"
+    TOO_NEAR = "too near"
+    WORK = "work"
+
+
+class Model(_Word):
     """The network's decoders: nsvcd_model."""
-    DEFAULT = 0
-    TINY = 1
-    SMALL = 2
-    BASE = 3
+    DEFAULT = "default"
+    TINY = "tiny"
+    SMALL = "small"
+    BASE = "base"
 
 
-class Precision(enum.IntEnum):
+class Precision(_Word):
     """The decoder's arithmetic: nsvcd_precision."""
-    FLOAT = 0
-    INT8 = 1
+    FLOAT = "float"
+    INT8 = "int8"
 
 
-class Method(enum.IntEnum):
+class Method(_Word):
     """How a question is answered: nsvcd_method."""
-    DEFAULT = 0
-    PROOF = 1
-    NETWORK = 2
+    DEFAULT = "default"
+    PROOF = "proof"
+    NETWORK = "network"
 
 
 class PlanStatus(enum.IntEnum):
@@ -105,11 +130,20 @@ class PlanStatus(enum.IntEnum):
 
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
+_MAX_CONTACTS = 4
 _MAX_VIA_POINTS = 32
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
 
-_PREFIXES = {Code: "ERROR_", Status: "STATUS_", Model: "MODEL_", Precision: "PRECISION_", Method: "METHOD_",
-             PlanStatus: "PLAN_"}
+_PREFIXES: dict[Any, str] = {
+    Code: "ERROR_", Ask: "ASK_", Verdict: "", By: "BY_", Why: "WHY_", Model: "MODEL_", Precision: "PRECISION_",
+    Method: "METHOD_", PlanStatus: "PLAN_"}
+_VERDICTS, _BYS, _WHYS = tuple(Verdict), tuple(By), tuple(Why)
+
+
+def _number_of(value: enum.Enum) -> int:
+    """In C."""
+    return list(type(value)).index(value) if isinstance(value, _Word) else int(value.value)
+
 
 # ------------------------------------------------------------------------------------------- structs of neuralsvcd.h
 
@@ -130,15 +164,23 @@ _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
-_SweepOptions = _struct(
-    "nsvcd_sweep_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float, method=c_int, work=c_size_t,
-    segments=c_size_t, tolerance=c_float, clearance=c_float, first=c_float, measure=c_float, skin=c_float)
+_NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, scale=c_float)
-_Question = _struct("nsvcd_question", a=_Mover, b=_Mover, options=_SweepOptions)
+_Question = _struct(
+    "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
+    tolerance=c_float, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
+_Range = _struct("nsvcd_range", low=c_float, high=c_float)
+_Contact = _struct(
+    "nsvcd_contact", point=c_float * 3, normal=c_float * 3, gap=c_float, time=c_float, triangle_a=c_uint32,
+    triangle_b=c_uint32, patch_a=c_uint32, patch_b=c_uint32)
+_SafePlace = _struct("nsvcd_safe_place", time=c_float, a=_Pose, b=_Pose)
+_Opinion = _struct(
+    "nsvcd_opinion", asked=c_int, logit=c_float, time=c_float, patch_a=c_uint32, patch_b=c_uint32, candidates=c_size_t,
+    limited=c_int)
 _Answer = _struct(
-    "nsvcd_answer", logit=c_float, collides=c_int, contact_time=c_float, free_until=c_float, clearance_low=c_float,
-    clearance_high=c_float, patch_a=c_uint32, patch_b=c_uint32, status=c_int, candidates=c_size_t, point=c_float * 3,
-    normal=c_float * 3, triangle_a=c_uint32, triangle_b=c_uint32, lift=c_float * 3, work=c_size_t)
+    "nsvcd_answer", verdict=c_int, by=c_int, why=c_int, inside=c_int, time=_Range, distance=_Range, safe=_SafePlace,
+    lift=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact, opinion=_Opinion,
+    work=c_size_t)
 _BodyPair = _struct("nsvcd_body_pair", a=c_uint32, b=c_uint32)
 _PlanProgress = _struct(
     "nsvcd_plan_progress", seed=c_size_t, iteration=c_size_t, iterations=c_size_t, refining=c_int, cost=c_float,
@@ -152,13 +194,13 @@ _PlanStage = _struct("nsvcd_plan_stage", via_points=c_size_t, segments=c_size_t,
 _PlanOptions = _struct(
     "nsvcd_plan_options", seed=c_uint64, seeds=c_size_t, explore=_PlanStage, refine=_PlanStage, velocity=c_float,
     acceleration=c_float, jerk=c_float, collision=c_float, duration=c_float, margin=c_float,
-    discrete=c_int, check=c_size_t, sweep=_SweepOptions)
+    discrete=c_int, check=c_size_t, sweep=_Question)
 _PlanAnswer = _struct(
     "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
     stray=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
     sweeps=c_size_t)
-_STRUCTS = (_Mesh, _EncodeOptions, _BodyFacts, _Pose, _SweepOptions, _Mover, _Question, _Answer, _BodyPair,
-            _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
+_STRUCTS = (_Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact, _SafePlace,
+            _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
 
 _PROTOTYPES = {
@@ -185,10 +227,10 @@ _PROTOTYPES = {
 
 def _expected_layouts() -> dict[str, tuple[int, int]]:
     """What neuralsvcd_layouts of _neuralsvcd.c must say, if all above is as in neuralsvcd.h."""
-    expected = {"NSVCD_NO_TRIANGLE": (NO_TRIANGLE, 0), "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0),
-                "NSVCD_NONE": (LEAVE_OUT, 0)}
+    expected = {"NSVCD_NO_TRIANGLE": (NO_TRIANGLE, 0), "NSVCD_MAX_CONTACTS": (_MAX_CONTACTS, 0),
+                "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0), "NSVCD_NONE": (LEAVE_OUT, 0)}
     for values, prefix in _PREFIXES.items():
-        expected.update({f"NSVCD_{prefix}{value.name}": (value.value, 0) for value in values})
+        expected.update({f"NSVCD_{prefix}{value.name}": (_number_of(value), 0) for value in values})
     for kind in _STRUCTS:
         expected[kind.__name__] = (0, ctypes.sizeof(kind))
         for name, _ in kind._fields_:
@@ -303,6 +345,8 @@ def _number(kind: Any, value: Any, name: str) -> Any:
         if value and not rounded.value:
             raise ValueError(f"{name}: {value} is 0 as a float")
         return rounded
+    if isinstance(value, _Word):
+        return _number_of(value)
     most = 0x7fffffff if kind is c_int else kind(-1).value
     number = operator.index(value)
     if not 0 <= number <= most:
@@ -538,94 +582,171 @@ class _Options:
         object.__setattr__(self, "_c", _filled(self._struct, **vars(self)))
 
     def __reduce__(self) -> tuple[Any, ...]:  # the struct is made anew
-        return type(self), tuple(getattr(self, name) for name, _ in self._struct._fields_)
+        given: Any = self
+        return type(self), tuple(getattr(self, field.name) for field in dataclasses.fields(given))
 
 
 @dataclass(frozen=True)
 class Options(_Options):
-    """How a question is asked: nsvcd_sweep_options. What is 0 is the default.
+    """What is asked, and how: nsvcd_question. What is 0 is the default. Words may be given as such: ask="first".
 
-    pairs      of patches that the network looks at, 1 to 256; 8
-    model, precision, recall  of the network; recall: 0, 0.99, 0.999 or 0.9999
-    method     proof where both bodies have triangles, else network
+    ask        hit: do they hit? first: and when first? distance: and how near do they come?
+    to         metres. first: nothing moves farther than this from time.low to time.high; distance: how wide the bracket
+               may be; 0: a thousandth of the smaller body's radius
+    to_time    first: the same as a share of the motion, up to 1
+    clearance  metres: to come as near as this is a hit
+    skin       metres: a contact at the start that is no deeper does not count
+    tolerance  metres: what comes closer and does not meet may be left undecided
+    method     proof where both bodies have triangles, else network, which knows neither first nor distance, nor a
+               clearance or a skin
     work       units that a proof may take; 100000
     segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
-    tolerance  metres: what comes closer and does not meet may be left undecided
-    By proof only:
-    clearance  metres: to come as close as this counts as a collision
-    first      share of the motion, up to 1: contact_time is that of the first contact, to this
-    measure    metres: clearance_low and clearance_high are the least distance, to this. Not with first
-    skin       metres: a contact at the start that is no deeper does not count
+    Of the network:
+    pairs      of patches that it looks at, 1 to 256; 8
+    model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
     """
-    pairs: int = 0
-    model: Model = Model.DEFAULT
-    precision: Precision = Precision.FLOAT
-    recall: float = 0
-    method: Method = Method.DEFAULT
+    ask: Union[Ask, str] = Ask.HIT
+    to: float = 0
+    to_time: float = 0
+    clearance: float = 0
+    skin: float = 0
+    tolerance: float = 0
+    method: Union[Method, str] = Method.DEFAULT
     work: int = 0
     segments: int = 0
-    tolerance: float = 0
-    clearance: float = 0
-    first: float = 0
-    measure: float = 0
-    skin: float = 0
-    _struct = _SweepOptions
+    pairs: int = 0
+    model: Union[Model, str] = Model.DEFAULT
+    precision: Union[Precision, str] = Precision.FLOAT
+    recall: float = 0
+    _struct = _Question
+
+    def __post_init__(self) -> None:
+        for name, kind in (("ask", Ask), ("method", Method), ("model", Model), ("precision", Precision)):
+            object.__setattr__(self, name, kind(getattr(self, name)))
+        super().__post_init__()
+        self._c.network = _filled(_NetworkOptions, **vars(self))
 
 
 _DEFAULTS = Options()
 
+Pose = tuple[float, float, float, float, float, float, float]
 
-class Answer(NamedTuple):
-    """nsvcd_answer. As a condition it is answer.collides.
 
-    logit         of collision; +-100 by proof
-    collides      the verdict
-    contact_time  in [0, 1]; with options.first the first contact is between free_until and this
-    free_until    in [0, 1]: by proof, no contact is before this
-    clearance_low, clearance_high  metres: they stay farther apart than low until free_until, and come as near as high,
-                  at contact_time; inf: not known
-    patch_a, patch_b  that decided; 0, 0: none
-    status        what the verdict is worth
-    candidates    pairs of patches whose spheres meet, by the network
-    point         where they meet, world, metres
-    normal        unit normal there, from b to a, world; or 0
+class Range(NamedTuple):
+    """What is known of a number: nsvcd_range. inf: it is not known."""
+    low: float
+    high: float
+
+
+class Contact(NamedTuple):
+    """Two triangles, and where they meet or are nearest: nsvcd_contact.
+
+    point    world, metres
+    normal   unit, from b to a, world; or 0
+    gap      metres between the triangles; 0: they meet
+    time     in [0, 1]
     triangle_a, triangle_b  as numbered in the meshes; None: none are named
-    lift          metres, world: by what a was lifted off b for options.skin
-    work          units that the proof took
+    patch_a, patch_b        that list them
     """
-    logit: float
-    collides: bool
-    contact_time: float
-    free_until: float
-    clearance_low: float
-    clearance_high: float
-    patch_a: int
-    patch_b: int
-    status: Status
-    candidates: int
     point: Vector
     normal: Vector
+    gap: float
+    time: float
     triangle_a: Optional[int]
     triangle_b: Optional[int]
+    patch_a: int
+    patch_b: int
+
+
+class SafePlace(NamedTuple):
+    """Where the bodies may go: nsvcd_safe_place. Poses x y z, quaternion x y z w, lifted off what they touch."""
+    time: float
+    a: Pose
+    b: Pose
+
+
+class Opinion(NamedTuple):
+    """What the network thinks: nsvcd_opinion.
+
+    logit       of collision, positive is yes
+    time        in [0, 1]: when the most suspicious pair comes closest
+    patch_a, patch_b  that pair
+    candidates  pairs of patches whose spheres meet
+    limited     there were more than options.pairs let through
+    """
+    logit: float
+    time: float
+    patch_a: int
+    patch_b: int
+    candidates: int
+    limited: bool
+
+
+class Answer(NamedTuple):
+    """nsvcd_answer. As a condition it is answer.verdict != "free": what is undecided counts.
+
+    verdict   free, hit or undecided
+    by        proof or network: who says so
+    why       not all that was asked is answered: too near, or work; or nothing: all of it is
+    inside    a hit, for one lies inside the other at the start
+    time      in [0, 1]: free before low, in contact at high; low is 0 where not asked for "first"
+    distance  metres: the least; of a hit, up to time.high
+    safe      where the bodies may go: poses at time.low
+    lift      metres, world: by what a was lifted off b for options.skin
+    contacts  of a hit whose triangles are known, at time.high
+    nearest   the triangles that distance.high is about, whatever the verdict
+    opinion   of the network, where it was asked
+    work      units that the proof took
+    """
+    verdict: Verdict
+    by: By
+    why: Why
+    inside: bool
+    time: Range
+    distance: Range
+    safe: SafePlace
     lift: Vector
+    contacts: list[Contact]
+    nearest: Contact
+    opinion: Optional[Opinion]
     work: int
 
     def __bool__(self) -> bool:
-        return self.collides
+        return self.verdict is not Verdict.FREE
 
 
-# All fields at once, vectors as three numbers: field by field takes twice the time.
-_FIELDS = struct.Struct("".join(
-    f"{kind._length_}{kind._type_._type_}" if issubclass(kind, ctypes.Array) else kind._type_
-    for _, kind in _Answer._fields_))
+def _leaves(kind: Any, offset: int = 0) -> list[tuple[int, str]]:
+    """The numbers of a struct: offset and format of each, vectors as one."""
+    if not issubclass(kind, ctypes.Structure):
+        return [(offset, f"{kind._length_}{kind._type_._type_}" if issubclass(kind, ctypes.Array) else kind._type_)]
+    return [leaf for name, member in kind._fields_ if name != "contacts"
+            for leaf in _leaves(member, offset + getattr(kind, name).offset)]
+
+
+def _packed(kind: Any) -> struct.Struct:
+    """All fields at once but for `contacts`: field by field takes twice the time."""
+    layout = ""
+    for offset, leaf in [*_leaves(kind), (ctypes.sizeof(kind), "")]:
+        layout += f"{offset - struct.calcsize(layout)}x{leaf}"
+    return struct.Struct(layout)
+
+
+_FIELDS, _CONTACT = _packed(_Answer), _packed(_Contact)
+_CONTACTS = _Answer.contacts.offset
+
+
+def _contact_of(v: Any) -> Contact:
+    return Contact(v[0:3], v[3:6], v[6], v[7], None if v[8] == NO_TRIANGLE else v[8],
+                   None if v[9] == NO_TRIANGLE else v[9], v[10], v[11])
 
 
 def _answer_of(c: Any) -> Answer:
     v: Any = _FIELDS.unpack(c)
-    triangle_a = None if v[16] == NO_TRIANGLE else v[16]
-    triangle_b = None if v[17] == NO_TRIANGLE else v[17]
-    return Answer(v[0], bool(v[1]), v[2], v[3], v[4], v[5], v[6], v[7], Status(v[8]), v[9], v[10:13], v[13:16],
-                  triangle_a, triangle_b, v[18:21], v[21])
+    contacts = [_contact_of(_CONTACT.unpack_from(c, _CONTACTS + k * _CONTACT.size)) for k in range(v[26])]
+    opinion = Opinion(v[40], v[41], v[42], v[43], v[44], bool(v[45])) if v[39] else None
+    return Answer(_VERDICTS[v[0]], _BYS[v[1]], _WHYS[v[2]], bool(v[3]), Range(v[4], v[5]), Range(v[6], v[7]),
+                  SafePlace(v[8], v[9:12] + v[12:16], v[16:19] + v[19:23]), v[23:26], contacts, _contact_of(v[27:39]),
+                  opinion, v[46])
 
 
 def _motion(poses: Optional[ArrayLike], shape: tuple[Optional[int], ...], name: str) -> Optional[Floats]:
@@ -653,7 +774,8 @@ def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[
     motion_a = _motion(poses_a, (None, 7), "poses_a")
     # The same array twice is the same motion, which the library refuses of one body.
     motion_b = motion_a if poses_b is poses_a else _motion(poses_b, (None, 7), "poses_b")
-    question = _Question(_mover(a, motion_a, scale_a, "a"), _mover(b, motion_b, scale_b, "b"), options._c)
+    question = _Question.from_buffer_copy(options._c)
+    question.a, question.b = _mover(a, motion_a, scale_a, "a"), _mover(b, motion_b, scale_b, "b")
     question.kept = motion_a, motion_b
     return question
 
@@ -697,18 +819,53 @@ def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_
 # -------------------------------------------------------------------------------------------------------- many motions
 
 
-def _answers_type() -> np.dtype[Any]:
-    """nsvcd_answer for numpy, with a bool for `collides`: the first byte of an int that is 0 or 1 on a little-endian
-    machine, as bodies demand one. So it can choose rows."""
-    plain = np.dtype(_Answer)
-    assert plain.names and plain.fields
-    formats = ["?" if name == "collides" else plain.fields[name][0] for name in plain.names]
+_WORDS = {"verdict": np.array(_VERDICTS, str), "by": np.array(_BYS, str), "why": np.array(_WHYS, str)}
+_FLAGS = ("inside", "asked", "limited")
+
+
+def _with_flags(plain: np.dtype[Any]) -> np.dtype[Any]:
+    """With a bool for ints that are 0 or 1: their first byte on a little-endian machine, as bodies demand one. So they
+    can choose rows."""
+    if plain.subdtype:
+        return np.dtype((_with_flags(plain.subdtype[0]), plain.shape))
+    if not plain.names or not plain.fields:
+        return plain
+    formats = ["?" if name in _FLAGS else _with_flags(plain.fields[name][0]) for name in plain.names]
     return np.dtype({"names": plain.names, "formats": formats, "itemsize": plain.itemsize,
                      "offsets": [plain.fields[name][1] for name in plain.names]})
 
 
+def _answers_type() -> np.dtype[Any]:
+    """nsvcd_answer for numpy, and behind it the words for its first numbers."""
+    plain = _with_flags(np.dtype(_Answer))
+    assert plain.names and plain.fields
+    formats, offsets, size = [], [], plain.itemsize
+    for name in plain.names:
+        if name in _WORDS:
+            formats.append(_WORDS[name].dtype)
+            offsets.append(size)
+            size += formats[-1].itemsize
+        else:
+            formats.append(plain.fields[name][0])
+            offsets.append(plain.fields[name][1])
+    return np.dtype({"names": plain.names, "formats": formats, "offsets": offsets, "itemsize": -(-size // 8) * 8})
+
+
 _QUESTIONS = np.dtype(_Question)
+_C_ANSWERS = np.dtype(_Answer)
 _ANSWERS = _answers_type()
+
+
+def _worded(c: NDArray[Any]) -> NDArray[Any]:
+    """The library's answers, with words."""
+    answers = np.zeros(len(c), _ANSWERS)
+    if len(c):
+        size = _C_ANSWERS.itemsize
+        answers.view(np.uint8).reshape(len(c), -1)[:, :size] = c.view(np.uint8).reshape(len(c), size)
+    for name, words in _WORDS.items():
+        answers[name] = words[c[name]]
+    return answers
+
 
 Bodies = Union[Body, Sequence[Body]]
 
@@ -763,9 +920,10 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     poses_a, poses_b  (n, k, 7), or (k, 7) for all, or None
     scale_a, scale_b  (n), or a number for all
 
-    Returns a structured array (n) with the fields of Answer: answers["collides"] is an array of bool,
-    answers["status"] one of Status as numbers, answers["point"] (n, 3); triangles may be NO_TRIANGLE. One after another
-    on the same two bodies: the network is first asked where the motion before collided; see nsvcd_sweep_batch.
+    Returns a structured array (n) with the fields of nsvcd_answer: answers["verdict"] == "hit" is an array of bool,
+    answers["time"]["high"] one of floats. Of answers["contacts"], (n, 4), each has contact_count; triangles may be
+    NO_TRIANGLE; answers["opinion"]["asked"] says whether there is one. One after another on the same two bodies: the
+    network is first asked where the motion before collided; see nsvcd_sweep_batch.
     """
     side_a, side_b = _side("a", a, poses_a, scale_a), _side("b", b, poses_b, scale_b)
     if poses_b is poses_a:
@@ -773,18 +931,18 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     lengths = side_a.lengths() | side_b.lengths()
     if len(lengths) != 1:
         raise ValueError(f"lengths differ: {sorted(lengths)}" if lengths else "nothing says how many motions there are")
-    questions = np.zeros(lengths.pop(), _QUESTIONS)
-    answers = np.zeros(len(questions), _ANSWERS)
+    questions = np.empty(lengths.pop(), _QUESTIONS)
+    answers = np.zeros(len(questions), _C_ANSWERS)
     if not len(questions):
-        return answers
+        return _worded(answers)
+    questions[:] = np.frombuffer(options._c, _QUESTIONS)[0]
     side_a.write(questions["a"])
     side_b.write(questions["b"])
-    questions["options"] = np.frombuffer(options._c, _QUESTIONS["options"])[0]
     code = _library.nsvcd_sweep_batch(_address(questions), len(questions), _workspace.address, _workspace.size,
                                       _address(answers))
     if code:
         raise Error(code, index=_first_fault(questions))
-    return answers
+    return _worded(answers)
 
 
 # -------------------------------------------------------------------------------------------------------- trajectories
@@ -840,7 +998,7 @@ class PlanOptions(_Options):
     margin            logits above minus this cost: 2
     discrete          poses instead of sweeps
     check             segments of the last check: 16 times the finest stage's
-    sweep             of all queries
+    sweep             of all queries; its ask, to and to_time are not read
     """
     seed: int = 0
     seeds: int = 0

@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 import neuralsvcd as nsvcd
-from neuralsvcd import Body, Code, Error, Method, Options, PlanOptions, PlanStatus, Stage, Status
+from neuralsvcd import Answer, Ask, Body, By, Code, Error, Method, Options, PlanOptions, PlanStatus, Stage, Verdict, Why
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -55,6 +55,17 @@ def at(*position: float) -> list[list[float]]:
 def line(start: float, end: float) -> list[list[float]]:
     """Along x."""
     return at(start, 0, 0) + at(end, 0, 0)
+
+
+def word_of(answer: Answer) -> str:
+    """As `svcd check` has it: undecided also where a first contact is asked for, and only some contact known."""
+    if answer.verdict == Verdict.UNDECIDED or answer.verdict == Verdict.HIT and answer.why != Why.NOTHING:
+        return "undecided"
+    if answer.inside:
+        return "inside"
+    if answer.by == By.NETWORK:
+        return "limit" if answer.opinion.limited else "ok"
+    return "certified-free" if answer.verdict == Verdict.FREE else "witness"
 
 
 def raised(function, *arguments, **named) -> Error:
@@ -98,19 +109,21 @@ class AgainstC(unittest.TestCase):
         for line, (name, a, scale_a, b, scale_b, poses, pose) in zip(lines, problems):
             answer = nsvcd.sweep(bodies[a], bodies[b], poses, pose, scale_a=scale_a, scale_b=scale_b, options=options)
             expected = line.split("\t")
-            found = [name, str(int(answer.collides)), answer.status.name.lower().replace("_", "-")]
-            self.assertEqual(found, [expected[0], expected[2], expected[6]])
+            named = answer.nearest if answer.nearest.triangle_a is not None or not answer.opinion else answer.opinion
+            certain = -100 if answer.verdict == Verdict.FREE else 100
+            logit = answer.opinion.logit if answer.opinion else certain
+            self.assertEqual([name, str(int(logit > 0)), word_of(answer)], [expected[0], expected[2], expected[6]])
             # A compiler may round otherwise in another program.
-            self.assertAlmostEqual(answer.logit, float(expected[1]), delta=0.05)
-            self.assertAlmostEqual(answer.contact_time, float(expected[3]), delta=1e-4)
-            same_patches += [str(answer.patch_a), str(answer.patch_b)] == expected[4:6]
+            self.assertAlmostEqual(logit, float(expected[1]), delta=0.05)
+            self.assertAlmostEqual(named.time, float(expected[3]), delta=1e-4)
+            same_patches += [str(named.patch_a), str(named.patch_b)] == expected[4:6]
         self.assertGreater(same_patches, 0.98 * len(lines))
 
     def test_proof(self) -> None:
         self.compare([], Options())
 
     def test_first_contacts(self) -> None:
-        self.compare(["--first", "0.01", "--clearance", "0.002"], Options(first=0.01, clearance=0.002))
+        self.compare(["--first", "0.01", "--clearance", "0.002"], Options(ask="first", to_time=0.01, clearance=0.002))
 
     def test_network(self) -> None:
         self.compare(["--method", "network", "--model", "small", "--int8", "--pairs", "4", "--recall", "0.99"],
@@ -122,49 +135,66 @@ class AgainstC(unittest.TestCase):
             path = Path(folder) / "mug.body"
             subprocess.run([SVCD, "encode", ASSETS / "mug.obj", path], check=True, capture_output=True)
             self.assertEqual(path.stat().st_size, len(bytes(MUG)))
-            self.assertEqual(nsvcd.sweep(Body.load(path), RACK, LOW).status, Status.WITNESS)
+            self.assertEqual(nsvcd.sweep(Body.load(path), RACK, LOW).verdict, "hit")
 
 
 class Queries(unittest.TestCase):
     def test_quickstart(self) -> None:
         hit, clear = nsvcd.sweep(MUG, RACK, LOW), nsvcd.sweep(MUG, RACK, HIGH)
-        self.assertEqual((hit.status, hit.collides, bool(hit), hit.logit), (Status.WITNESS, True, True, 100))
-        self.assertEqual((clear.status, clear.collides, bool(clear)), (Status.CERTIFIED_FREE, False, False))
-        self.assertEqual((clear.triangle_a, clear.triangle_b, clear.free_until), (None, None, 1))
-        self.assertLess(hit.triangle_a, MUG.facts.triangles)
-        self.assertIsInstance(hit.status, Status)
+        self.assertEqual((hit.verdict, hit.by, hit.why, bool(hit)), ("hit", "proof", "nothing", True))
+        self.assertEqual((clear.verdict, clear.by, clear.why, bool(clear)), ("free", "proof", "nothing", False))
+        self.assertEqual((clear.nearest.triangle_a, clear.nearest.triangle_b), (None, None))
+        self.assertEqual((clear.time, clear.contacts, clear.opinion), ((1, 1), [], None))
+        self.assertEqual((hit.opinion, hit.inside, hit.time.low), (None, False, 0))
+        self.assertEqual(hit.contacts, [hit.nearest])
+        self.assertLess(hit.nearest.triangle_a, MUG.facts.triangles)
+        self.assertIs(hit.verdict, Verdict.HIT)
+        self.assertEqual(f"{hit.verdict} {hit.by!s}", "hit proof")
 
     def test_every_field(self) -> None:
         # Boxes of side 2: that at -5 moves by 6 along x, and meets the other at x = -1, when it has gone a half.
-        answer = nsvcd.sweep(BOX, BOX, line(-5, 1), options=Options(first=0.001))
-        self.assertAlmostEqual(answer.contact_time, 0.5, delta=0.002)
-        self.assertTrue(answer.contact_time - 0.0011 <= answer.free_until <= 0.5)
-        self.assertAlmostEqual(answer.point[0], -1, delta=0.02)
-        self.assertAlmostEqual(np.linalg.norm(answer.normal), 1, delta=1e-5)
-        self.assertTrue(0 <= answer.triangle_a < 12 and 0 <= answer.triangle_b < 12)
+        answer = nsvcd.sweep(BOX, BOX, line(-5, 1), options=Options(ask="first", to_time=0.001))
+        self.assertAlmostEqual(answer.time.high, 0.5, delta=0.002)
+        self.assertTrue(answer.time.high - 0.0011 <= answer.time.low <= 0.5)
+        contact, = answer.contacts
+        self.assertEqual((contact, contact.gap, contact.time), (answer.nearest, 0, answer.time.high))
+        self.assertAlmostEqual(contact.point[0], -1, delta=0.02)
+        self.assertAlmostEqual(np.linalg.norm(contact.normal), 1, delta=1e-5)
+        self.assertTrue(0 <= contact.triangle_a < 12 and 0 <= contact.triangle_b < 12)
         self.assertGreater(answer.work, 0)
-        self.assertLess(max(answer.patch_a, answer.patch_b), BOX.facts.patches)
-        answer = nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(measure=0.001))
-        self.assertTrue(1 - 0.0011 <= answer.clearance_low <= 1 <= answer.clearance_high <= 1.0011)
-        self.assertAlmostEqual(answer.contact_time, 1, delta=0.01)
-        self.assertEqual(answer.status, Status.CERTIFIED_FREE)
-        self.assertTrue(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=1.1)).collides)
-        self.assertFalse(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=0.9)).collides)
+        self.assertLess(max(contact.patch_a, contact.patch_b), BOX.facts.patches)
+        self.assertEqual(answer.safe.time, answer.time.low)
+        np.testing.assert_allclose(answer.safe.a, [-5 + 6 * answer.time.low, 0, 0, 0, 0, 0, 1], atol=1e-5)
+        self.assertEqual(answer.safe.b, (0, 0, 0, 0, 0, 0, 1))
+        self.assertEqual(nsvcd.sweep(BOX, BOX, line(-5, 0)[:1] + [answer.safe.a], [answer.safe.b]).verdict, "free")
+        # No point moves farther than 0.01 m of the 6.
+        answer = nsvcd.sweep(BOX, BOX, line(-5, 1), options=Options(ask="first", to=0.01))
+        self.assertTrue(answer.time.low <= 0.5 and answer.time.high - answer.time.low <= 0.0101 / 6)
+        answer = nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(ask="distance", to=0.001))
+        self.assertTrue(1 - 0.0011 <= answer.distance.low <= 1 <= answer.distance.high <= 1.0011)
+        self.assertAlmostEqual(answer.nearest.time, 1, delta=0.01)
+        self.assertAlmostEqual(answer.nearest.gap, 1, delta=0.01)
+        self.assertEqual((answer.verdict, answer.contacts), ("free", []))
+        self.assertEqual(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=1.1)).verdict, "hit")
+        self.assertEqual(nsvcd.sweep(BOX, BOX, line(-5, -3), options=Options(clearance=0.9)).verdict, "free")
         # A box stands on another, 0.01 in it, and slides along.
         slide = at(0, 0, 1.99) + at(0.5, 0, 1.99)
-        self.assertTrue(nsvcd.sweep(BOX, BOX, slide).collides)
+        self.assertEqual(nsvcd.sweep(BOX, BOX, slide).verdict, "hit")
         answer = nsvcd.sweep(BOX, BOX, slide, options=Options(skin=0.02))
-        self.assertFalse(answer.collides)
+        self.assertEqual(answer.verdict, "free")
         np.testing.assert_allclose(answer.lift, [0, 0, 0.02], atol=1e-3)
+        np.testing.assert_allclose(answer.safe.a, [0.5, 0, 2.01, 0, 0, 0, 1], atol=1e-3)
         inside = nsvcd.sweep(BOX, BOX, REST, scale_a=0.1)
-        self.assertEqual((inside.status, inside.contact_time), (Status.INSIDE, 0))
+        self.assertEqual((inside.verdict, inside.inside, inside.time), ("hit", True, (0, 0)))
         undecided = nsvcd.sweep(MUG, RACK, at(0.05, -0.4, 0.2) + at(0.05, 0, 0.1), options=Options(work=1))
-        self.assertEqual(undecided.status, Status.UNDECIDED)
+        self.assertEqual((undecided.verdict, undecided.why, bool(undecided)), ("undecided", Why.WORK, True))
         network = nsvcd.sweep(MUG, RACK, LOW, options=BY_NETWORK)
-        self.assertIn(network.status, (Status.OK, Status.LIMIT))
-        self.assertGreater(network.candidates, 0)
-        every_pair = nsvcd.sweep(MUG, RACK, LOW, options=Options(method=Method.NETWORK, pairs=256))
-        self.assertEqual(every_pair.status, Status.OK)
+        self.assertEqual((network.verdict, network.by, network.contacts), ("hit", "network", []))
+        self.assertEqual(network.time.high, network.opinion.time)
+        self.assertGreater(network.opinion.logit, 0)
+        self.assertGreater(network.opinion.candidates, 0)
+        every_pair = nsvcd.sweep(MUG, RACK, LOW, options=Options(method="network", pairs=256))
+        self.assertIs(every_pair.opinion.limited, False)
 
     def test_poses_and_scales(self) -> None:
         self.assertFalse(nsvcd.sweep(BOX, BOX, at(2.5, 0, 0)))
@@ -192,7 +222,7 @@ class Queries(unittest.TestCase):
                 logits = []
                 for step in (2e-5, -4e-5):
                     poses[place] += step
-                    logits.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).logit)
+                    logits.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).opinion.logit)
                 poses[place] += 2e-5
                 differences.append((logits[0] - logits[1]) / 4e-5)
         np.testing.assert_allclose(differences, found, atol=0.05 * np.abs(found).max())
@@ -204,15 +234,17 @@ class Queries(unittest.TestCase):
         self.assertEqual(raised(nsvcd.sweep, MUG, MUG, path, path).code, Code.SAME)
 
     def test_options_are_values(self) -> None:
-        options = Options(first=0.01, method=Method.PROOF)
-        self.assertEqual(options, Options(first=0.01, method=Method.PROOF))
+        options = Options(ask="first", to_time=0.01, method="proof", model="tiny", pairs=3)
+        self.assertEqual(options, Options(ask=Ask.FIRST, to_time=0.01, method=Method.PROOF, model=nsvcd.Model.TINY,
+                                          pairs=3))
+        self.assertIs(options.ask, Ask.FIRST)
         self.assertEqual(pickle.loads(pickle.dumps(options)), options)
         self.assertEqual(nsvcd.sweep(MUG, RACK, LOW, options=pickle.loads(pickle.dumps(options))),
                          nsvcd.sweep(MUG, RACK, LOW, options=options))
         plan = PlanOptions(explore=Stage(iterations=nsvcd.LEAVE_OUT), sweep=options)
         self.assertEqual(pickle.loads(pickle.dumps(plan)), plan)
         with self.assertRaises(AttributeError):
-            options.first = 1
+            options.to_time = 1
 
     def test_answers_are_values(self) -> None:
         answer = nsvcd.sweep(MUG, RACK, LOW)
@@ -226,20 +258,43 @@ class Batches(unittest.TestCase):
         self.paths = np.tile(np.array(LOW), (60, 1, 1))
         self.paths[:, :, :3] += random.normal(0, 0.2, (60, 2, 3))
 
-    def same(self, row: np.void, answer: nsvcd.Answer) -> None:
+    def same(self, row: np.void, answer: tuple) -> None:
+        """Field by field, as a NamedTuple has them."""
         for name, value in answer._asdict().items():
-            value = nsvcd.NO_TRIANGLE if value is None else value
-            np.testing.assert_array_equal(row[name], np.asarray(value, row[name].dtype), name)
+            if name == "opinion":
+                self.assertEqual(row[name]["asked"], value is not None)
+            if name == "contacts":
+                self.assertEqual(row["contact_count"], len(value))
+                for contact, one in zip(row[name], value):
+                    self.same(contact, one)
+            elif name == "safe":
+                self.assertEqual(row[name]["time"], value.time)
+                for pose, one in ((row[name]["a"], value.a), (row[name]["b"], value.b)):
+                    np.testing.assert_array_equal([*pose["position"], *pose["rotation"]], one)
+            elif hasattr(value, "_asdict"):
+                self.same(row[name], value)
+            elif name != "opinion":
+                value = nsvcd.NO_TRIANGLE if value is None else value
+                np.testing.assert_array_equal(row[name], np.asarray(value, row[name].dtype), name)
 
     def test_answers_are_those_of_sweep(self) -> None:
-        for options in (Options(), Options(first=0.01), Options(measure=0.001)):
+        for options in (Options(), Options(ask="first", to_time=0.01), Options(ask="distance", to=0.001),
+                        Options(work=1)):
             answers = nsvcd.sweep_batch(MUG, RACK, self.paths, options=options)
             self.assertEqual(answers.shape, (60,))
             for row, path in zip(answers, self.paths):
                 self.same(row, nsvcd.sweep(MUG, RACK, path, options=options))
         answers = nsvcd.sweep_batch(MUG, RACK, self.paths)
-        self.assertTrue(0 < answers["collides"].sum() < 60)
-        self.assertEqual(len(answers[answers["collides"]]), (answers["status"] != Status.CERTIFIED_FREE).sum())
+        hits = answers["verdict"] == "hit"
+        self.assertTrue(0 < hits.sum() < 60)
+        np.testing.assert_array_equal(hits, answers["verdict"] == Verdict.HIT)
+        self.assertEqual(hits.sum() + (answers["verdict"] == "free").sum(), 60)
+        np.testing.assert_array_equal(answers[hits]["time"]["high"], answers[hits]["nearest"]["time"])
+        self.assertEqual((answers["inside"].dtype, answers["opinion"]["limited"].dtype), (bool, bool))
+        self.assertEqual(answers["contacts"]["point"].shape, (60, 4, 3))
+        # By the network, one after another may differ in what it looked at.
+        answers = nsvcd.sweep_batch(MUG, RACK, self.paths[:1], options=BY_NETWORK)
+        self.same(answers[0], nsvcd.sweep(MUG, RACK, self.paths[0], options=BY_NETWORK))
 
     def test_each_its_own(self) -> None:
         bodies, scales = [MUG, BOX] * 30, np.linspace(0.5, 2, 60)
@@ -255,7 +310,7 @@ class Batches(unittest.TestCase):
     def test_none(self) -> None:
         for k in (1, 2):
             answers = nsvcd.sweep_batch(MUG, RACK, np.zeros((0, k, 7)))
-            self.assertEqual((answers.shape, answers["point"].shape), ((0,), (0, 3)))
+            self.assertEqual((answers.shape, answers["lift"].shape), ((0,), (0, 3)))
         self.assertEqual(len(nsvcd.sweep_batch([], RACK)), 0)
 
     def test_strides(self) -> None:
@@ -371,19 +426,24 @@ class Arrays(unittest.TestCase):
         self.assertEqual(nsvcd.sweep(MUG, RACK, LOW, scale_a=np.float32(2)), nsvcd.sweep(MUG, RACK, LOW, scale_a=2))
 
     def test_options(self) -> None:
-        for named in ({"work": -1}, {"pairs": 2**64}, {"segments": -16}, {"model": 2**32}, {"first": 1e-60}):
+        for named in ({"work": -1}, {"pairs": 2**64}, {"segments": -16}, {"model": "huge"}, {"to_time": 1e-60},
+                      {"ask": "last"}, {"ask": ""}, {"ask": 1}, {"method": 7}, {"method": None},
+                      {"precision": Ask.HIT}):
             with self.assertRaises(ValueError, msg=str(named)):
                 Options(**named)
-        for named in ({"work": 1.5}, {"first": "0.1"}, {"method": "proof"}):
+        for named in ({"work": 1.5}, {"to": "0.1"}, {"pairs": 1.5}, {"recall": "0.99"}):
             with self.assertRaises(TypeError, msg=str(named)):
                 Options(**named)
+        first, distance = {"ask": "first"}, {"ask": "distance"}
         for named, code in (({"pairs": 257}, Code.ARGUMENT), ({"segments": 17}, Code.ARGUMENT),
-                            ({"method": 7}, Code.ARGUMENT), ({"model": 9}, Code.ARGUMENT),
-                            ({"recall": 0.5}, Code.ARGUMENT), ({"first": 2}, Code.TOLERANCE),
+                            ({"recall": 0.5}, Code.ARGUMENT), ({**first, "to_time": 2}, Code.TOLERANCE),
+                            ({**first, "to": -1}, Code.TOLERANCE), ({**first, "to_time": np.nan}, Code.TOLERANCE),
                             ({"clearance": -1}, Code.TOLERANCE), ({"skin": np.nan}, Code.TOLERANCE),
-                            ({"measure": 1e300}, Code.TOLERANCE), ({"tolerance": -1}, Code.TOLERANCE),
-                            ({"first": 0.1, "measure": 0.1}, Code.ARGUMENT),
-                            ({"first": 0.1, "method": Method.NETWORK}, Code.ARGUMENT)):
+                            ({**distance, "to": 1e300}, Code.TOLERANCE), ({"tolerance": -1}, Code.TOLERANCE),
+                            ({"to": 0.1}, Code.ARGUMENT), ({"to_time": 0.1}, Code.ARGUMENT),
+                            ({**distance, "to_time": 0.1}, Code.ARGUMENT),
+                            ({**first, "method": "network"}, Code.ARGUMENT),
+                            ({**distance, "method": "network"}, Code.ARGUMENT)):
             self.assertEqual(raised(nsvcd.sweep, MUG, RACK, LOW, options=Options(**named)).code, code, named)
         self.assertEqual(raised(nsvcd.sweep_gradient, MUG, RACK, LOW, options=Options(method=Method.PROOF)).code,
                          Code.ARGUMENT)
@@ -498,7 +558,7 @@ class Bodies(unittest.TestCase):
         double = BOX.scaled(2)
         self.assertAlmostEqual(double.facts.radius, 2 * BOX.facts.radius, places=5)
         for x, hits in ((2.9, True), (3.1, False)):
-            self.assertEqual(nsvcd.sweep(double, BOX, at(x, 0, 0)).collides, hits)
+            self.assertEqual(bool(nsvcd.sweep(double, BOX, at(x, 0, 0))), hits)
         for bad in (0, -1, np.nan, 1e30):
             self.assertEqual(raised(BOX.scaled, bad).code, Code.ARGUMENT)
 
@@ -542,11 +602,11 @@ class Threads(unittest.TestCase):
     def test_share_bodies(self) -> None:
         paths = np.tile(np.array(LOW), (200, 1, 1))
         paths[:, :, :3] += np.random.default_rng(7).normal(0, 0.2, (200, 2, 3))
-        for options in (Options(first=0.01), BY_NETWORK):
+        for options in (Options(ask="first", to_time=0.01), BY_NETWORK):
             expected = [nsvcd.sweep(MUG, RACK, path, options=options) for path in paths]
 
             def ask(_: int) -> bool:
-                batch = nsvcd.sweep_batch(MUG, RACK, paths, options=Options(first=0.01))
+                batch = nsvcd.sweep_batch(MUG, RACK, paths, options=Options(ask="first", to_time=0.01))
                 return ([nsvcd.sweep(MUG, RACK, path, options=options) for path in paths] == expected and
                         len(batch) == len(paths))
             with ThreadPoolExecutor(16) as pool:
@@ -555,7 +615,8 @@ class Threads(unittest.TestCase):
     def test_others_run_meanwhile(self) -> None:
         """A thread that counts, while another one is in the library. Were the GIL kept, there were a gap as long."""
         paths = np.tile(np.array(LOW), (5000, 1, 1))
-        calls = {"sweep_batch": lambda: nsvcd.sweep_batch(MUG, RACK, paths, options=Options(first=0.001)),
+        options = Options(ask="first", to_time=0.001)
+        calls = {"sweep_batch": lambda: nsvcd.sweep_batch(MUG, RACK, paths, options=options),
                  "Body": lambda: Body(*nsvcd.load_obj(ASSETS / "dish_rack.obj"), patches=4000)}
         for name, call in calls.items():
             for _ in range(5):  # the machine may have been busy
@@ -614,7 +675,7 @@ class Planning(unittest.TestCase):
         self.assertEqual(plan.control.shape, (12, 3))
         np.testing.assert_array_equal(plan.control[[0, -1]], np.float32([[0, -0.5, 0], [0, 0.5, 0]]))
         joints = nsvcd.spline(plan.control, np.linspace(0, 1, 89))
-        self.assertEqual(nsvcd.sweep(MUG, RACK, [place(row)[0] for row in joints]).status, Status.CERTIFIED_FREE)
+        self.assertEqual(nsvcd.sweep(MUG, RACK, [place(row)[0] for row in joints]).verdict, "free")
         self.assertTrue(plan.sweeps > 0 and plan.seeds == 1 and plan.iterations > 0)
         self.assertTrue(plan.cost >= plan.smoothness > 0)
 
@@ -633,7 +694,8 @@ class Planning(unittest.TestCase):
         joints = nsvcd.spline(plan.control, np.linspace(0, 1, 89))
         path = [place(row)[0] for row in joints]
         self.assertEqual(plan.status, PlanStatus.CONVERGED)
-        self.assertGreater(nsvcd.sweep(MUG, RACK, path, options=Options(measure=0.001)).clearance_high, 0.0095)
+        self.assertGreater(nsvcd.sweep(MUG, RACK, path, options=Options(ask="distance", to=0.001)).distance.high,
+                           0.0095)
         self.assertEqual(gantry(progress=lambda now: True).status, PlanStatus.CANCELLED)
         self.assertEqual(gantry(start=[0, 0, 0]).status, PlanStatus.START)
         plan = gantry(goal=[0, 0.5, 3])
@@ -722,15 +784,18 @@ class Layouts(unittest.TestCase):
             del sys.modules["changed"]
 
     def test_mistakes(self) -> None:
-        self.load("contact_time=c_float,", "contact_time=c_float,")
+        self.load("verdict=c_int, by=c_int", "verdict=c_int, by=c_int")
         for old, new, name in (
-                ("contact_time=c_float, free_until=c_float", "free_until=c_float, contact_time=c_float",
-                 "nsvcd_answer.free_until"),
-                ("lift=c_float * 3, work=c_size_t", "lift=c_float * 3", "nsvcd_answer.work"),
-                ("skin=c_float", "skin=c_float, next=c_size_t", "nsvcd_sweep_options.next"),
+                ("verdict=c_int, by=c_int", "by=c_int, verdict=c_int", "nsvcd_answer.by"),
+                ("opinion=_Opinion,\n    work=c_size_t", "opinion=_Opinion", "nsvcd_answer.work"),
+                ("network=_NetworkOptions)", "network=_NetworkOptions, next=c_size_t)", "nsvcd_question.next"),
+                ("limited=c_int", "limited=c_uint64", "nsvcd_opinion.limited"),
                 ("count=c_size_t, scale=c_float", "count=c_uint32, scale=c_float", "nsvcd_mover.count"),
                 ("discrete=c_int", "apart=c_int", "nsvcd_plan_options.apart"),
-                ("    WITNESS = 4", "    WITNESS = 6", "NSVCD_STATUS_WITNESS"),
+                ('    UNDECIDED = "undecided"\n    FREE = "free"', '    FREE = "free"\n    UNDECIDED = "undecided"',
+                 "NSVCD_UNDECIDED"),
+                ('    TOO_NEAR = "too near"\n', "", "NSVCD_WHY_TOO_NEAR"),
+                ("_MAX_CONTACTS = 4", "_MAX_CONTACTS = 5", "NSVCD_MAX_CONTACTS"),
                 ("    CANCELLED = 15\n", "", "NSVCD_ERROR_CANCELLED"),
                 ("_MAX_VIA_POINTS = 32", "_MAX_VIA_POINTS = 33", "NSVCD_MAX_VIA_POINTS")):
             with self.assertRaisesRegex(ImportError, f"another neuralsvcd.h.*{name}", msg=new):
@@ -789,8 +854,8 @@ class Wheel(unittest.TestCase):
             shutil.rmtree(folder / "checkout")
             shutil.copy(ASSETS / "mug.obj", folder)
             printed = run(python, "-c", "import neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
-                          "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).status.name)")
-            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py WITNESS\n$")
+                          "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).verdict)")
+            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py hit\n$")
 
 
 if __name__ == "__main__":

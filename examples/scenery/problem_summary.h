@@ -1,6 +1,6 @@
 // problem_summary.h - what answers to a problem file come to: the share that is right, by bands of
-// the margin, statuses, times and bytes. On standard error. Include neuralsvcd.h and problem_file.h
-// first.
+// the margin, statuses, times and bytes. On standard error. Include neuralsvcd.h, problem_file.h and
+// status_of.h first.
 #ifndef NSVCD_SCENERY_PROBLEM_SUMMARY_H
 #define NSVCD_SCENERY_PROBLEM_SUMMARY_H
 
@@ -76,7 +76,7 @@ static void print_accuracy(const session *s) {
   memset(&t, 0, sizeof t);
   for (size_t i = 0; i < s->file.problem_count; i++) {
     const problem *p = &s->file.problems[i];
-    if (p->label >= 0) t.at[band_of(p->margin)][p->label][s->outcomes[i].answer.collides]++;
+    if (p->label >= 0) t.at[band_of(p->margin)][p->label][collides_of(&s->outcomes[i].answer)]++;
   }
   size_t missed = tally_sum(&t, 1, 0);
   size_t found = tally_sum(&t, 1, 1);
@@ -91,11 +91,11 @@ static void print_accuracy(const session *s) {
 
 static void print_statuses(const session *s) {
   fprintf(stderr, "\nstatus:");
-  for (int status = NSVCD_STATUS_OK; status <= NSVCD_STATUS_UNDECIDED; status++) {
+  for (int status = STATUS_OK; status <= STATUS_UNDECIDED; status++) {
     size_t count = 0;
     for (size_t i = 0; i < s->file.problem_count; i++)
-      count += (int)s->outcomes[i].answer.status == status;
-    fprintf(stderr, "%s %s %.1f %%", status ? "," : "", nsvcd_status_string((nsvcd_status)status),
+      count += (int)status_of(&s->outcomes[i].answer) == status;
+    fprintf(stderr, "%s %s %.1f %%", status ? "," : "", status_string((enum status)status),
             100.0 * (double)count / (double)s->file.problem_count);
   }
   fprintf(stderr, "\n");

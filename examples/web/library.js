@@ -1,7 +1,8 @@
 // library.js - neuralsvcd.h as web.c exports it, for JavaScript. page.js comes after it.
 
 const METHODS = {proof: 1, network: 2};  // nsvcd_method
-const STATUS = {OK: 0, CERTIFIED_FREE: 1, INSIDE: 2, LIMIT: 3, WITNESS: 4, UNDECIDED: 5};
+const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict
+const BY = {PROOF: 0, NETWORK: 1};  // nsvcd_by
 
 // Compiles the module. What it returns throws an Error with `line` where the library says no.
 async function createLibrary(bytes) {
@@ -48,17 +49,20 @@ async function createLibrary(bytes) {
   // nsvcd_answer.
   function answer() {
     const at = c.web_answer();
-    const f = floats(at, 22);
-    const w = words(at, 22);
+    const f = floats(at, 95);
+    const w = words(at, 95);
     return {
-      logit: f[0],
-      collides: w[1] !== 0,
-      time: f[2],
-      freeUntil: f[3],
-      apart: f[4],
-      status: w[8],
-      point: [...f.slice(10, 13)], normal: [...f.slice(13, 16)],
-      triangles: [w[16], w[17]],
+      verdict: w[0],
+      by: w[1],
+      inside: w[3] !== 0,
+      time: {low: f[4], high: f[5]},
+      distance: {low: f[6], high: f[7]},
+      nearest: {
+        point: [...f.slice(75, 78)], normal: [...f.slice(78, 81)],
+        time: f[82],
+        triangles: [w[83], w[84]],
+      },
+      opinion: {logit: f[88]},
     };
   }
   return {encode, mesh, facts, sweep, answer};

@@ -57,28 +57,34 @@ function microseconds(asked, milliseconds, batches) {
 }
 
 // What an answer is called, what it means, and the colour that it is drawn in.
-function verdictOf({status, collides, logit}, {method, clearance}) {
+function describe(answer, {method, clearance}) {
   const near = `${1000 * clearance} mm`;
-  const opinion = `The network's opinion, logit ${logit.toFixed(1)}: no proof.`;
-  switch (status) {
-    case STATUS.WITNESS:
-      if (clearance > 0)
-        return ['hit', `Closer than ${near}`, 'Proven: these two triangles come as close.'];
-      return ['hit', 'Hit', 'Proven: these two triangles meet.'];
-    case STATUS.CERTIFIED_FREE:
-      if (clearance > 0)
-        return ['free', 'Free', `Certified: never closer than ${near}, rotation included.`];
-      return ['free', 'Free', 'Certified: the surfaces never meet, rotation included.'];
-    case STATUS.INSIDE:
-      return ['inside', 'Inside', `At the start one is inside the other${
-        method === 'proof' ? '' : ', the network\'s method estimates'}.`];
-    case STATUS.UNDECIDED:
-      return ['doubt', 'Undecided',
-        'They come too close to tell without meeting, or it is more work than allowed.'];
-    default:
-      return collides ? ['hit', 'Probably hits', opinion] : ['free', 'Probably free', opinion];
-  }
+  const opinion = `The network's opinion, logit ${answer.opinion.logit.toFixed(1)}: no proof.`;
+  if (answer.inside)
+    return ['inside', 'Inside', `At the start one is inside the other${
+      method === 'proof' ? '' : ', the network\'s method estimates'}.`];
+  if (answer.verdict === VERDICT.UNDECIDED)
+    return ['doubt', 'Undecided',
+      'They come too close to tell without meeting, or it is more work than allowed.'];
+  const hits = answer.verdict === VERDICT.HIT;
+  if (answer.by === BY.NETWORK)
+    return hits ? ['hit', 'Probably hits', opinion] : ['free', 'Probably free', opinion];
+  if (hits && clearance > 0)
+    return ['hit', `Closer than ${near}`, 'Proven: these two triangles come as close.'];
+  if (hits)
+    return ['hit', 'Hit', 'Proven: these two triangles meet.'];
+  if (clearance > 0)
+    return ['free', 'Free', `Certified: never closer than ${near}, rotation included.`];
+  return ['free', 'Free', 'Certified: the surfaces never meet, rotation included.'];
 }
+// Is it that the network thinks so, and no more?
+const isOpinion = (answer) => answer?.by === BY.NETWORK && !answer.inside;
+// Are there two triangles that prove a hit?
+const isWitnessed = (answer) =>
+  answer?.verdict === VERDICT.HIT && answer.by === BY.PROOF && !answer.inside;
+// When they hit, or come too near to tell; where they are free, the end.
+const contactTime = ({verdict, time, nearest}) =>
+  verdict === VERDICT.UNDECIDED ? nearest.time : time.high;
 
 // ---- showing the answer
 
@@ -97,20 +103,20 @@ function showVerdict(kind, title, text) {
 }
 
 function showAnswer() {
-  const witness = answer?.status === STATUS.WITNESS;
-  const opinion = [STATUS.OK, STATUS.LIMIT].includes(answer?.status);
-  const timed = witness || (opinion && answer.collides);
+  const witness = isWitnessed(answer);
+  const known = answer && !isOpinion(answer);
+  const timed = answer?.verdict === VERDICT.HIT && !answer.inside;
   if (answer)
-    showVerdict(...answer.verdict);
+    showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
-  show('contact-time', timed ? `t = ${answer.time.toFixed(3)}` : null);
-  show('free-until', answer && !opinion ? `t = ${answer.freeUntil.toFixed(3)}` : null);
-  show('apart', answer && !opinion && answer.apart > 0 && Number.isFinite(answer.apart) ?
-    `${(1000 * answer.apart).toPrecision(2)} mm` : null);
-  show('point', witness ? numbers(answer.point, 3) : null);
-  show('normal', witness ? numbers(answer.normal, 2) : null);
+  show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` : null);
+  show('free-until', known ? `t = ${answer.time.low.toFixed(3)}` : null);
+  show('apart', known && answer.distance.low > 0 && Number.isFinite(answer.distance.low) ?
+    `${(1000 * answer.distance.low).toPrecision(2)} mm` : null);
+  show('point', witness ? numbers(answer.nearest.point, 3) : null);
+  show('normal', witness ? numbers(answer.nearest.normal, 2) : null);
   for (const which of [0, 1])
-    show(`triangle-${which}`, witness ? answer.triangles[which] : null);
+    show(`triangle-${which}`, witness ? answer.nearest.triangles[which] : null);
 }
 
 function ask(milliseconds, batches) {
@@ -120,7 +126,7 @@ function ask(milliseconds, batches) {
     library.sweep(asked, 1);
     const taken = performance.now() - start;
     answer = library.answer();
-    answer.verdict = verdictOf(answer, asked);
+    answer.description = describe(answer, asked);
     batch = Math.max(1, Math.min(batch, Math.ceil(milliseconds / taken)));
     answer.microseconds = taken > 10 ? 1000 * taken : microseconds(asked, milliseconds, batches);
   } catch (error) {
@@ -150,8 +156,8 @@ const camera = () => cameraOf(view, canvas.clientWidth, canvas.clientHeight);
 
 // A's colour at a time: green as far as it is proven free.
 function colourAt(t) {
-  const proven = answer && ![STATUS.OK, STATUS.LIMIT].includes(answer.status);
-  return proven && t < answer.freeUntil ? colours.free : colours[answer?.verdict[0] ?? 'doubt'];
+  const proven = answer && !isOpinion(answer) && t < answer.time.low;
+  return proven ? colours.free : colours[answer?.description[0] ?? 'doubt'];
 }
 
 function ghosts(time) {
@@ -170,10 +176,10 @@ function ghosts(time) {
 
 // The witness: two triangles with their edges, the point where they meet, and the normal.
 function marks() {
-  if (answer?.status !== STATUS.WITNESS)
+  if (!isWitnessed(answer))
     return [];
   const list = [];
-  const {point, normal, triangles, time} = answer;
+  const {point, normal, triangles, time} = answer.nearest;
   for (const which of [1, 0]) {
     const {positions, indices, scale} = bodies[which];
     const [a, b, c] = [0, 1, 2].map((k) => {
@@ -235,7 +241,7 @@ function placeGrips(from) {
 }
 
 function placeContact(from) {
-  const at = answer?.status === STATUS.WITNESS && toScreen(from, answer.point);
+  const at = isWitnessed(answer) && toScreen(from, answer.nearest.point);
   find('contact').hidden = !at;
   if (at) {
     find('contact').style.left = `${at[0]}px`;
@@ -284,7 +290,7 @@ function frame() {
   }
   asking = false;
   if (find('follow').checked)
-    find('time').value = answer?.collides ? answer.time : 1;
+    find('time').value = answer ? contactTime(answer) : 1;
   show('time-text', Number(find('time').value).toFixed(3));
   draw();
 }

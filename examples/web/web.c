@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 // library.js counts on it.
-_Static_assert(sizeof(nsvcd_answer) == 4 * 22 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
+_Static_assert(sizeof(nsvcd_answer) == 4 * 95 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -57,7 +57,8 @@ nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
   return NSVCD_OK;
 }
 
-// Asks `times` times whether A hits B, for the clock; once is enough for web_answer.
+// Asks `times` times whether A hits B, for the clock; once is enough for web_answer. first: to which
+// share of the motion the first contact is timed; 0: any contact will do.
 nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
                                nsvcd_method method, size_t times) {
   nsvcd_question question = {0};
@@ -67,9 +68,10 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
   question.a.scale = scale_a;
   question.b.body = sides[1].body;
   question.b.scale = scale_b;
-  question.options.first = first;
-  question.options.clearance = clearance;
-  question.options.method = method;
+  question.ask = first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+  question.to_time = first;
+  question.clearance = clearance;
+  question.method = method;
   if (!workspace) {
     workspace_size = nsvcd_sweep_workspace_size(NULL);
     workspace = malloc(workspace_size);

@@ -117,9 +117,9 @@ typedef struct nsvcd_plan_stage {
 } nsvcd_plan_stage;
 
 // What is zero is the default, which stands last; weights that are negative count as zero. If an
-// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of patches; if
-// the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and metres alike:
-// for ways of hundreds of metres, raise `duration` or `collision`.
+// exact check finds contacts, raise sweep.network.recall, `collision` or the bodies' number of
+// patches; if the status is LIMIT, `seeds` or explore.draws. The smoothness counts radians and
+// metres alike: for ways of hundreds of metres, raise `duration` or `collision`.
 typedef struct nsvcd_plan_options {
   // of all random numbers
   uint64_t seed;

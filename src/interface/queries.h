@@ -214,10 +214,10 @@ typedef struct nsvcd_answer {
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
   nsvcd_safe_place safe;
-  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or, where
-  // a rests, or both move and a is the larger, with a. The answer is about the motion so displaced,
-  // which touches nothing at the start. 0: nothing was touched; or no lift does that, since a is
-  // pressed in deeper than the skin, or held from all sides: then the contact counts
+  // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
+  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
+  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
+  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
   // of a HIT whose triangles are known, at time.high
   size_t contact_count;
@@ -311,13 +311,14 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the gradient of the pair and the stretch of time that decided: the logit is
-// the greatest of several, and so has kinks, also where the network (ReLU) and the frame of a pair
-// have theirs. Where the pair is at rest, or does not turn, it is the mean of both sides. The ends
-// of the stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
-// begins or ends. The unit of length, and the spheres' allowance for what the motion does between
-// its knots, are taken as constant. In int8 arithmetic it is the derivative of the float decoder,
-// or, without that, of the function that the int8 one rounds.
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
+// the gradient of the pair and the stretch of time that decided: the logit is the greatest of
+// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs.
+// Where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
+// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
+// begins or ends. The unit of length, and the spheres' allowance for what the motion does
+// between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float
+// decoder, or, without that, of the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);

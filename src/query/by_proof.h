@@ -49,6 +49,8 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const double most = share > 0 ? share : 1;
   const double extent = (double)(motion->scale * p->moving.body->extent);
   double fastest = 0;  // per tick
+  // that of the question before
+  p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
     const nsvcd__arc *arc = nsvcd__arc_at(p, first);
     fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);

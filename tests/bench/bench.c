@@ -26,6 +26,7 @@
 #include "method.h"
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
+#include "../../examples/scenery/status_of.h"
 
 // -------------------------------------------------------------------------------------------- rows
 
@@ -535,22 +536,23 @@ static void free_shelf(const problem_set *set, shelf *s) {
 }
 
 // What a row of ours is called.
-static void name_setting(const nsvcd_sweep_options *o, size_t points, char *name, size_t size) {
+static void name_setting(const nsvcd_question *o, size_t points, char *name, size_t size) {
   int used;
   if (o->method == NSVCD_METHOD_PROOF) {
     snprintf(name, size, "N %zu", points);
     return;
   }
-  used =
-      snprintf(name, size, "N %zu, K %zu, %s%s", points, o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS,
-               model_names[o->model], o->precision == NSVCD_PRECISION_INT8 ? ", int8" : "");
-  if (o->recall > 0)
-    snprintf(name + used, size - (size_t)used, ", recall %g %%", 100 * (double)o->recall);
+  used = snprintf(name, size, "N %zu, K %zu, %s%s", points,
+                  o->network.pairs ? o->network.pairs : NSVCD_DEFAULT_PAIRS,
+                  model_names[o->network.model],
+                  o->network.precision == NSVCD_PRECISION_INT8 ? ", int8" : "");
+  if (o->network.recall > 0)
+    snprintf(name + used, size - (size_t)used, ", recall %g %%", 100 * (double)o->network.recall);
 }
 
 // One encoding of all meshes, many query settings. method: the name of the rows.
 static void run_ours(table *t, const problem_set *set, const char *method,
-                     const nsvcd_encode_options *encode, const nsvcd_sweep_options *settings,
+                     const nsvcd_encode_options *encode, const nsvcd_question *settings,
                      size_t setting_count) {
   size_t first = t->count;
   size_t workspace_size = nsvcd_sweep_workspace_size(NULL);
@@ -568,16 +570,18 @@ static void run_ours(table *t, const problem_set *set, const char *method,
     size_t f;
     const problem *p = get_problem(set, i, &f);
     nsvcd_result result = NSVCD_OK;
-    nsvcd_question question = question_of_problem(&set->files[f], p);
-    question.a.body = s.bodies[f][p->moving];
-    question.b.body = s.bodies[f][p->fixed];
+    nsvcd_question of_problem = question_of_problem(&set->files[f], p);
+    of_problem.a.body = s.bodies[f][p->moving];
+    of_problem.b.body = s.bodies[f][p->fixed];
     for (size_t k = 0; k < setting_count && !result; k++) {
       nsvcd_answer a;
-      question.options = settings[k];
+      nsvcd_question question = settings[k];
+      question.a = of_problem.a;
+      question.b = of_problem.b;
       TIME(times[k * set->problems + i],
            result = nsvcd_sweep(&question, workspace, workspace_size, &a));
-      t->rows[first + k].counts[p->label == 1][a.collides]++;
-      t->rows[first + k].undecided += a.status == NSVCD_STATUS_UNDECIDED;
+      t->rows[first + k].counts[p->label == 1][collides_of(&a)]++;
+      t->rows[first + k].undecided += a.verdict == NSVCD_UNDECIDED;
     }
     if (result) {
       complain("problem %s: %s", p->id, nsvcd_result_string(result));
@@ -594,7 +598,7 @@ static void run_ours(table *t, const problem_set *set, const char *method,
 
 // The proof, at several resolutions.
 static void run_proof(table *t, const problem_set *set, const size_t *all_points, size_t count) {
-  nsvcd_sweep_options settings;
+  nsvcd_question settings;
   memset(&settings, 0, sizeof settings);
   settings.method = NSVCD_METHOD_PROOF;
   for (size_t i = 0; i < count; i++) {
@@ -609,7 +613,7 @@ static void run_race(table *t, const problem_set *set) {
   static const size_t points[] = {NSVCD_DEFAULT_PATCHES};
   const preparation how = {0, 0};
   const nsvcd_encode_options encode = {.patches = NSVCD_DEFAULT_NETWORK_PATCHES, .no_triangles = 1};
-  nsvcd_sweep_options network;
+  nsvcd_question network;
   memset(&network, 0, sizeof network);
   run_discrete(t, set, &full_mesh_method, &how, "", settings, 3);
   run_ours(t, set, "NeuralSVCD", &encode, &network, 1);
@@ -620,7 +624,7 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
   static const size_t all_points[] = {32, 64, 128, 256, 512};
   static const size_t all_pairs[] = {1, 2, 4, 8, 16, 32, 64, 256};
   static const float recalls[] = {0.99f, 0.999f, 0.9999f};
-  nsvcd_sweep_options settings[64];
+  nsvcd_question settings[64];
   size_t count = 0;
   memset(settings, 0, sizeof settings);
   for (int model = NSVCD_MODEL_TINY; model <= NSVCD_MODEL_BASE; model++) {
@@ -629,15 +633,15 @@ static void run_all_neural(table *t, const problem_set *set, int quick) {
         if (set->extreme ? all_pairs[k] != 8 || precision
                          : quick && (all_pairs[k] < 4 || all_pairs[k] > 16))
           continue;
-        settings[count].pairs = all_pairs[k];
-        settings[count].model = (nsvcd_model)model;
-        settings[count++].precision = (nsvcd_precision)precision;
+        settings[count].network.pairs = all_pairs[k];
+        settings[count].network.model = (nsvcd_model)model;
+        settings[count++].network.precision = (nsvcd_precision)precision;
       }
     }
     for (size_t k = 0; k < 3; k++) {
       if (set->extreme ? k != 1 : quick) continue;
-      settings[count].model = (nsvcd_model)model;
-      settings[count++].recall = recalls[k];
+      settings[count].network.model = (nsvcd_model)model;
+      settings[count++].network.recall = recalls[k];
     }
   }
   for (size_t i = 0; i < sizeof all_points / sizeof all_points[0]; i++) {
@@ -718,7 +722,7 @@ static void run_neural_cut(table *t, const problem_set *set) {
     question.a.body = moving;
     question.b.body = fixed;
     TIME(times[i], result = nsvcd_sweep(&question, workspace, workspace_size, &a));
-    r->counts[p->label == 1][a.collides]++;
+    r->counts[p->label == 1][collides_of(&a)]++;
     r->bytes += (double)nsvcd_body_describe(fixed).size / (double)set->problems;
     progress(set->name, "NeuralSVCD, cut", i + 1, set->problems);
   }

@@ -9,12 +9,13 @@
 #include "../../neuralsvcd.h"
 #define PROGRAM "bench_asks"
 #include "../../examples/scenery/problem_file.h"
+#include "../../examples/scenery/status_of.h"
 
 #define RUNS 5
 
 typedef struct way {
   const char *name;
-  nsvcd_sweep_options options;
+  nsvcd_question options;  // a and b left out
   double *microseconds;
   size_t collide, undecided;
 } way;
@@ -52,12 +53,14 @@ int main(int argc, char **argv) {
     ways[k].options.clearance = clearance;
     ways[k].microseconds = (double *)allocate(file.problem_count * sizeof(double));
   }
-  ways[1].options.first = 0.1f;
-  ways[2].options.first = 0.01f;
-  ways[3].options.first = 0.001f;
+  for (int k = 1; k < 4; k++) ways[k].options.ask = NSVCD_ASK_FIRST;
+  ways[1].options.to_time = 0.1f;
+  ways[2].options.to_time = 0.01f;
+  ways[3].options.to_time = 0.001f;
   ways[4].options.clearance += 0.001f;
   ways[5].options.clearance += 0.01f;
-  ways[6].options.measure = 0.001f;
+  ways[6].options.ask = NSVCD_ASK_DISTANCE;
+  ways[6].options.to = 0.001f;
   ways[7].options.skin = 0.001f;
 
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file.mesh_count * sizeof *bodies);
@@ -76,22 +79,24 @@ int main(int argc, char **argv) {
   double plain = 0;
   for (size_t i = 0; i < file.problem_count; i++) {
     const problem *p = &file.problems[i];
-    nsvcd_question question = question_of_problem(&file, p);
-    question.a.body = bodies[p->moving];
-    question.b.body = bodies[p->fixed];
+    nsvcd_question of_problem = question_of_problem(&file, p);
+    of_problem.a.body = bodies[p->moving];
+    of_problem.b.body = bodies[p->fixed];
     for (int run = 0; run < RUNS; run++) {
       for (int k = 0; k < 8; k++) {
         nsvcd_answer answer;
         double *least = &ways[k].microseconds[i];
-        question.options = ways[k].options;
+        nsvcd_question question = ways[k].options;
+        question.a = of_problem.a;
+        question.b = of_problem.b;
         const double start = seconds();
         const nsvcd_result result =
             nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
         const double taken = 1e6 * (seconds() - start);
         if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;
         *least = run == 0 ? taken : fmin(*least, taken);
-        ways[k].collide += run == 0 && answer.collides;
-        ways[k].undecided += run == 0 && answer.status == NSVCD_STATUS_UNDECIDED;
+        ways[k].collide += run == 0 && collides_of(&answer);
+        ways[k].undecided += run == 0 && answer.verdict == NSVCD_UNDECIDED;
       }
     }
     plain += ways[0].microseconds[i];

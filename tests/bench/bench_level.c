@@ -19,6 +19,7 @@
 
 #include "meter.h"
 #include "../level_scene.h"
+#include "../../examples/scenery/status_of.h"
 
 #define SIDE 20.0  // metres
 // metres, of patches, where there are fewer triangles than the library takes for a level's
@@ -83,15 +84,15 @@ static size_t run_set(int set, size_t motions, const level_solid *bodies, const 
     question.a.poses = way.stored;
     question.a.count = 2;
     question.b.body = level->body;
-    question.options.method = method;
+    question.method = method;
     times[0][count] = microseconds(&question, workspace, size, &whole);
     question.b.body = piece;
     times[1][count] = microseconds(&question, workspace, size, &local);
     nsvcd_body_free(piece, NULL);
     count++;
 
-    undecided += whole.status == NSVCD_STATUS_UNDECIDED;
-    differ += whole.collides != local.collides && label.status != ORACLE_INSIDE;
+    undecided += whole.verdict == NSVCD_UNDECIDED;
+    differ += collides_of(&whole) != collides_of(&local) && label.status != ORACLE_INSIDE;
     if (label.status == ORACLE_FREE && label.distance < MARGIN) {
       close_calls++;
       continue;
@@ -99,10 +100,10 @@ static size_t run_set(int set, size_t motions, const level_solid *bodies, const 
     const int collides = label.status == ORACLE_COLLIDES || label.status == ORACLE_INSIDE;
     hits += collides != 0;
     free_of += !collides;
-    if (whole.status != NSVCD_STATUS_UNDECIDED) wrong += whole.collides != collides;
+    if (whole.verdict != NSVCD_UNDECIDED) wrong += collides_of(&whole) != collides;
     // A part of a level encloses nothing.
     if (label.status != ORACLE_INSIDE)
-      piece_wrong += local.status != NSVCD_STATUS_UNDECIDED && local.collides != collides;
+      piece_wrong += local.verdict != NSVCD_UNDECIDED && collides_of(&local) != collides;
   }
   printf(
       "  %s: %zu hits, %zu free, %zu within %g mm of contact; %zu wrong (the piece: %zu), %zu "

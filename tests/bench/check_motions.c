@@ -13,6 +13,7 @@
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
+#include "../../examples/scenery/status_of.h"
 
 #define HAIR 1e-6    // metres: nearer than this to the clearance, advancement stops
 #define MARGIN 1e-4  // metres
@@ -90,26 +91,25 @@ static void check_one(const problem *p, const nsvcd_answer *answer, const scene 
   sum->hits += hits && !is_free;
   sum->free += is_free;
   sum->close += !hits && !is_free;
-  sum->undecided += answer->status == NSVCD_STATUS_UNDECIDED;
-  if (is_free && answer->collides) sum->stops++;
-  if (clearance > MARGIN && hits && !answer->collides) sum->misses++;
-  if (is_free && answer->collides)
-    printf("%s: stopped at %g, but free\n", p->id, (double)answer->contact_time);
-  if (clearance > MARGIN && hits && !answer->collides)
+  sum->undecided += answer->verdict == NSVCD_UNDECIDED;
+  if (is_free && collides_of(answer)) sum->stops++;
+  if (clearance > MARGIN && hits && !collides_of(answer)) sum->misses++;
+  if (is_free && collides_of(answer))
+    printf("%s: stopped at %g, but free\n", p->id, (double)contact_time_of(answer));
+  if (clearance > MARGIN && hits && !collides_of(answer))
     printf("%s: hits at %g, missed\n", p->id, sure);
-  if (!(first > 0) || answer->status == NSVCD_STATUS_INSIDE || one_inside) return;
-  // Before free_until nothing is closer than the clearance; at contact_time something is, soon
-  // after.
-  const double until = (double)answer->free_until;
-  const double when = (double)answer->contact_time;
+  if (!(first > 0) || answer->inside || one_inside) return;
+  // Before time.low nothing is closer than the clearance; at the contact something is, soon after.
+  const double until = (double)answer->time.low;
+  const double when = (double)contact_time_of(answer);
   const double early = first_approach(s, fmax(clearance - 2 * HAIR, 0));
   int wrong = early < until - 1e-6 && distance_at(s, early) < clearance - 3 * HAIR;
-  if (answer->status == NSVCD_STATUS_WITNESS) {
+  if (answer->verdict == NSVCD_HIT) {
     // later than that only after surfaces that were nearer than can be told
     const int late = when - until > first * 1.0001 + 1e-6;
     sum->blurred += late;
     if (!late) sum->worst = fmax(sum->worst, (when - until) / first);
-    const double high = (double)answer->clearance_high;
+    const double high = (double)answer->distance.high;
     wrong |= late && distance_at(s, until) > clearance + 4 * quanta + HAIR;
     wrong |= distance_at(s, when) > high + HAIR || high > clearance + 4 * quanta;
   }
@@ -147,8 +147,9 @@ int main(int argc, char **argv) {
     if (question.a.count > MOST_POSES || question.b.count > MOST_POSES) continue;
     question.a.body = bodies[p->moving];
     question.b.body = bodies[p->fixed];
-    question.options.clearance = (float)clearance;
-    question.options.first = (float)first;
+    question.clearance = (float)clearance;
+    question.ask = first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+    question.to_time = (float)first;
     const nsvcd_result result =
         nsvcd_sweep(&question, workspace, nsvcd_sweep_workspace_size(NULL), &answer);
     if (result) return complain("%s: %s", p->id, nsvcd_result_string(result)), REFUSED;

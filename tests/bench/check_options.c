@@ -14,6 +14,7 @@
 #include "../../examples/scenery/shapes.h"
 #include "../../examples/scenery/oracle.h"
 #include "../../examples/scenery/poses.h"
+#include "../../examples/scenery/status_of.h"
 
 #define MOST_POSES 200
 #define MOST_ASKS 1200
@@ -30,9 +31,9 @@
 #define FINDINGS(KIND) \
   KIND(FREE_BUT_NEAR, "certified free, but nearer than the clearance") \
   KIND(FREE_BUT_INSIDE, "certified free, but one is inside") \
-  KIND(UNTIL_BUT_NEAR, "nearer than the clearance before free_until") \
-  KIND(LOW_TOO_HIGH, "nearer than clearance_low") \
-  KIND(HIGH_TOO_LOW, "farther than clearance_high at contact_time") \
+  KIND(UNTIL_BUT_NEAR, "nearer than the clearance before time.low") \
+  KIND(LOW_TOO_HIGH, "nearer than distance.low") \
+  KIND(HIGH_TOO_LOW, "farther than distance.high at nearest.time") \
   KIND(WITNESS_APART, "a witness whose triangles are apart") \
   KIND(INSIDE_FALSE, "INSIDE, but nothing is") \
   KIND(INSIDE_POINT, "INSIDE, at a point that is not") \
@@ -40,18 +41,18 @@
   KIND(CONTRADICTION, "two answers contradict each other") \
   KIND(BAD_ANSWER, "an answer that breaks its description") \
   KIND(BAD_PLACE, "a point or a normal that is not of the triangles named") \
-  KIND(LOST_BY_FIRST, "`first` loses a verdict") \
-  KIND(LOST_BY_MEASURE, "`measure` loses a verdict") \
-  KIND(LOST_BY_BOTH, "`measure` with `clearance` loses a verdict") \
+  KIND(LOST_BY_FIRST, "FIRST loses a verdict") \
+  KIND(LOST_BY_MEASURE, "DISTANCE loses a verdict") \
+  KIND(LOST_BY_BOTH, "DISTANCE with `clearance` loses a verdict") \
   KIND(LOST_BY_SKIN, "`skin` loses a verdict") \
   KIND(LOST_BY_SEGMENTS, "16 segments lose a verdict") \
   KIND(LOST_BY_CLEARANCE, "a verdict that another clearance implies is lost") \
   KIND(LOST_BY_TOLERANCE, "`tolerance` loses a verdict") \
-  KIND(LOST_IN_HASTE, "`first` loses a verdict for which it has 16 times the work") \
-  KIND(MEASURE_IN_HASTE, "`measure` loses a verdict for which it has 16 times the work") \
+  KIND(LOST_IN_HASTE, "FIRST loses a verdict for which it has 16 times the work") \
+  KIND(MEASURE_IN_HASTE, "DISTANCE loses a verdict for which it has 16 times the work") \
   KIND(LOST_FOR_GOOD, "a lost verdict that 16 times the work does not bring back") \
-  KIND(FINER_LATER, "finer `first`: free_until earlier") \
-  KIND(FINER_EARLIER, "finer `first`: contact_time later") \
+  KIND(FINER_LATER, "finer `to_time`: time.low earlier") \
+  KIND(FINER_EARLIER, "finer `to_time`: contact later") \
   KIND(WIDE, "bracket wider than its description allows") \
   KIND(LADDER_LOST, "more work loses a verdict") \
   KIND(SWAP_DIFFERS, "a and b swapped: another answer") \
@@ -64,13 +65,13 @@
   KIND(START_UNDECIDED, "cross at the start, but undecided") \
   KIND(INSIDE_MEETS, "INSIDE where surfaces meet at the start") \
   KIND(OVER_WORK, "work beyond the limit by 10,000 and more") \
-  KIND(COARSER_LOW, "finer `measure`: clearance_low lower") \
-  KIND(LADDER_UNTIL, "more work: free_until earlier") \
+  KIND(COARSER_LOW, "finer `to`: distance.low lower") \
+  KIND(LADDER_UNTIL, "more work: time.low earlier") \
   KIND(LADDER_LATER, "more work: first contact later") \
-  KIND(LADDER_LOW, "more work: clearance_low lower") \
-  KIND(LADDER_HIGH, "more work: clearance_high higher") \
-  KIND(PART_FARTHER, "triangles named are nearer than clearance_high by 4 quanta and more") \
-  KIND(LATE, "witness later than first, and nothing near at free_until") \
+  KIND(LADDER_LOW, "more work: distance.low lower") \
+  KIND(LADDER_HIGH, "more work: distance.high higher") \
+  KIND(PART_FARTHER, "triangles named are nearer than distance.high by 4 quanta and more") \
+  KIND(LATE, "witness later than first, and nothing near at time.low") \
   KIND(LATE_IN_DOUBT, "the same, but an eighth of the work was spent")
 // clang-format on
 #define KIND_NAME(name, text) name,
@@ -515,17 +516,15 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const
   }
 }
 
-static nsvcd_question question_of(const scene *s, const nsvcd_sweep_options *options, int swapped) {
-  nsvcd_question q;
+static nsvcd_question question_of(const scene *s, const nsvcd_question *options, int swapped) {
+  nsvcd_question q = *options;
   nsvcd_mover movers[2];
-  memset(&q, 0, sizeof q);
   for (int k = 0; k < 2; k++) {
     const part *p = &s->parts[k];
     movers[k] = (nsvcd_mover){p->of->body, p->raw, p->count, p->scale};
   }
   q.a = movers[swapped];
   q.b = movers[!swapped];
-  q.options = *options;
   return q;
 }
 
@@ -570,7 +569,7 @@ static void draw_scene(scene *s, uint64_t seed) {
     set_part(s, &rng, &s->parts[k], &go[k], &frame, carried ? along : origin);
   s->quanta = s->scale * (s->parts[0].of->quantum + s->parts[1].of->quantum);
   s->size = s->scale * (s->parts[0].of->reach + s->parts[1].of->reach);
-  nsvcd_sweep_options none;
+  nsvcd_question none;
   memset(&none, 0, sizeof none);
   const nsvcd_question q = question_of(s, &none, 0);
   s->lifted_with = !nsvcd__is_swapped(&q.a, &q.b);
@@ -673,7 +672,7 @@ static world *world_of(const scene *s, const float *lift) {
 // questions
 
 typedef struct ask {
-  nsvcd_sweep_options options;
+  nsvcd_question options;  // a and b left out
   int swapped;
   int ladder;           // of growing limits of work: which; 0: none
   nsvcd_answer answer;  // as if not swapped
@@ -683,16 +682,25 @@ static ask asks[MOST_ASKS];
 static size_t ask_count;
 static void *workspace;
 
+// How exactly the first contact is asked for, a share of the motion, or the least distance, metres;
+// 0: it is not.
+static float first_of(const nsvcd_question *o) {
+  return o->ask == NSVCD_ASK_FIRST ? o->to_time : 0;
+}
+static float measure_of(const nsvcd_question *o) {
+  return o->ask == NSVCD_ASK_DISTANCE ? o->to : 0;
+}
+
 static void describe(const ask *k, char *out, size_t size) {
-  const nsvcd_sweep_options *o = &k->options;
+  const nsvcd_question *o = &k->options;
   const nsvcd_answer *w = &k->answer;
   snprintf(out, size,
            "[clearance %g first %g measure %g skin %g tolerance %g segments %zu work %zu%s] %s "
            "t %.7g until %.7g low %.6g high %.6g work %zu lift %.4g %.4g %.4g",
-           (double)o->clearance, (double)o->first, (double)o->measure, (double)o->skin,
+           (double)o->clearance, (double)first_of(o), (double)measure_of(o), (double)o->skin,
            (double)o->tolerance, o->segments, o->work, k->swapped ? " swapped" : "",
-           nsvcd_status_string(w->status), (double)w->contact_time, (double)w->free_until,
-           (double)w->clearance_low, (double)w->clearance_high, w->work, (double)w->lift[0],
+           status_string(status_of(w)), (double)w->nearest.time, (double)w->time.low,
+           (double)w->distance.low, (double)w->distance.high, w->work, (double)w->lift[0],
            (double)w->lift[1], (double)w->lift[2]);
 }
 
@@ -725,7 +733,18 @@ static void find(const scene *s, kind what, const ask *k, const ask *other, doub
   if (telling) printf("  ! %s: %s\n", findings[what].what, text);
 }
 
-static const ask *put(const scene *s, const nsvcd_sweep_options *options, int swapped, int ladder) {
+// Of b and a, as of a and b.
+static void turn_contact(nsvcd_contact *c) {
+  const uint32_t triangle = c->triangle_a;
+  const uint32_t patch = c->patch_a;
+  c->triangle_a = c->triangle_b;
+  c->triangle_b = triangle;
+  c->patch_a = c->patch_b;
+  c->patch_b = patch;
+  for (int i = 0; i < 3; i++) c->normal[i] = 0 - c->normal[i];
+}
+
+static const ask *put(const scene *s, const nsvcd_question *options, int swapped, int ladder) {
   ask *k = &asks[ask_count];
   nsvcd_answer *w = &k->answer;
   if (ask_count == MOST_ASKS) exit((complain("too many questions"), REFUSED));
@@ -741,17 +760,13 @@ static const ask *put(const scene *s, const nsvcd_sweep_options *options, int sw
     exit((complain("scene %llu: %s", (unsigned long long)s->seed, nsvcd_result_string(result)),
           REFUSED));
   if (swapped) {
-    const uint32_t triangle = w->triangle_a;
-    w->triangle_a = w->triangle_b;
-    w->triangle_b = triangle;
-    for (int i = 0; i < 3; i++) {
-      w->normal[i] = 0 - w->normal[i];
-      w->lift[i] = 0 - w->lift[i];
-    }
+    turn_contact(&w->nearest);
+    for (size_t i = 0; i < w->contact_count; i++) turn_contact(&w->contacts[i]);
+    for (int i = 0; i < 3; i++) w->lift[i] = 0 - w->lift[i];
   }
   k->world = world_of(s, w->lift);
   questions++;
-  verdicts[(unsigned)w->status % 6]++;
+  verdicts[(unsigned)status_of(w) % 6]++;
   if (telling) {
     char text[600];
     describe(k, text, sizeof text);
@@ -766,11 +781,13 @@ static void put_all(const scene *s) {
   const double clearances[3] = {0, s->clearance, 10 * s->clearance};
   ask_count = 0;
   for (int n = 0; n < 5 * 3 * 2 * 4; n++) {
-    nsvcd_sweep_options o;
+    nsvcd_question o;
     const int other = n / 30;  // nothing, tolerance, segments, swapped
     memset(&o, 0, sizeof o);
-    o.first = (float)(orders[n % 5][0] * s->first);
-    o.measure = (float)(orders[n % 5][1] * s->measure);
+    o.to_time = (float)(orders[n % 5][0] * s->first);
+    o.to = (float)(orders[n % 5][1] * s->measure);
+    if (o.to_time > 0) o.ask = NSVCD_ASK_FIRST;
+    if (o.to > 0) o.ask = NSVCD_ASK_DISTANCE;
     o.clearance = (float)clearances[n / 5 % 3];
     o.skin = n / 15 % 2 ? (float)s->skin : 0;
     o.tolerance = other == 1 ? (float)s->tolerance : 0;
@@ -781,11 +798,11 @@ static void put_all(const scene *s) {
   const size_t base = 5 * (s->seed % 2) + 15 * (s->seed / 2 % 2);
   size_t enough = 0;  // that decides it where no order is asked for
   for (size_t n = 0; n < 5; n++) {
-    nsvcd_sweep_options o = asks[base + n].options;
+    nsvcd_question o = asks[base + n].options;
     size_t ends = 0;
     for (o.work = 1; o.work <= s->work && ends < 3; o.work *= 2) {
       const ask *k = put(s, &o, 0, (int)n + 1);
-      const int is_open = k->answer.status == NSVCD_STATUS_UNDECIDED;
+      const int is_open = k->answer.verdict == NSVCD_UNDECIDED;
       ends += !is_open;
       if (n == 0 && ends == 1) enough = o.work;
       if (is_open && n > 0 && enough > 0 && o.work >= 16 * enough && o.work > 500)
@@ -824,44 +841,49 @@ static oracle_triangle point_of(const float *point) {
 
 static const char *broken(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
-  const nsvcd_sweep_options *o = &k->options;
-  const int is_free = w->status == NSVCD_STATUS_CERTIFIED_FREE;
-  const int is_inside = w->status == NSVCD_STATUS_INSIDE;
-  const int names = w->triangle_a != NSVCD_NO_TRIANGLE;
-  const double normal[3] = {(double)w->normal[0], (double)w->normal[1], (double)w->normal[2]};
-  if (w->status != NSVCD_STATUS_WITNESS && w->status != NSVCD_STATUS_UNDECIDED && !is_free &&
-      !is_inside)
+  const nsvcd_question *o = &k->options;
+  const int is_free = w->verdict == NSVCD_FREE;
+  const int is_inside = w->inside;
+  const int names = w->nearest.triangle_a != NSVCD_NO_TRIANGLE;
+  const double normal[3] = {(double)w->nearest.normal[0], (double)w->nearest.normal[1],
+                            (double)w->nearest.normal[2]};
+  if (status_of(w) != STATUS_WITNESS && w->verdict != NSVCD_UNDECIDED && !is_free && !is_inside)
     return "status";
-  if (!is_within(w->contact_time, 0, 1) || !is_within(w->free_until, 0, 1)) return "time";
-  if (!(w->clearance_low >= 0) || !(w->clearance_high >= w->clearance_low))
-    return "clearance_low and high";
-  if (!is_within(w->logit, -100, 100) || w->collides != (w->logit > 0)) return "collides and logit";
+  if (!is_within(w->nearest.time, 0, 1) || !is_within(w->time.low, 0, 1)) return "time";
+  if (!(w->distance.low >= 0) || !(w->distance.high >= w->distance.low)) return "distance";
+  if (!is_within(logit_of(w), -100, 100)) return "logit";
   for (int i = 0; i < 3; i++) {
-    if (!is_within(w->point[i], -1e6, 1e6) || !is_within(w->normal[i], -1.1, 1.1) ||
+    if (!is_within(w->nearest.point[i], -1e6, 1e6) || !is_within(w->nearest.normal[i], -1.1, 1.1) ||
         !is_within(w->lift[i], -10, 10))
       return "point, normal or lift";
   }
-  if (is_free ? w->collides || w->free_until < 1 : 0)
-    return "CERTIFIED_FREE, but collides, or not until 1";
-  if (w->status == NSVCD_STATUS_WITNESS && (!names || !w->collides))
-    return "WITNESS without triangles, or that does not collide";
-  if (is_inside && (w->contact_time > 0 || !w->collides || w->free_until > 0))
-    return "INSIDE at another time than 0";
-  if (!is_free && !(o->first > 0) && w->free_until > 0) return "free_until without first";
-  if (names && (w->triangle_a >= s->parts[0].of->shape.triangles ||
-                w->triangle_b >= s->parts[1].of->shape.triangles))
+  if (is_free ? collides_of(w) || w->time.low < 1 : 0) return "FREE, but collides, or not until 1";
+  if (status_of(w) == STATUS_WITNESS && (!names || !collides_of(w)))
+    return "HIT without triangles, or that does not collide";
+  if (is_inside && (w->nearest.time > 0 || !collides_of(w) || w->time.low > 0))
+    return "inside at another time than 0";
+  if (!is_free && !(first_of(o) > 0) && w->time.low > 0) return "time.low without FIRST";
+  if (names && (w->nearest.triangle_a >= s->parts[0].of->shape.triangles ||
+                w->nearest.triangle_b >= s->parts[1].of->shape.triangles))
     return "triangles";
-  if (names != (w->triangle_b != NSVCD_NO_TRIANGLE) || (names && is_inside))
-    return "one triangle, or INSIDE with triangles";
+  if (names != (w->nearest.triangle_b != NSVCD_NO_TRIANGLE) || (names && is_inside))
+    return "one triangle, or inside with triangles";
   if (fabs(oracle_length(normal) - 1) > 1e-5 && (names || oracle_length(normal) > 0) &&
       oracle_length(normal) > 0)
     return "normal";
-  if (w->status == NSVCD_STATUS_WITNESS && w->free_until > w->contact_time)
-    return "free_until after contact_time";
-  if (is_free && (double)w->clearance_low < (double)o->clearance * (1 - 1e-5))
-    return "CERTIFIED_FREE, but clearance_low is less than that";
-  if (w->status == NSVCD_STATUS_UNDECIDED && o->clearance > 0 && !w->collides)
-    return "UNDECIDED with a clearance, but does not collide";
+  if (status_of(w) == STATUS_WITNESS && w->time.low > w->nearest.time)
+    return "time.low after nearest.time";
+  if (is_free && (double)w->distance.low < (double)o->clearance * (1 - 1e-5))
+    return "FREE, but distance.low is less than the clearance";
+  if (w->verdict == NSVCD_UNDECIDED && o->clearance > 0 && w->opinion.asked)
+    return "UNDECIDED with a clearance, but an opinion";
+  if (w->contact_count != (status_of(w) == STATUS_WITNESS) ||
+      (w->contact_count && memcmp(&w->contacts[0], &w->nearest, sizeof w->nearest) != 0))
+    return "contacts";
+  if (w->safe.time < w->time.low || w->safe.time > w->time.low) return "safe place";
+  if (w->verdict == NSVCD_HIT && (w->time.high < w->nearest.time || w->time.high > w->nearest.time))
+    return "time.high";
+  if (w->verdict == NSVCD_UNDECIDED && !w->why) return "UNDECIDED, but not why";
   if (!(o->skin > 0) && (w->lift[0] != 0 || w->lift[1] != 0 || w->lift[2] != 0))
     return "lift without skin";
   return NULL;
@@ -871,17 +893,17 @@ static const char *broken(const scene *s, const ask *k) {
 static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
                         const oracle_triangle *b, double moved) {
   const nsvcd_answer *w = &k->answer;
-  const oracle_triangle point = point_of(w->point);
+  const oracle_triangle point = point_of(w->nearest.point);
   double x[3], y[3], unused[3];
   const double apart = sqrt(oracle_triangles(a, b, DBL_MAX, x, y));
   double direction = 0;
   for (int i = 0; i < 3 && apart > 50 * s->quanta; i++)
-    direction += (double)w->normal[i] * (x[i] - y[i]) / apart;
+    direction += (double)w->nearest.normal[i] * (x[i] - y[i]) / apart;
   if (apart > 50 * s->quanta + 50 * moved && direction < 0.99 - 8 * (s->quanta + moved) / apart)
     find(s, BAD_PLACE, k, NULL, direction);
   const double off = fmax(oracle_triangles(a, &point, DBL_MAX, x, unused),
                           oracle_triangles(b, &point, DBL_MAX, x, unused));
-  const double most = fmax(apart + s->quanta, (double)w->clearance_high);
+  const double most = fmax(apart + s->quanta, (double)w->distance.high);
   const double allowed = most + s->quanta + moved + 1e-6 * oracle_length(point.v[0]);
   if (sqrt(off) > allowed && !(k->swapped && k->options.skin > 0))
     find(s, BAD_PLACE, k, NULL, sqrt(off) - allowed);
@@ -890,54 +912,54 @@ static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
 static void judge_triangles(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   double x[3], y[3];
-  if (w->triangle_a == NSVCD_NO_TRIANGLE || !k->world) return;
-  const double t = (double)w->contact_time;
+  if (w->nearest.triangle_a == NSVCD_NO_TRIANGLE || !k->world) return;
+  const double t = (double)w->nearest.time;
   const double moved = 1e-7 * s->speed + 1e-7 * s->size;
-  const oracle_triangle a = triangle_of(s, k->world, 0, w->triangle_a, t);
-  const oracle_triangle b = triangle_of(s, k->world, 1, w->triangle_b, t);
+  const oracle_triangle a = triangle_of(s, k->world, 0, w->nearest.triangle_a, t);
+  const oracle_triangle b = triangle_of(s, k->world, 1, w->nearest.triangle_b, t);
   const double apart = sqrt(oracle_triangles(&a, &b, DBL_MAX, x, y));
-  if (apart > (double)w->clearance_high + moved) find(s, HIGH_TOO_LOW, k, NULL, apart);
-  if (apart < (double)w->clearance_high - 4 * s->quanta - moved)
+  if (apart > (double)w->distance.high + moved) find(s, HIGH_TOO_LOW, k, NULL, apart);
+  if (apart < (double)w->distance.high - 4 * s->quanta - moved)
     find(s, PART_FARTHER, k, NULL, apart);  // it is about a part of a large triangle
   else
     judge_place(s, k, &a, &b, moved);
-  if (w->status != NSVCD_STATUS_WITNESS) return;
+  if (status_of(w) != STATUS_WITNESS) return;
   if (apart > (double)k->options.clearance + s->quanta + moved)
     find(s, WITNESS_APART, k, NULL, apart);
-  if ((double)w->clearance_high > ((double)k->options.clearance + s->quanta) * (1 + 1e-5) + 1e-9)
-    find(s, BAD_ANSWER, k, NULL, (double)w->clearance_high);
+  if ((double)w->distance.high > ((double)k->options.clearance + s->quanta) * (1 + 1e-5) + 1e-9)
+    find(s, BAD_ANSWER, k, NULL, (double)w->distance.high);
 }
 
 static void judge_distances(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   const double clearance = (double)k->options.clearance;
   const double hair = 1e-6 * clearance + 1e-10 * s->size;
-  const int is_free = w->status == NSVCD_STATUS_CERTIFIED_FREE;
-  const int all = is_free || k->options.measure > 0;
+  const int is_free = w->verdict == NSVCD_FREE;
+  const int all = is_free || measure_of(&k->options) > 0;
   double until = DBL_MAX;
   double low = DBL_MAX;
-  if (w->status == NSVCD_STATUS_INSIDE) return;
+  if (w->inside) return;
   for (size_t i = 0; i < k->world->count; i++) {
     const moment *m = &k->world->moments[i];
-    if (m->t < (double)w->free_until) until = fmin(until, m->d);
-    if (all || m->t < (double)w->free_until) low = fmin(low, m->d);
+    if (m->t < (double)w->time.low) until = fmin(until, m->d);
+    if (all || m->t < (double)w->time.low) low = fmin(low, m->d);
   }
   if (clearance > 0 ? until < clearance - hair : !(until > 0))
     find(s, is_free ? FREE_BUT_NEAR : UNTIL_BUT_NEAR, k, NULL, until);
-  if (low < (double)w->clearance_low - hair - 1e-6 * (double)w->clearance_low)
+  if (low < (double)w->distance.low - hair - 1e-6 * (double)w->distance.low)
     find(s, LOW_TOO_HIGH, k, NULL, low);
   if (is_free && k->world->inside && k->world->at_start > 1e-9 * s->size)
     find(s, FREE_BUT_INSIDE, k, NULL, 0);
 }
 
 static void judge_inside(const scene *s, const ask *k) {
-  if (k->answer.status != NSVCD_STATUS_INSIDE) return;
+  if (!k->answer.inside) return;
   const double start = k->world->at_start;
   double most = 0;
   for (int n = 0; n < 2; n++) {
     const oracle_pose pose = pose_in(s, k->world, n, 0);
     double m[9], d[3], at[3];
-    for (int i = 0; i < 3; i++) d[i] = (double)k->answer.point[i] - pose.position[i];
+    for (int i = 0; i < 3; i++) d[i] = (double)k->answer.nearest.point[i] - pose.position[i];
     oracle_matrix(pose.rotation, m);
     oracle_rotate_back(m, d, at);
     most = fmax(most, fabs(oracle_winding(&s->parts[n].mesh, at)));
@@ -945,38 +967,38 @@ static void judge_inside(const scene *s, const ask *k) {
   if (most < 0.4 && !(k->swapped && k->options.skin > 0)) find(s, INSIDE_POINT, k, NULL, most);
   if (start > 1e-9 * s->size && !k->world->inside) find(s, INSIDE_FALSE, k, NULL, start);
   // who asks for yes or no alone is told what is known first; a witness is sought for some units only
-  const int tells = k->options.first > 0 || k->options.measure > 0 || k->options.skin > 0;
+  const int tells = first_of(&k->options) > 0 || measure_of(&k->options) > 0 || k->options.skin > 0;
   if (!(start > 0) && tells && !k->ladder) find(s, INSIDE_MEETS, k, NULL, start);
 }
 
 // What it need not have left open, and what it is late for.
 static void judge_effort(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
-  const nsvcd_sweep_options *o = &k->options;
+  const nsvcd_question *o = &k->options;
   const double allowed = (double)o->clearance + (double)o->tolerance + 4 * s->quanta +
                          4e-6 * (s->size + 10 * s->scale);
   if (w->work > o->work + 10000) find(s, OVER_WORK, k, NULL, (double)w->work);
-  if (w->status == NSVCD_STATUS_UNDECIDED && w->work < o->work && k->world->least > allowed)
+  if (w->verdict == NSVCD_UNDECIDED && w->work < o->work && k->world->least > allowed)
     find(s, GAVE_UP, k, NULL, k->world->least);
-  if (w->status == NSVCD_STATUS_UNDECIDED && !k->ladder && !(o->measure > 0) && s->turn < 5 &&
+  if (w->verdict == NSVCD_UNDECIDED && !k->ladder && !(measure_of(o) > 0) && s->turn < 5 &&
       k->world->least > allowed + 1e-3 && (w->work < o->work || o->work >= NSVCD_DEFAULT_WORK))
     find(s, CLEAR_UNDECIDED, k, NULL, k->world->least);
-  if (w->status == NSVCD_STATUS_UNDECIDED && !(k->world->at_start > 0) && !k->ladder && !s->rests &&
+  if (w->verdict == NSVCD_UNDECIDED && !(k->world->at_start > 0) && !k->ladder && !s->rests &&
       !(o->skin > 0))
     find(s, START_UNDECIDED, k, NULL, 0);
-  if (w->status == NSVCD_STATUS_WITNESS && o->first > 0) {
-    const double late = (double)(w->contact_time - w->free_until);
-    const double there = distance_at(s, k->world, (double)w->free_until);
-    if (late > (double)o->first * 1.0001 + 1e-6 && there > allowed && w->work < o->work)
+  if (status_of(w) == STATUS_WITNESS && first_of(o) > 0) {
+    const double late = (double)(w->nearest.time - w->time.low);
+    const double there = distance_at(s, k->world, (double)w->time.low);
+    if (late > (double)first_of(o) * 1.0001 + 1e-6 && there > allowed && w->work < o->work)
       find(s, w->work < o->work / 8 ? LATE : LATE_IN_DOUBT, k, NULL, there);
   }
-  const double wide = (double)(w->clearance_high - w->clearance_low) - s->quanta;
+  const double wide = (double)(w->distance.high - w->distance.low) - s->quanta;
   const double least = 2 * (s->quanta + (double)o->tolerance);
-  const double allowed_wide = fmax((double)o->measure, least) + 4e-6 * (s->size + k->world->least);
-  if (o->measure > 0 && w->status != NSVCD_STATUS_INSIDE && w->work < o->work)
+  const double allowed_wide =
+      fmax((double)measure_of(o), least) + 4e-6 * (s->size + k->world->least);
+  if (measure_of(o) > 0 && !w->inside && w->work < o->work)
     widest = fmax(widest, wide / allowed_wide);
-  if (o->measure > 0 && w->status != NSVCD_STATUS_INSIDE && w->work < o->work &&
-      wide > allowed_wide)
+  if (measure_of(o) > 0 && !w->inside && w->work < o->work && wide > allowed_wide)
     find(s, WIDE, k, NULL, wide / allowed_wide);
 }
 
@@ -988,11 +1010,10 @@ static void judge_skin(const scene *s, const ask *k) {
   const double start = k->world->at_start;
   if (!(skin > 0) || k->ladder) return;
   if (oracle_length(lift) > 4.001 * skin) find(s, SKIN_LONG, k, NULL, oracle_length(lift) / skin);
-  if (s->deep && w->status == NSVCD_STATUS_CERTIFIED_FREE) find(s, SKIN_DEEP, k, NULL, start);
+  if (s->deep && w->verdict == NSVCD_FREE) find(s, SKIN_DEEP, k, NULL, start);
   if (!s->rests || s->pressed + clearance > 0.9 * skin) return;
   if (!(oracle_length(lift) > 0)) {
-    if (start <= clearance && w->status != NSVCD_STATUS_CERTIFIED_FREE)
-      find(s, SKIN_RESTS, k, NULL, start);
+    if (start <= clearance && w->verdict != NSVCD_FREE) find(s, SKIN_RESTS, k, NULL, start);
   } else if (start < clearance - 2 * s->quanta || !(start > 0)) {
     find(s, SKIN_SHORT, k, NULL, start);
   }
@@ -1010,9 +1031,10 @@ static int differ(float x, float y, int by) {
   return x < y || y < x ? by : 0;
 }
 static int differences(const ask *i, const ask *j) {
-  const nsvcd_sweep_options *x = &i->options;
-  const nsvcd_sweep_options *y = &j->options;
-  return differ(x->first, y->first, BY_FIRST) | differ(x->measure, y->measure, BY_MEASURE) |
+  const nsvcd_question *x = &i->options;
+  const nsvcd_question *y = &j->options;
+  return differ(first_of(x), first_of(y), BY_FIRST) |
+         differ(measure_of(x), measure_of(y), BY_MEASURE) |
          differ(x->clearance, y->clearance, BY_CLEARANCE) | differ(x->skin, y->skin, BY_SKIN) |
          differ(x->tolerance, y->tolerance, BY_TOLERANCE) |
          (x->segments != y->segments ? BY_SEGMENTS : 0) |
@@ -1024,42 +1046,41 @@ static void judge_contradictions(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *x = &i->answer;
   const nsvcd_answer *y = &j->answer;
   if (i->world != j->world) return;
-  const int x_free = x->status == NSVCD_STATUS_CERTIFIED_FREE;
-  const int meets =
-      y->status == NSVCD_STATUS_WITNESS && j->options.clearance <= i->options.clearance;
-  if (x_free && (meets || y->status == NSVCD_STATUS_INSIDE)) find(s, CONTRADICTION, i, j, 0);
-  if (!x_free && meets && x->free_until > y->contact_time) find(s, CONTRADICTION, i, j, 1);
-  if (x->status == NSVCD_STATUS_INSIDE || y->triangle_a == NSVCD_NO_TRIANGLE) return;
-  if ((x_free || i->options.measure > 0 || y->contact_time < x->free_until) &&
-      x->clearance_low > y->clearance_high)
+  const int x_free = x->verdict == NSVCD_FREE;
+  const int meets = status_of(y) == STATUS_WITNESS && j->options.clearance <= i->options.clearance;
+  if (x_free && (meets || y->inside)) find(s, CONTRADICTION, i, j, 0);
+  if (!x_free && meets && x->time.low > y->nearest.time) find(s, CONTRADICTION, i, j, 1);
+  if (x->inside || y->nearest.triangle_a == NSVCD_NO_TRIANGLE) return;
+  if ((x_free || measure_of(&i->options) > 0 || y->nearest.time < x->time.low) &&
+      x->distance.low > y->distance.high)
     find(s, CONTRADICTION, i, j, 2);
-  if (y->status == NSVCD_STATUS_WITNESS && x->status == NSVCD_STATUS_WITNESS &&
-      !(j->options.skin > 0 && i->options.skin <= 0) && y->status != x->status)
+  if (status_of(y) == STATUS_WITNESS && status_of(x) == STATUS_WITNESS &&
+      !(j->options.skin > 0 && i->options.skin <= 0) && status_of(y) != status_of(x))
     find(s, CONTRADICTION, i, j, 3);
 }
 
 // i is decided, j not: which option has lost it?
 static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
-  const nsvcd_sweep_options *x = &i->options;
-  const nsvcd_sweep_options *y = &j->options;
-  const nsvcd_status was = i->answer.status;
-  const int is_free = was == NSVCD_STATUS_CERTIFIED_FREE;
+  const nsvcd_question *x = &i->options;
+  const nsvcd_question *y = &j->options;
+  const status was = status_of(&i->answer);
+  const int is_free = was == STATUS_CERTIFIED_FREE;
   const double margin = (double)(y->clearance + y->tolerance) + 4 * s->quanta + 4e-6 * s->size;
   kind lost = KINDS;
   // an eighth of the work is kept for that
-  if (by == BY_FIRST && !(x->first > 0) && 10 * i->answer.work < y->work) lost = LOST_BY_FIRST;
-  if (by == BY_MEASURE && !(x->measure > 0))
+  if (by == BY_FIRST && !(first_of(x) > 0) && 10 * i->answer.work < y->work) lost = LOST_BY_FIRST;
+  if (by == BY_MEASURE && !(measure_of(x) > 0))
     lost = y->clearance > 0 ? LOST_BY_BOTH : LOST_BY_MEASURE;
   if (by == BY_SKIN && !(x->skin > 0) && i->world == j->world && 10 * i->answer.work < y->work)
     lost = LOST_BY_SKIN;
   if (by == BY_SEGMENTS && !x->segments && s->turn < 5) lost = LOST_BY_SEGMENTS;
-  if (by == BY_CLEARANCE && !(x->first > 0) && !(x->measure > 0) && i->world == j->world &&
+  if (by == BY_CLEARANCE && !(first_of(x) > 0) && !(measure_of(x) > 0) && i->world == j->world &&
       (is_free ? y->clearance < x->clearance : y->clearance > x->clearance))
     lost = LOST_BY_CLEARANCE;
   if (by == BY_TOLERANCE && !(x->tolerance > 0)) lost = LOST_BY_TOLERANCE;
   if (lost == KINDS || (is_free && i->world->least < margin)) return;
   // what does not meet, or comes hardly nearer than the clearance, may be undecided
-  if (was == NSVCD_STATUS_WITNESS && i->world->least > 0 &&
+  if (was == STATUS_WITNESS && i->world->least > 0 &&
       i->world->least > (double)y->clearance - s->quanta)
     return;
   find(s, lost, j, i, (double)i->answer.work / (double)x->work);
@@ -1069,32 +1090,36 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *x = &i->answer;
   const nsvcd_answer *y = &j->answer;
   const int by = differences(i, j);
-  const int open = y->status == NSVCD_STATUS_UNDECIDED;
-  if (x->status != NSVCD_STATUS_UNDECIDED && open) judge_losses(s, i, j, by);
-  if (by == BY_FIRST && j->options.first < i->options.first && j->options.first > 0) {
-    const float to = j->options.first + 1e-6f;
-    if (y->free_until < x->free_until - to && !(i->options.tolerance > 0) &&
+  const int open = y->verdict == NSVCD_UNDECIDED;
+  if (x->verdict != NSVCD_UNDECIDED && open) judge_losses(s, i, j, by);
+  if (by == BY_FIRST && first_of(&j->options) < first_of(&i->options) &&
+      first_of(&j->options) > 0) {
+    const float to = first_of(&j->options) + 1e-6f;
+    if (y->time.low < x->time.low - to && !(i->options.tolerance > 0) &&
         y->work < j->options.work / 2)
-      find(s, FINER_LATER, j, i, (double)(x->free_until - y->free_until));
-    if (y->status == NSVCD_STATUS_WITNESS && x->status == NSVCD_STATUS_WITNESS &&
-        y->contact_time > x->contact_time + to && !(i->options.tolerance > 0) &&
+      find(s, FINER_LATER, j, i, (double)(x->time.low - y->time.low));
+    if (status_of(y) == STATUS_WITNESS && status_of(x) == STATUS_WITNESS &&
+        y->nearest.time > x->nearest.time + to && !(i->options.tolerance > 0) &&
         y->work < j->options.work / 2)
-      find(s, FINER_EARLIER, j, i, (double)(y->contact_time - x->contact_time));
+      find(s, FINER_EARLIER, j, i, (double)(y->nearest.time - x->nearest.time));
   }
-  if (by == BY_MEASURE && j->options.measure < i->options.measure && j->options.measure > 0 &&
-      (double)(x->clearance_low - y->clearance_low) >
-          (double)(j->options.measure + 2 * j->options.tolerance) + 2 * s->quanta +
+  if (by == BY_MEASURE && measure_of(&j->options) < measure_of(&i->options) &&
+      measure_of(&j->options) > 0 &&
+      (double)(x->distance.low - y->distance.low) >
+          (double)(measure_of(&j->options) + 2 * j->options.tolerance) + 2 * s->quanta +
               4e-6 * (s->size + i->world->least))
-    find(s, COARSER_LOW, j, i, (double)(x->clearance_low - y->clearance_low));
+    find(s, COARSER_LOW, j, i, (double)(x->distance.low - y->distance.low));
   if (by == BY_SWAPPING && i < j) {
-    int same = x->status == y->status && x->collides == y->collides && x->work == y->work &&
-               x->triangle_a == y->triangle_a && x->triangle_b == y->triangle_b &&
-               !differ(x->contact_time, y->contact_time, 1) &&
-               !differ(x->free_until, y->free_until, 1) &&
-               !differ(x->clearance_low, y->clearance_low, 1) &&
-               !differ(x->clearance_high, y->clearance_high, 1);
+    int same = status_of(x) == status_of(y) && x->work == y->work &&
+               x->nearest.triangle_a == y->nearest.triangle_a &&
+               x->nearest.triangle_b == y->nearest.triangle_b &&
+               !differ(x->nearest.time, y->nearest.time, 1) &&
+               !differ(x->time.low, y->time.low, 1) &&
+               !differ(x->distance.low, y->distance.low, 1) &&
+               !differ(x->distance.high, y->distance.high, 1);
     for (int k = 0; k < 3; k++)
-      same = same && !differ(x->normal[k], y->normal[k], 1) && !differ(x->lift[k], y->lift[k], 1);
+      same = same && !differ(x->nearest.normal[k], y->nearest.normal[k], 1) &&
+             !differ(x->lift[k], y->lift[k], 1);
     if (!same) find(s, SWAP_DIFFERS, i, j, 0);
   }
   if (by && !(by & (BY_CLEARANCE | BY_SKIN | BY_SWAPPING)) && i < j && i->world != j->world)
@@ -1105,22 +1130,22 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
 static void judge_step(const scene *s, const ask *i, const ask *j) {
   const nsvcd_answer *x = &i->answer;
   const nsvcd_answer *y = &j->answer;
-  const int measures = i->options.measure > 0;
+  const int measures = measure_of(&i->options) > 0;
   // a contact found by chance, with hardly any work
-  const int by_chance = i->options.first > 0 && i->options.work < 500;
-  if (x->status != NSVCD_STATUS_UNDECIDED && y->status == NSVCD_STATUS_UNDECIDED && !by_chance)
+  const int by_chance = first_of(&i->options) > 0 && i->options.work < 500;
+  if (x->verdict != NSVCD_UNDECIDED && y->verdict == NSVCD_UNDECIDED && !by_chance)
     find(s, LADDER_LOST, j, i, 0);
   if (i->world != j->world) return;
-  if (y->free_until < x->free_until - i->options.first - 1e-6f)
-    find(s, LADDER_UNTIL, j, i, (double)(x->free_until - y->free_until));
-  if (i->options.first > 0 && x->status == NSVCD_STATUS_WITNESS &&
-      y->status == NSVCD_STATUS_WITNESS && y->contact_time > x->contact_time + 1e-6f)
-    find(s, LADDER_LATER, j, i, (double)(y->contact_time - x->contact_time));
-  if (measures && y->clearance_low < x->clearance_low * 0.999f - 1e-9f)
-    find(s, LADDER_LOW, j, i, (double)(x->clearance_low - y->clearance_low));
-  const int named = x->triangle_a != NSVCD_NO_TRIANGLE;
-  if (measures && named && y->clearance_high > x->clearance_high * 1.001f + (float)s->quanta)
-    find(s, LADDER_HIGH, j, i, (double)(y->clearance_high - x->clearance_high));
+  if (y->time.low < x->time.low - first_of(&i->options) - 1e-6f)
+    find(s, LADDER_UNTIL, j, i, (double)(x->time.low - y->time.low));
+  if (first_of(&i->options) > 0 && status_of(x) == STATUS_WITNESS &&
+      status_of(y) == STATUS_WITNESS && y->nearest.time > x->nearest.time + 1e-6f)
+    find(s, LADDER_LATER, j, i, (double)(y->nearest.time - x->nearest.time));
+  if (measures && y->distance.low < x->distance.low * 0.999f - 1e-9f)
+    find(s, LADDER_LOW, j, i, (double)(x->distance.low - y->distance.low));
+  const int named = x->nearest.triangle_a != NSVCD_NO_TRIANGLE;
+  if (measures && named && y->distance.high > x->distance.high * 1.001f + (float)s->quanta)
+    find(s, LADDER_HIGH, j, i, (double)(y->distance.high - x->distance.high));
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -1129,10 +1154,10 @@ static void judge_step(const scene *s, const ask *i, const ask *j) {
 static void gather_moments(const scene *s) {
   for (size_t i = 0; i < ask_count; i++) {
     const ask *k = &asks[i];
-    const double until = (double)k->answer.free_until;
+    const double until = (double)k->answer.time.low;
     if (!k->world) continue;
-    if (k->answer.triangle_a != NSVCD_NO_TRIANGLE)
-      distance_at(s, k->world, (double)k->answer.contact_time);
+    if (k->answer.nearest.triangle_a != NSVCD_NO_TRIANGLE)
+      distance_at(s, k->world, (double)k->answer.nearest.time);
     if (until > 0 && until < 1) {
       distance_at(s, k->world, until * (1 - 1e-6));
       distance_at(s, k->world, until * 0.995);
@@ -1145,18 +1170,18 @@ static void ask_again(const scene *s) {
   const size_t count = ask_count;
   int left = 2;
   for (size_t j = 5; j < count && asks[j].ladder == 0 && left > 0; j++) {
-    nsvcd_sweep_options plain = asks[j].options;
-    plain.first = plain.measure = 0;
-    for (size_t i = 0; i < j && asks[j].answer.status == NSVCD_STATUS_UNDECIDED; i++) {
+    nsvcd_question plain = asks[j].options;
+    plain.ask = NSVCD_ASK_HIT;
+    plain.to = plain.to_time = 0;
+    for (size_t i = 0; i < j && asks[j].answer.verdict == NSVCD_UNDECIDED; i++) {
       if (asks[i].swapped != asks[j].swapped ||
           memcmp(&plain, &asks[i].options, sizeof plain) != 0 ||
-          asks[i].answer.status == NSVCD_STATUS_UNDECIDED)
+          asks[i].answer.verdict == NSVCD_UNDECIDED)
         continue;
-      nsvcd_sweep_options more = asks[j].options;
+      nsvcd_question more = asks[j].options;
       more.work = 16 * s->work;
       const ask *again = put(s, &more, asks[j].swapped, -1);
-      if (again->answer.status == NSVCD_STATUS_UNDECIDED)
-        find(s, LOST_FOR_GOOD, again, &asks[i], 0);
+      if (again->answer.verdict == NSVCD_UNDECIDED) find(s, LOST_FOR_GOOD, again, &asks[i], 0);
       left--;
       break;
     }
@@ -1217,8 +1242,8 @@ static int report(void) {
       "%zu questions: free %zu, witness %zu, inside %zu, undecided %zu; brackets up to %.3f of "
       "what "
       "is allowed\n",
-      questions, verdicts[NSVCD_STATUS_CERTIFIED_FREE], verdicts[NSVCD_STATUS_WITNESS],
-      verdicts[NSVCD_STATUS_INSIDE], verdicts[NSVCD_STATUS_UNDECIDED], widest);
+      questions, verdicts[STATUS_CERTIFIED_FREE], verdicts[STATUS_WITNESS], verdicts[STATUS_INSIDE],
+      verdicts[STATUS_UNDECIDED], widest);
   return unsound;
 }
 

@@ -109,7 +109,7 @@ static nsvcd_plan_options options_of(int task, const planner *p, uint64_t seed, 
     o.explore.draws = task == BIMANUAL ? 100 : 50;
     if (p->kind == SWEPT) {
       o.collision = 20;
-      o.sweep.recall = task == BIMANUAL ? 0 : 0.999f;
+      o.sweep.network.recall = task == BIMANUAL ? 0 : 0.999f;
     }
   }
   if (!check) o.check = 4 * s->interpolation * (s->refined_points + 1);  // the same for all

@@ -9,7 +9,9 @@
 // took.
 #define _POSIX_C_SOURCE 200112L
 #include <stddef.h>
-static struct { size_t tests, ranked, judged, planes, pairs, tries, numbers, collision; } tally;
+static struct {
+  size_t tests, ranked, judged, planes, pairs, tries, numbers, collision, boxes;
+} tally;
 #define NSVCD__TALLY(what, amount) (tally.what += (amount))
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
@@ -18,6 +20,7 @@ static struct { size_t tests, ranked, judged, planes, pairs, tries, numbers, col
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/shapes.h"
 #include "../ask.h"
+#include "../../examples/scenery/status_of.h"
 
 enum { INIT, CUT, BEGIN, STEPS, PAIRS, INVARIANTS, TINY, BASE, BASE_INT8, INSIDE, ALL, STAGES };
 static const char *const names[STAGES] = {
@@ -164,7 +167,7 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
     nsvcd_sweep_batch(questions, ROLLOUTS, work, sizeof *work, many);
     least[1] = fmin(least[1], seconds() - start);
   }
-  for (size_t m = 0; m < ROLLOUTS; m++) *alike += one[m].collides == many[m].collides;
+  for (size_t m = 0; m < ROLLOUTS; m++) *alike += collides_of(&one[m]) == collides_of(&many[m]);
   *single += 1e6 * least[0] / ROLLOUTS, *batch += 1e6 * least[1] / ROLLOUTS;
 }
 
@@ -286,7 +289,7 @@ static void add_proof(const question *q, nsvcd__query *work, verdict_sum *sums, 
         nsvcd_sweep_workspace_size(NULL), &answer);
     keep_least(least, 0, start);
   }
-  verdict_sum *sum = &sums[answer.status];
+  verdict_sum *sum = &sums[status_of(&answer)];
   sum->count++;
   sum->microseconds += *least;
   sum->tests += (double)tally.tests;
@@ -302,7 +305,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   const nsvcd_body **bodies = (const nsvcd_body **)allocate(file->mesh_count * sizeof *bodies);
   nsvcd__query *work = any_query();
   double *times = (double *)allocate(count * sizeof *times);
-  verdict_sum sums[NSVCD_STATUS_UNDECIDED + 1];
+  verdict_sum sums[STATUS_UNDECIDED + 1];
   size_t size = 1;
   memset(sums, 0, sizeof sums);
   for (size_t i = 0; i < file->mesh_count; i++) {
@@ -336,7 +339,7 @@ static void profile_proof(const problem_file *file, size_t points) {
   printf("proof, N = %zu, %zu problems: median %.2f, mean %.2f, 99 %% %.1f, worst %.1f us\n",
          points, count, times[count / 2], mean, times[(size_t)(0.99 * (double)count)],
          times[count - 1]);
-  for (size_t k = 0; k <= NSVCD_STATUS_UNDECIDED; k++) {
+  for (size_t k = 0; k <= STATUS_UNDECIDED; k++) {
     const verdict_sum *sum = &sums[k];
     const double n = (double)sum->count;
     if (!sum->count) continue;
@@ -344,7 +347,7 @@ static void profile_proof(const problem_file *file, size_t points) {
         "  %-15s %5zu, mean %6.2f us: %5.0f tests of spheres and discs, %6.1f planes sought, %4.1f "
         "looks for a "
         "witness, %5.1f pairs of triangles, %6.1f units\n",
-        nsvcd_status_string((nsvcd_status)k), sum->count, sum->microseconds / n, sum->tests / n,
+        status_string((status)k), sum->count, sum->microseconds / n, sum->tests / n,
         sum->planes / n, sum->tries / n, sum->pairs / n, sum->work / n);
   }
   for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(bodies[i], NULL);

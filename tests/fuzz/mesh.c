@@ -207,17 +207,17 @@ static void check_truth(const nsvcd_question *question, const solid *a, const so
   oracle_triangle p, q;
   if (!track_of(&question->a, &at_a) || !track_of(&question->b, &at_b))
     return;
-  if (question->options.skin > 0)
+  if (question->skin > 0)
     return;
-  if (answer->status == NSVCD_STATUS_CERTIFIED_FREE)
-    check_free(a, &at_a, b, &at_b, (double)question->options.clearance);
-  if (answer->status != NSVCD_STATUS_WITNESS)
+  if (status_of(answer) == STATUS_CERTIFIED_FREE)
+    check_free(a, &at_a, b, &at_b, (double)question->clearance);
+  if (status_of(answer) != STATUS_WITNESS)
     return;
-  const double t = (double)answer->contact_time;
-  const int fat = triangle_at(&a->made.mesh, answer->triangle_a, &at_a, t, &p) &
-                  triangle_at(&b->made.mesh, answer->triangle_b, &at_b, t, &q);
+  const double t = (double)answer->nearest.time;
+  const int fat = triangle_at(&a->made.mesh, answer->nearest.triangle_a, &at_a, t, &p) &
+                  triangle_at(&b->made.mesh, answer->nearest.triangle_b, &at_b, t, &q);
   const double most =
-      (double)answer->clearance_high + rounding_at(a, &at_a) + rounding_at(b, &at_b);
+      (double)answer->distance.high + rounding_at(a, &at_a) + rounding_at(b, &at_b);
   FUZZ_CHECK(!fat || triangles_apart(&p, &q) <= most);
 }
 

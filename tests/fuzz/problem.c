@@ -38,7 +38,7 @@ static void check_problem(const problem_file *file, const problem *p) {
   FUZZ_CHECK(p->moving_scale > 0 && p->fixed_scale > 0);
   question.a.body = scene_body(p->moving % 4);
   question.b.body = scene_body(4 * (p->fixed % 2));
-  question.options.work = 300;
+  question.work = 300;
   scene_ask(&question, &answer);
 }
 

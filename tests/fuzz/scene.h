@@ -4,6 +4,7 @@
 #define NSVCD_TESTS_FUZZ_SCENE_H
 
 #include "../../neuralsvcd.h"
+#include "../../examples/scenery/status_of.h"
 
 // ------------------------------------------------------------------------------------------- bodies
 
@@ -144,7 +145,8 @@ static void scene_mover(fuzz_input *in, float reach, nsvcd_pose *poses, nsvcd_mo
   mover->poses = mover->count ? poses : NULL;
 }
 
-static void scene_options(fuzz_input *in, nsvcd_sweep_options *options) {
+// What is asked: all but the bodies.
+static void scene_options(fuzz_input *in, nsvcd_question *options) {
   static const size_t pairs[8] = {0, 1, 2, 8, 40, 256, 257, (size_t)-1};
   static const size_t work[8] = {300, 1, 50, 3000, 17, 1000, 300, 300};
   static const float recalls[8] = {0, 0.99f, 0.999f, 0.9999f, 0.5f, 1, -1, 0};
@@ -153,19 +155,25 @@ static void scene_options(fuzz_input *in, nsvcd_sweep_options *options) {
   memset(options, 0, sizeof *options);
   options->work = work[asked % 8];
   options->method = (nsvcd_method)(asked / 8 % 4 == 3 ? odd : asked / 8 % 4);
+  if (odd >= 120 && odd < 128)
+    options->ask = (nsvcd_ask)(odd % 4);
   if (asked >= 128) {
     options->clearance = fuzz_length(in);
-    options->first = fuzz_length(in);
-    options->measure = fuzz_length(in);
+    options->to_time = fuzz_length(in);
+    options->to = fuzz_length(in);
+    if (options->to > 0)
+      options->ask = NSVCD_ASK_DISTANCE;
+    if (options->to_time > 0)
+      options->ask = NSVCD_ASK_FIRST;
     options->skin = fuzz_length(in);
     options->tolerance = fuzz_length(in);
   }
   if (odd < 128)
     return;
-  options->pairs = pairs[fuzz_choice(in, 8)];
-  options->model = (nsvcd_model)(fuzz_choice(in, 32) % 6);
-  options->precision = (nsvcd_precision)(fuzz_choice(in, 32) % 3);
-  options->recall = recalls[fuzz_choice(in, 8)];
+  options->network.pairs = pairs[fuzz_choice(in, 8)];
+  options->network.model = (nsvcd_model)(fuzz_choice(in, 32) % 6);
+  options->network.precision = (nsvcd_precision)(fuzz_choice(in, 32) % 3);
+  options->network.recall = recalls[fuzz_choice(in, 8)];
   options->segments = odd < 240 ? 16 * fuzz_choice(in, 5) : fuzz_byte(in);
 }
 
@@ -175,9 +183,9 @@ static void scene_ask_about(fuzz_input *in, const nsvcd_body *a, const nsvcd_bod
   static const float reaches[4] = {0.1f, 0.3f, 1, 0};
   memset(out, 0, sizeof *out);
   const float reach = reaches[fuzz_choice(in, 4)];
+  scene_options(in, &out->question);
   out->question.a.body = a;
   out->question.b.body = b;
-  scene_options(in, &out->question.options);
   scene_mover(in, reach, out->a, &out->question.a);
   scene_mover(in, reach, out->b, &out->question.b);
 }
@@ -203,18 +211,23 @@ static int scene_normal(const float *n) {
 }
 
 static void scene_check_proof(const nsvcd_question *question, const nsvcd_answer *answer) {
-  const int meets = answer->status == NSVCD_STATUS_WITNESS;
-  FUZZ_CHECK(answer->status != NSVCD_STATUS_OK && answer->status != NSVCD_STATUS_LIMIT);
-  FUZZ_CHECK(!(answer->clearance_low > answer->clearance_high));
-  FUZZ_CHECK(answer->clearance_low >= 0 && answer->clearance_low < HUGE_VALF);
-  if (answer->status == NSVCD_STATUS_CERTIFIED_FREE)
-    FUZZ_CHECK(answer->free_until >= 1);
+  const int meets = status_of(answer) == STATUS_WITNESS;
+  FUZZ_CHECK(answer->by == NSVCD_BY_PROOF);
+  FUZZ_CHECK(answer->verdict != NSVCD_UNDECIDED || answer->why);
+  FUZZ_CHECK((int)answer->contact_count == meets);
+  FUZZ_CHECK(!(answer->distance.low > answer->distance.high));
+  FUZZ_CHECK(answer->distance.low >= 0 && answer->distance.low < HUGE_VALF);
+  if (answer->verdict == NSVCD_FREE)
+    FUZZ_CHECK(answer->time.low >= 1);
   if (meets) {
     const nsvcd_body_facts a = nsvcd_body_describe(question->a.body);
     const nsvcd_body_facts b = nsvcd_body_describe(question->b.body);
-    FUZZ_CHECK(answer->triangle_a < a.triangles && answer->triangle_b < b.triangles);
-    FUZZ_CHECK(answer->free_until <= answer->contact_time);
-    FUZZ_CHECK(question->options.first > 0 || answer->free_until <= 0);
+    FUZZ_CHECK(answer->nearest.triangle_a < a.triangles && answer->nearest.triangle_b < b.triangles);
+    FUZZ_CHECK(answer->time.low <= answer->nearest.time);
+    FUZZ_CHECK(question->ask == NSVCD_ASK_FIRST || answer->time.low <= 0);
+    FUZZ_CHECK(!(answer->time.high < answer->nearest.time) &&
+               !(answer->time.high > answer->nearest.time));
+    FUZZ_CHECK(!memcmp(&answer->contacts[0], &answer->nearest, sizeof answer->nearest));
   }
 }
 
@@ -222,50 +235,68 @@ static void scene_check_proof(const nsvcd_question *question, const nsvcd_answer
 static void scene_check(const nsvcd_question *question, const nsvcd_answer *answer) {
   const nsvcd_body_facts a = nsvcd_body_describe(question->a.body);
   const nsvcd_body_facts b = nsvcd_body_describe(question->b.body);
-  const nsvcd_method method = question->options.method;
+  const nsvcd_method method = question->method;
   const int proves = method != NSVCD_METHOD_NETWORK && a.triangles && b.triangles;
-  FUZZ_CHECK(scene_finite(&answer->logit, 1));
-  FUZZ_CHECK(answer->collides == (answer->logit > 0));
-  FUZZ_CHECK(scene_share(answer->contact_time) && scene_share(answer->free_until));
-  FUZZ_CHECK(answer->patch_a < a.patches && answer->patch_b < b.patches);
-  FUZZ_CHECK(answer->triangle_a < a.triangles || answer->triangle_a == NSVCD_NO_TRIANGLE);
-  FUZZ_CHECK(answer->triangle_b < b.triangles || answer->triangle_b == NSVCD_NO_TRIANGLE);
-  FUZZ_CHECK((unsigned)answer->status <= (unsigned)NSVCD_STATUS_UNDECIDED);
-  FUZZ_CHECK(scene_finite(answer->point, 3) && scene_finite(answer->lift, 3));
-  FUZZ_CHECK(scene_normal(answer->normal));
-  if (answer->status == NSVCD_STATUS_WITNESS)
-    FUZZ_CHECK(answer->logit >= NSVCD_LOGIT_CERTAIN);
-  if (answer->status == NSVCD_STATUS_CERTIFIED_FREE)
-    FUZZ_CHECK(answer->logit <= -NSVCD_LOGIT_CERTAIN);
-  if (answer->status == NSVCD_STATUS_INSIDE) {
-    FUZZ_CHECK(answer->logit >= NSVCD_LOGIT_CERTAIN);
-    FUZZ_CHECK(answer->contact_time <= 0);
+  const nsvcd_contact *nearest = &answer->nearest;
+  const nsvcd_opinion *opinion = &answer->opinion;
+  FUZZ_CHECK(scene_finite(&opinion->logit, 1) && scene_share(opinion->time));
+  FUZZ_CHECK(opinion->patch_a < a.patches && opinion->patch_b < b.patches);
+  FUZZ_CHECK(scene_share(nearest->time) && scene_share(answer->time.low));
+  FUZZ_CHECK(answer->time.high >= answer->time.low);
+  FUZZ_CHECK(nearest->patch_a < a.patches && nearest->patch_b < b.patches);
+  FUZZ_CHECK(nearest->triangle_a < a.triangles || nearest->triangle_a == NSVCD_NO_TRIANGLE);
+  FUZZ_CHECK(nearest->triangle_b < b.triangles || nearest->triangle_b == NSVCD_NO_TRIANGLE);
+  FUZZ_CHECK((unsigned)answer->verdict <= (unsigned)NSVCD_HIT);
+  FUZZ_CHECK(nearest->gap >= 0 && answer->contact_count <= NSVCD_MAX_CONTACTS);
+  FUZZ_CHECK(!answer->inside || answer->verdict == NSVCD_HIT);
+  FUZZ_CHECK(scene_share(answer->safe.time));
+  FUZZ_CHECK(scene_finite(answer->safe.a.position, 3) && scene_finite(answer->safe.a.rotation, 4));
+  FUZZ_CHECK(scene_finite(answer->safe.b.position, 3) && scene_finite(answer->safe.b.rotation, 4));
+  FUZZ_CHECK(scene_finite(nearest->point, 3) && scene_finite(answer->lift, 3));
+  FUZZ_CHECK(scene_normal(nearest->normal));
+  if (status_of(answer) == STATUS_WITNESS)
+    FUZZ_CHECK(logit_of(answer) >= NSVCD_LOGIT_CERTAIN);
+  if (status_of(answer) == STATUS_CERTIFIED_FREE)
+    FUZZ_CHECK(logit_of(answer) <= -NSVCD_LOGIT_CERTAIN);
+  if (answer->inside) {
+    FUZZ_CHECK(logit_of(answer) >= NSVCD_LOGIT_CERTAIN);
+    FUZZ_CHECK(answer->time.high <= 0);
   }
   if (proves) {
     scene_check_proof(question, answer);
   } else {
-    FUZZ_CHECK(answer->status != NSVCD_STATUS_WITNESS);
-    FUZZ_CHECK(answer->status != NSVCD_STATUS_UNDECIDED);
+    FUZZ_CHECK(opinion->asked);
+    FUZZ_CHECK(status_of(answer) != STATUS_WITNESS);
+    FUZZ_CHECK(answer->verdict != NSVCD_UNDECIDED);
   }
 }
 
-static int scene_same_floats(const float *p, const float *q, size_t count) {
-  return memcmp(p, q, count * sizeof *p) == 0;
+static int scene_same_contact(const nsvcd_contact *p, const nsvcd_contact *q) {
+  return memcmp(p, q, sizeof *p) == 0;  // nothing but fields of four bytes
 }
 
 static int scene_same(const nsvcd_answer *p, const nsvcd_answer *q) {
-  const float of_p[5] = {p->logit, p->contact_time, p->free_until, p->clearance_low,
-                         p->clearance_high};
-  const float of_q[5] = {q->logit, q->contact_time, q->free_until, q->clearance_low,
-                         q->clearance_high};
-  if (p->status != q->status || p->collides != q->collides || p->work != q->work)
+  const nsvcd_opinion *x = &p->opinion;
+  const nsvcd_opinion *y = &q->opinion;
+  if (p->verdict != q->verdict || p->by != q->by || p->why != q->why || p->work != q->work)
     return 0;
-  if (p->patch_a != q->patch_a || p->patch_b != q->patch_b || p->candidates != q->candidates)
+  if (p->inside != q->inside || p->contact_count != q->contact_count)
     return 0;
-  if (p->triangle_a != q->triangle_a || p->triangle_b != q->triangle_b)
+  for (size_t k = 0; k < p->contact_count; k++) {
+    if (!scene_same_contact(&p->contacts[k], &q->contacts[k]))
+      return 0;
+  }
+  if (x->asked != y->asked || x->limited != y->limited || x->candidates != y->candidates)
     return 0;
-  return scene_same_floats(of_p, of_q, 5) && scene_same_floats(p->point, q->point, 3) &&
-         scene_same_floats(p->normal, q->normal, 3) && scene_same_floats(p->lift, q->lift, 3);
+  if (x->patch_a != y->patch_a || x->patch_b != y->patch_b)
+    return 0;
+  return memcmp(&x->logit, &y->logit, sizeof x->logit) == 0 &&
+         memcmp(&x->time, &y->time, sizeof x->time) == 0 &&
+         memcmp(&p->time, &q->time, sizeof p->time) == 0 &&
+         memcmp(&p->distance, &q->distance, sizeof p->distance) == 0 &&
+         memcmp(&p->safe, &q->safe, sizeof p->safe) == 0 &&
+         memcmp(p->lift, q->lift, sizeof p->lift) == 0 &&
+         scene_same_contact(&p->nearest, &q->nearest);
 }
 
 // -------------------------------------------------------------------------------------------- asked
@@ -333,9 +364,9 @@ static int scene_ask(const nsvcd_question *question, nsvcd_answer *answer) {
   FUZZ_CHECK(nsvcd_sweep_workspace_size(&turned) == size);
   FUZZ_CHECK(!scene_sweep(&turned, size, 0, &again));
   scene_check(&turned, &again);
-  FUZZ_CHECK(again.status == answer->status && again.collides == answer->collides);
+  FUZZ_CHECK(again.verdict == answer->verdict && again.inside == answer->inside);
 #ifndef NSVCD_NO_GRADIENT
-  if (question->options.method == NSVCD_METHOD_NETWORK)
+  if (question->method == NSVCD_METHOD_NETWORK)
     scene_check_gradient(question);
 #endif
   return 1;

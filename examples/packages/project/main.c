@@ -21,7 +21,8 @@ int main(int argc, char **argv) {
   question.a.poses = fall;
   question.a.count = 2;
   question.b.body = mug;
-  question.options.first = 0.01f;
+  question.ask = NSVCD_ASK_FIRST;
+  question.to_time = 0.01f;
 
   nsvcd_answer answer;
   const size_t size = nsvcd_sweep_workspace_size(NULL);
@@ -31,7 +32,10 @@ int main(int argc, char **argv) {
     fprintf(stderr, "%s\n", nsvcd_result_string(result));
     return 1;
   }
-  printf("%s at %.2f\n", answer.collides ? "hits" : "clear", (double)answer.contact_time);
+  if (answer.verdict == NSVCD_HIT)
+    printf("hits at %.2f\n", (double)answer.time.high);
+  else
+    printf("%s\n", nsvcd_verdict_string(answer.verdict));
   free(workspace);
   nsvcd_body_free(mug, NULL);
   nsvcd_mesh_free(&mesh, NULL);

@@ -7,6 +7,7 @@
 #include "../../../neuralsvcd.h"
 #define PROGRAM "bench"
 #include "../../../examples/scenery/problem_file.h"
+#include "../../../examples/scenery/status_of.h"
 
 #include "build.h"
 #include "inside.h"
@@ -176,9 +177,10 @@ int main(int argc, char **argv) {
       nsvcd_question q = question_of_problem(&file, p);
       q.a.body = all[p->moving].old;
       q.b.body = all[p->fixed].old;
-      q.options.method = NSVCD_METHOD_PROOF;
-      q.options.first = first;
-      q.options.clearance = clearance;
+      q.method = NSVCD_METHOD_PROOF;
+      q.ask = first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+      q.to_time = first;
+      q.clearance = clearance;
       nsvcd_pose drift[4];
       int label = p->label;
       if (both) {  // the other body moves a little too; version 0.2 says what is right
@@ -219,13 +221,13 @@ int main(int argc, char **argv) {
         best[1] = fmin(best[1], t2 - t1);
       }
       if (both || clearance > 0)
-        label = old.collides;
+        label = collides_of(&old);
       const int hit = now.verdict == LOOP_HIT || now.verdict == LOOP_INSIDE;
       note(&tallies[0], label, hit, now.verdict == LOOP_UNDECIDED, best[0]);
-      note(&tallies[1], label, old.collides, old.status == NSVCD_STATUS_UNDECIDED, best[1]);
+      note(&tallies[1], label, collides_of(&old), old.verdict == NSVCD_UNDECIDED, best[1]);
       if (now.verdict == LOOP_UNDECIDED || hit != label)
         printf("  %s: label %d margin %g, loop says %d at %g, 0.2 %s\n", p->id, p->label, p->margin,
-               (int)now.verdict, now.time, nsvcd_status_string(old.status));
+               (int)now.verdict, now.time, status_string(status_of(&old)));
       if (slow && (best[0] > 50e-6 || getenv("ALLP")))
         printf("  %s: label %d margin %g: %.1f us against %.1f; visits %u leaves %u rows %u couples %u "
                "halvings %u; meshes %s %s\n",

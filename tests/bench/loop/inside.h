@@ -292,10 +292,10 @@ static int loop_sweep(const nsvcd_question *question, const tree_body *a, const 
                      &of);
   p->a = swapped ? b : a;
   p->b = swapped ? a : b;
-  p->limit = question->options.work ? (uint32_t)question->options.work : NSVCD_DEFAULT_WORK;
-  p->clearance = (double)(question->options.clearance / of.unit);
+  p->limit = question->work ? (uint32_t)question->work : NSVCD_DEFAULT_WORK;
+  p->clearance = (double)(question->clearance / of.unit);
   p->m.clearance = 1.000001f * (float)p->clearance;
-  p->first = (double)question->options.first;
+  p->first = question->ask == NSVCD_ASK_FIRST ? (double)question->to_time : 0;
   if (always_far(&of, p->a, p->b, p->m.clearance)) {
     memset(answer, 0, sizeof *answer);
     answer->free_until = 1;

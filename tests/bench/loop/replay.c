@@ -18,6 +18,7 @@
 #include "../../../examples/scenery/problem_file.h"
 #define CHECK_EQ(a, b) ((void)((a) == (b)))  // of proof_scene.h, nothing that is used here
 #include "../../proof_scene.h"
+#include "../../../examples/scenery/status_of.h"
 
 #include "lanes.h"
 struct loop;
@@ -490,28 +491,28 @@ static void compare_answers(const nsvcd_question *q, const loop_answer *now) {
   void *workspace = allocate(size);
   nsvcd_answer old;
   nsvcd_question asked = *q;
-  asked.options.method = NSVCD_METHOD_PROOF;
+  asked.method = NSVCD_METHOD_PROOF;
   if (nsvcd_sweep(&asked, workspace, size, &old))
     exit(1);
   free(workspace);
-  static const nsvcd_status status[4] = {NSVCD_STATUS_CERTIFIED_FREE, NSVCD_STATUS_WITNESS,
-                                         NSVCD_STATUS_INSIDE, NSVCD_STATUS_UNDECIDED};
+  static const status wanted[4] = {STATUS_CERTIFIED_FREE, STATUS_WITNESS, STATUS_INSIDE,
+                                   STATUS_UNDECIDED};
   heard.asked++;
-  const int is_late = now->verdict == LOOP_HIT && old.status == NSVCD_STATUS_WITNESS &&
-                      (now->free_until > (double)old.contact_time + 3e-7 ||
-                       (double)old.free_until > now->time + 3e-7);
+  const int is_late = now->verdict == LOOP_HIT && status_of(&old) == STATUS_WITNESS &&
+                      (now->free_until > (double)contact_time_of(&old) + 3e-7 ||
+                       (double)old.time.low > now->time + 3e-7);
   const int is_hit = now->verdict == LOOP_HIT || now->verdict == LOOP_INSIDE;
-  const int was_hit = old.status == NSVCD_STATUS_WITNESS || old.status == NSVCD_STATUS_INSIDE;
+  const int was_hit = old.verdict == NSVCD_HIT;
   // a body that both meets and is within is either
-  const int unlike = status[now->verdict] != old.status && !(is_hit && was_hit);
+  const int unlike = wanted[now->verdict] != status_of(&old) && !(is_hit && was_hit);
   heard.unlike += unlike;
   if (unlike || (is_late && heard.first > 0))
     printf("  unlike: the loop says %d at %.9g free until %.9g, nsvcd_sweep %s at %.9g until %.9g\n",
-           (int)now->verdict, now->time, now->free_until, nsvcd_status_string(old.status),
-           (double)old.contact_time, (double)old.free_until);
-  if (now->verdict != LOOP_HIT || old.status != NSVCD_STATUS_WITNESS || !(heard.first > 0))
+           (int)now->verdict, now->time, now->free_until, status_string(status_of(&old)),
+           (double)contact_time_of(&old), (double)old.time.low);
+  if (now->verdict != LOOP_HIT || status_of(&old) != STATUS_WITNESS || !(heard.first > 0))
     return;
-  // contact_time is a float
+  // its time is a float
   const double hair = 3e-7;
   heard.late += is_late;
   heard.loose += now->time - now->free_until > (double)heard.first + hair;
@@ -543,7 +544,7 @@ static loop_verdict replay_problem(const nsvcd_question *q, const replay_body *a
   sum->right += now.verdict != LOOP_UNDECIDED && (label < 0 || hit == label);
   sum->wrong += now.verdict != LOOP_UNDECIDED && label >= 0 && hit != label;
   sum->far += heard.heard == before;
-  if (q->options.first > 0 || q->options.clearance > 0)
+  if (q->ask == NSVCD_ASK_FIRST || q->clearance > 0)
     compare_answers(q, &now);
   if (now.verdict == LOOP_HIT && now.free_until > 0 && heard.heard > before)
     check_cover(now.free_until);
@@ -621,8 +622,9 @@ static int replay_file(const char *name, size_t limit, int both, size_t press, f
     const problem *p = &file.problems[n];
     nsvcd_question q = question_of_problem(&file, p);
     nsvcd_pose drift[4];
-    q.options.first = heard.first;
-    q.options.clearance = heard.clearance;
+    q.ask = heard.first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+    q.to_time = heard.first;
+    q.clearance = heard.clearance;
     if (fewer && fewer < q.a.count)
       q.a.poses = some_poses(&q.a, fewer), q.a.count = fewer;
     q.a.body = all[p->moving].old;
