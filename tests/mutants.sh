@@ -116,6 +116,12 @@ asks: a gap lost|p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, 
 asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; p->wide|for (p->ask.measure = p->high - p->low; 0 \&\& p->wide
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
+asks: metres without the way|(arc->speed + arc->turn * extent)|(arc->turn * extent)
+asks: metres without the turn|(arc->speed + arc->turn * extent)|(arc->speed)
+asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
+asks: a safe place not lifted|moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit|0
+asks: a safe place on the other side|moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit|moving == lifts_fixed ? 0 : moving ? -world.unit : world.unit
+asks: a safe place too late|const double t = (double)answer->time.low;|const double t = fmin(1, 1.05 * (double)answer->time.low + 0.01);
 LIST
 
 survived=0

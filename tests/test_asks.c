@@ -83,6 +83,18 @@ static double asks_length(const float *v) {
 
 // What stands on a table, flush or pressed in by less than the skin, still or sliding, is lifted by
 // the skin, straight up; by more, it is hit. So is the table under it.
+// Where the answer sends them, lift and all, are the bodies free of each other without a skin?
+static void asks_check_safe(const nsvcd_question *question, const nsvcd_answer *answer) {
+  nsvcd_question still = *question;
+  still.ask = NSVCD_ASK_HIT;
+  still.to = still.to_time = still.skin = 0;
+  still.clearance *= 0.99f;
+  still.a.poses = &answer->safe.a;
+  still.b.poses = &answer->safe.b;
+  still.a.count = still.b.count = 1;
+  CHECK_EQ(asks(&still).verdict, NSVCD_FREE);
+}
+
 static void asks_skin_lifts_what_stands(void) {
   static const double depths[7] = {0, 1e-5, 1e-4, 3e-4, 5e-4, 9e-4, -3e-5};
   const double skin = 1e-3;
@@ -101,7 +113,12 @@ static void asks_skin_lifts_what_stands(void) {
       nsvcd_question question =
           question_of(body, path, trial & 8 ? 2 : 1, tables[trial / 16], NULL, NULL);
       question.skin = (float)skin;
+      // the table may move as well, though it stays
+      const nsvcd_pose stays[2] = {asks_pose(0, 0, 0, 0), asks_pose(0, 0, 0, 0)};
+      question.b.poses = stays;
+      question.b.count = trial & 8 && turn < 2 ? 2 : 1;
       const nsvcd_answer answer = asks(&question);
+      if (k < 7) asks_check_safe(&question, &answer);
       CHECK_EQ(answer.verdict == NSVCD_FREE, k < 7);
       CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
       CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
@@ -111,6 +128,7 @@ static void asks_skin_lifts_what_stands(void) {
       const nsvcd_answer swapped = asks(&question);
       CHECK_EQ(status_of(&swapped), status_of(&answer));
       CHECK_EQ(swapped.lift[2], -answer.lift[2]);
+      if (k < 7) asks_check_safe(&question, &swapped);
     }
     nsvcd_body_free(body, NULL);
   }
@@ -341,7 +359,6 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
                              double way) {
   const double late = (double)answer->time.high - (double)answer->time.low;
   const double share = (double)answer->safe.time;
-  nsvcd_question still = *question;
   CHECK_EQ(answer->verdict, NSVCD_HIT);
   // flat on flat it is wider than by its own measure, by what triangles are stored to
   CHECK(answer->why != NSVCD_WHY_WORK);
@@ -359,13 +376,7 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
       CHECK_NEAR((double)safe->position[i], place, 1e-6);
     }
   }
-  still.ask = NSVCD_ASK_HIT;
-  still.to = still.to_time = 0;
-  still.clearance *= 0.99f;
-  still.a.poses = &answer->safe.a;
-  still.b.poses = &answer->safe.b;
-  still.a.count = still.b.count = 1;
-  CHECK_EQ(asks(&still).verdict, NSVCD_FREE);
+  asks_check_safe(question, answer);
 }
 
 static void asks_first_is_to_metres(void) {
