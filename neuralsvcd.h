@@ -782,6 +782,9 @@ typedef struct nsvcd_answer {
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
   nsvcd_safe_place safe;
+  // metres: of a contact at the start, the smallest lift of a off b, up to the skin or where it is
+  // made of several normals their sum, that ends it. 0: there is no contact at the start
+  float depth;
   // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
   // where a rests, or both move and a is the larger, with a. The answer is about the motion so
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
@@ -8376,12 +8379,13 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LONG 6000
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
-#define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
-#define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
-#define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
-#define NSVCD__LIFTS 6      // directions in which they are undone
-#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
-#define NSVCD__NEVER 1e300  // ticks
+#define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
+#define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
+#define NSVCD__TOUCHES 32  // contacts at the start, looked at together, where there is a skin
+#define NSVCD__LIFTS 6     // directions in which they are undone
+#define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300    // ticks
 
 typedef struct nsvcd__item {
   uint16_t moving, fixed, segment;
@@ -8535,8 +8539,9 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // with a skin, contacts at the start are gathered, not taken
+  // with a skin, contacts at the start are gathered, not taken; and how deep they may be
   int gathers;
+  double skin;
 } nsvcd__asked;
 
 // What is known, of a motion.
@@ -8594,6 +8599,9 @@ typedef struct nsvcd__proof {
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
   nsvcd__d3 normals[NSVCD__LIFTS];
+  // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
+  double depths[NSVCD__LIFTS];
+  double needed;
 
   // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
   // when that was done last.
@@ -10200,11 +10208,63 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
   nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->given.skin)
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
   if (lift < 0) return 1;
   nsvcd__touch_normals(t, normals);
   return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
+}
+
+// The square of the distance of two triangles, the moving one gone so far along n.
+static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+  nsvcd__d3 moved[3];
+  for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
+  return nsvcd__triangles_nearest(moved, t->fixed).square;
+}
+
+// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
+// if it is so after `most`. 0: it is all the way. On that way the distance is convex: thirds find
+// where it is least, and halves where it is the clearance.
+static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
+                                          double most) {
+  // parallel faces meet at one time only
+  const double reach = clearance + 0.003 * most;
+  const double square = reach * reach;
+  // as it nearly always is
+  if (nsvcd__square_after(t, n, 0.998 * most) <= square) return most;
+  double low = 0;
+  double high = most;
+  double within = 0;
+  int found = nsvcd__square_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !found; k++) {
+    const double third = (high - low) / 3;
+    const double before = nsvcd__square_after(t, n, low + third);
+    const double after = nsvcd__square_after(t, n, high - third);
+    found = before <= square || after <= square;
+    within = after <= square ? high - third : low + third;
+    if (before < after) high -= third;
+    if (!(before < after)) low += third;
+  }
+  if (!found) return 0;
+  for (double beyond = most; beyond - within > 1e-3 * most;) {
+    const double middle = 0.5 * (within + beyond);
+    const int touches = nsvcd__square_after(t, n, middle) <= square;
+    within = touches ? middle : within;
+    beyond = touches ? beyond : middle;
+  }
+  return within;
+}
+
+// The same of normal k; how far is remembered.
+static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+  const nsvcd__d3 n = p->normals[k];
+  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
+  const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
+  if (!nsvcd__undoes(p, n, t)) return 0;
+  p->needed = fmax(p->needed, lifted + most);
+  if (most > 0 && lifted + most > p->depths[k])
+    p->depths[k] = fmax(p->depths[k], lifted + nsvcd__way_out(t, n, p->given.clearance, most));
+  return 1;
 }
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
@@ -10219,7 +10279,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
+    if (nsvcd__is_undone_by(p, k, &touch)) return;
   }
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
@@ -11525,69 +11585,95 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
   while (p->touch_count > 0) {
+    const size_t k = p->normal_count;
     nsvcd__d3 best = {0, 0, 0};
-    if (p->normal_count == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
-    p->normals[p->normal_count++] = best;
+    if (k == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
+    p->normals[k] = best;
+    p->depths[k] = 0;
+    p->normal_count++;
     size_t left = 0;
-    for (size_t k = 0; k < p->touch_count; k++) {
-      if (!nsvcd__undoes(p, best, &p->of.touches[k])) p->of.touches[left++] = p->of.touches[k];
+    for (size_t n = 0; n < p->touch_count; n++) {
+      if (!nsvcd__is_undone_by(p, k, &p->of.touches[n]))
+        p->of.touches[left++] = p->of.touches[n];
     }
     p->touch_count = left;
   }
   return 1;
 }
 
-// The shortest vector, nearly, that has the skin's length along all normals that were gathered. 0
-// if there is none of less than four skins.
-static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
+// The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
+// along all normals that were gathered. 0 if there is none of less than four times the longest.
+static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_depth) {
   nsvcd__d3 lift = {0, 0, 0};
+  double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
     for (size_t k = 0; k < p->normal_count; k++) {
-      const double lacks = p->given.skin - nsvcd__d3_dot(lift, p->normals[k]);
+      const double along = least + (by_depth ? p->depths[k] : 0);
+      const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
+      longest = fmax(longest, along);
       most = fmax(most, lacks);
       if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * p->given.skin) break;
-    if (most <= 0.01 * p->given.skin) return lift;
+    if (nsvcd__d3_length(lift) > 4 * longest) break;
+    if (most <= 0.005 * longest) return lift;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Lifts the motion off what it touches at its start: by nothing at first, and whenever something
-// touches at the start so lifted, by more, until nothing does. Triangles smaller than the skin can
-// be parted along a wall that others of them stay in touch with, and there may be too many touches
-// to look at together: so what has been found is tried. If there is no way off all that was found,
-// then what was found first may have been the wrong way, and is forgotten, once.
+// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+static double nsvcd__hair(const nsvcd__proof *p) {
+  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
+  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+}
+
+// Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
+// lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
+// that others of them stay in touch with, and there may be too many touches to look at together: so
+// what has been found is tried. If there is no way off all that was found, then what was found
+// first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way off.
+static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+  p->normal_count = 0;
+  still->lift = nsvcd__f3_of(0, 0, 0);
+  // what is about to touch is lifted off too, and may not touch afterwards
+  double beside = 0.05;
+  for (int turns = 0;; beside = 0.01) {
+    p->touch_count = 0;
+    p->ask.clearance = p->given.clearance + beside * p->ask.skin + nsvcd__hair(p);
+    (void)nsvcd__prove_anew(p, search);
+    if (p->touch_count == 0) return 1;
+    const size_t known = p->normal_count;
+    if (!nsvcd__choose_lifts(p) || p->normal_count == known) return 0;
+    nsvcd__d3 lift = nsvcd__lift_off(p, p->ask.skin, 0);
+    if (!(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
+      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
+      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
+      lift = nsvcd__lift_off(p, p->ask.skin, 0);
+    }
+    if (!(nsvcd__d3_dot(lift, lift) > 0)) return 0;
+    still->lift = nsvcd__f3_round(lift);
+  }
+}
+
+// Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
+// that, and nothing is too deep, by what is needed.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->normal_count = 0;
-  // what is about to touch is lifted off too, and may not touch afterwards
-  const float quanta = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  const double hair = (double)(quanta + nsvcd__widest_quantum(&p->fixed));
-  p->ask.clearance = p->given.clearance + 0.05 * p->given.skin + hair;
   p->ask.gathers = 1;
-  for (int turns = 0, more = 1; more;) {
-    p->touch_count = 0;
-    (void)nsvcd__prove_anew(p, search);
-    if (p->touch_count == 0) break;
-    const size_t known = p->normal_count;
-    more = nsvcd__choose_lifts(p) && p->normal_count > known;
-    nsvcd__d3 lift = nsvcd__lift_off(p);
-    if (more && !(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
-      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
-      lift = nsvcd__lift_off(p);
-    }
-    more &= nsvcd__d3_dot(lift, lift) > 0;
-    start.lift = more ? nsvcd__f3_round(lift) : nsvcd__f3_of(0, 0, 0);
-    p->ask.clearance = p->given.clearance + 0.01 * p->given.skin + hair;
+  p->ask.skin = p->given.skin;
+  p->needed = 0;
+  int is_free = nsvcd__lift_still(p, search, &start);
+  const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
+  if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
+    p->ask.skin = least;
+    is_free = nsvcd__lift_still(p, search, &start);
   }
   p->ask.gathers = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
-  whole->lift = start.lift;
+  whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF
@@ -12699,6 +12785,7 @@ static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
   answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
   answer->time.high = is_free ? 1 : HUGE_VALF;
   answer->distance.high = HUGE_VALF;
+  answer->depth = is_free ? 0 : HUGE_VALF;
   answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
   answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
   answer->nearest.gap = HUGE_VALF;
@@ -13089,28 +13176,83 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
   out->patch_b = found->fixed_patch;
 }
 
-// Where the bodies may go, which are proven free until answer->time.low. The one that moves takes
-// the lift; if both do, a.
-static NSVCD__APART void nsvcd__tell_safe_place(const nsvcd__task *task,
-                                                nsvcd_answer *answer) {
+// Where both bodies are at time t, the one that takes the lift displaced by so much, in the fixed
+// one's frame and units. The one that moves takes it; if both do, a.
+static int nsvcd__takes_lift(const nsvcd__task *task) {
+  return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
+}
+static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
+                                         nsvcd_pose *moving, nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
-  const double t = (double)answer->time.low;
-  const int lifts_fixed = task->swapped && (motion->fixed_moves || motion->moving.count == 1);
+  const int moving_takes_it = nsvcd__takes_lift(task);
   const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(motion->lift));
-  for (int moving = 0; moving < 2; moving++) {
-    const double by = moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit;
-    nsvcd_pose *out = moving ? &answer->safe.a : &answer->safe.b;
+  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, lift);
+  for (int n = 0; n < 2; n++) {
+    const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
+    nsvcd_pose *out = n ? fixed : moving;
     nsvcd__d3 place;
     const nsvcd__dquat turn =
-        nsvcd__turn_at(motion, moving ? &motion->moving : &motion->fixed, t, &place);
-    place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, by));
+        nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &place);
+    place = nsvcd__d3_add(place, nsvcd__d3_scale(seen, by));
     nsvcd__f3_store(nsvcd__f3_round(place), out->position);
     out->rotation[0] = (float)turn.x;
     out->rotation[1] = (float)turn.y;
     out->rotation[2] = (float)turn.z;
     out->rotation[3] = (float)turn.w;
   }
+}
+
+// Sets the bodies down at time t, where they are free of each other when lifted as the motion is:
+// to a little more than what they are pressed in by at the start, or to a little before they are in
+// contact. Returns how far they are lifted then, which is proven to be free, and all the way down
+// to it. All else that was known of the question is lost.
+static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion down = *whole;
+  nsvcd_pose moving[2], fixed[2];
+  const int takes_it = nsvcd__takes_lift(task);
+  const nsvcd__track moving_track = {moving, takes_it ? 2u : 1u, 0};
+  const nsvcd__track fixed_track = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
+  // nearer to each other than stored triangles are known, nothing would be parted
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
+  const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
+  const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
+  const double way = nsvcd__d3_length(by);
+  if (!(nsvcd__d3_dot(by, lift) > 0) || !(way > kept)) return lift;
+  nsvcd__poses_at(task, t, lift, &moving[0], &fixed[0]);
+  nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
+  nsvcd__motion_set_tracks(&down, moving_track, fixed_track);
+  down.lift = nsvcd__f3_of(0, 0, 0);
+  p->ask.motion = &down;
+  p->ask.share = kept / way;
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  p->ask.motion = whole;
+  const double until = nsvcd__clear_until(p) / (double)down.ticks;
+  // up to a doubt it is proven, but not so that it is proven anew from there
+  const double clear = p->known.unsure < p->ask.end ? until - 0.5 * p->ask.share : until;
+  return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
+}
+
+// Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
+// contact at the start.
+static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__proof *p = query->proof;
+  const double t = (double)answer->time.low;
+  nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
+  const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
+  if (is_lifted) {
+    const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
+    answer->depth = (float)(depth * (double)task->motion.unit);
+    if (!p->unclear) lift = nsvcd__set_down(query, t);
+  } else if (t > 0) {
+    answer->depth = 0;
+  }
+  nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
   answer->safe.time = answer->time.low;
 }
 
@@ -13171,7 +13313,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
   if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
-  nsvcd__tell_safe_place(task, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
@@ -13179,6 +13320,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  nsvcd__tell_safe_place(query, answer);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14149,6 +14291,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
 #define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
+#define nsvcd__hair NSVCD__AT(hair)
 #define nsvcd__height NSVCD__AT(height)
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
@@ -14175,6 +14318,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_undone_by NSVCD__AT(is_undone_by)
 #define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
@@ -14203,6 +14347,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_along NSVCD__AT(lift_along)
 #define nsvcd__lift_motion NSVCD__AT(lift_motion)
 #define nsvcd__lift_off NSVCD__AT(lift_off)
+#define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
@@ -14257,6 +14402,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__pose_count NSVCD__AT(pose_count)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
+#define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__proof NSVCD__AT(proof)
 #define nsvcd__proof_begin NSVCD__AT(proof_begin)
@@ -14302,6 +14448,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
 #define nsvcd__self_test NSVCD__AT(self_test)
+#define nsvcd__set_down NSVCD__AT(set_down)
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
 #define nsvcd__settle_couple NSVCD__AT(settle_couple)
@@ -14320,6 +14467,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
+#define nsvcd__square_after NSVCD__AT(square_after)
 #define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
@@ -14337,6 +14485,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_doubt NSVCD__AT(take_doubt)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
+#define nsvcd__takes_lift NSVCD__AT(takes_lift)
 #define nsvcd__task NSVCD__AT(task)
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
 #define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
@@ -14464,6 +14613,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__way_out NSVCD__AT(way_out)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)
 #define nsvcd__winding_number NSVCD__AT(winding_number)

@@ -81,8 +81,6 @@ static double asks_length(const float *v) {
   return sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
 }
 
-// What stands on a table, flush or pressed in by less than the skin, still or sliding, is lifted by
-// the skin, straight up; by more, it is hit. So is the table under it.
 // Where the answer sends them, lift and all, are the bodies free of each other without a skin?
 static void asks_check_safe(const nsvcd_question *question, const nsvcd_answer *answer) {
   nsvcd_question still = *question;
@@ -95,13 +93,17 @@ static void asks_check_safe(const nsvcd_question *question, const nsvcd_answer *
   CHECK_EQ(asks(&still).verdict, NSVCD_FREE);
 }
 
+// What stands on a table, flush or pressed in by less than the skin, still or sliding, is lifted by
+// the skin, straight up; by more, it is hit. So is the table under it.
 static void asks_skin_lifts_what_stands(void) {
   static const double depths[7] = {0, 1e-5, 1e-4, 3e-4, 5e-4, 9e-4, -3e-5};
   const double skin = 1e-3;
   shapes_rng rng = {25};
   const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
+  const double table_hair = (double)nsvcd_body_describe(tables[0]).quantum;
   for (int n = 0; n < 3 * STANDING; n++) {
     const nsvcd_body *body = asks_standing(n % STANDING, &rng);
+    const double hair = 2 * (table_hair + (double)nsvcd_body_describe(body).quantum);
     for (int trial = 0; trial < 4 * 8; trial++) {
       const int k = trial % 8;
       const double depth = k < 7 ? depths[k] : 1.7 * skin;
@@ -122,6 +124,12 @@ static void asks_skin_lifts_what_stands(void) {
       CHECK_EQ(answer.verdict == NSVCD_FREE, k < 7);
       CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
       CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
+      if (k < 7) CHECK_NEAR(answer.depth, fmax(depth, 0), 0.01 * fmax(depth, 0) + hair);
+      // it is set down to a little above the table
+      if (k < 7)
+        CHECK_NEAR(answer.safe.a.position[2], fmax(-depth, 0),
+                   1.1 * fmax(0.02 * skin, 2 * hair) + 0.01 * skin);
+      if (k == 7) CHECK_EQ(answer.depth, HUGE_VALF);
       const nsvcd_mover mover = question.a;
       question.a = question.b;
       question.b = mover;
@@ -146,6 +154,8 @@ static void asks_skin_in_a_corner(void) {
     memset(&shape, 0, sizeof shape);
     shapes_box(&shape, 0.1, 0.1, 0.1, fine ? 16 : 1);
     const nsvcd_body *box = asks_body(&shape, 0);
+    const double hair =
+        4 * (double)(nsvcd_body_describe(corner).quantum + nsvcd_body_describe(box).quantum);
     for (int k = 0; k < 4; k++) {
       const double in = 0.2 * k * skin;
       const nsvcd_pose pose = asks_pose(0.25 + in, 0.25 + in, 0.05 - in, 0);
@@ -156,6 +166,15 @@ static void asks_skin_in_a_corner(void) {
       CHECK_NEAR(answer.lift[0], -skin, 0.02 * skin);
       CHECK_NEAR(answer.lift[1], -skin, 0.02 * skin);
       CHECK_NEAR(answer.lift[2], skin, 0.02 * skin);
+      // each wall by its own depth
+      CHECK_NEAR(answer.depth, sqrt(3) * in, 0.01 * in + hair);
+      asks_check_safe(&question, &answer);
+      const nsvcd_pose lower = asks_pose(0.25, 0.25 + in, 0.05 - in, 0);
+      question.a.poses = &lower;
+      const nsvcd_answer uneven = asks(&question);
+      CHECK_NEAR(uneven.depth, sqrt(2) * in, 0.01 * in + hair);
+      asks_check_safe(&question, &uneven);
+      question.a.poses = &pose;
     }
     nsvcd_body_free(box, NULL);
     memset(&shape, 0, sizeof shape);
@@ -174,6 +193,32 @@ static void asks_skin_in_a_corner(void) {
     nsvcd_body_free(slot, NULL);
   }
   nsvcd_body_free(corner, NULL);
+}
+
+// A box on a floor, under a ceiling that is nearer than the skin: it is lifted by what it needs.
+static void asks_skin_under_a_ceiling(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, 0, 0, -0.05, 1, 1, 0.1);
+  shapes_box_at(&shape, 0, 0, 0.1504, 1, 1, 0.1);
+  const nsvcd_body *gap = asks_body(&shape, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&shape, 0, 0, 0.05, 0.1, 0.1, 0.1);
+  const nsvcd_body *box = asks_body(&shape, 0);
+  for (int k = 0; k < 5; k++) {
+    // of 0.4 mm; the last one is pressed in by more than there is room for
+    const double depth = k < 4 ? 1e-4 * k : 1.2e-3;
+    const nsvcd_pose path[2] = {asks_pose(0, 0, -depth, 0), asks_pose(0.2, 0, -depth, 0)};
+    nsvcd_question question = question_of(box, path, 2, gap, NULL, NULL);
+    question.skin = 1e-3f;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, k < 4 ? NSVCD_FREE : NSVCD_HIT);
+    if (k < 4) CHECK_NEAR(answer.depth, depth, 0.01 * depth + 4e-5);
+    CHECK_LE(answer.lift[2], 4e-4 + depth);
+    if (k < 4) asks_check_safe(&question, &answer);
+  }
+  nsvcd_body_free(box, NULL);
+  nsvcd_body_free(gap, NULL);
 }
 
 // What has no area has no direction, however its corners are rounded.
@@ -436,6 +481,7 @@ void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
+  RUN(asks_skin_under_a_ceiling);
   RUN(asks_faces_without_area);
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);

@@ -214,6 +214,9 @@ typedef struct nsvcd_answer {
   // and so `high` is not 0 where they meet
   nsvcd_range distance;
   nsvcd_safe_place safe;
+  // metres: of a contact at the start, the smallest lift of a off b, up to the skin or where it is
+  // made of several normals their sum, that ends it. 0: there is no contact at the start
+  float depth;
   // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
   // where a rests, or both move and a is the larger, with a. The answer is about the motion so
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,

@@ -62,69 +62,95 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
   while (p->touch_count > 0) {
+    const size_t k = p->normal_count;
     nsvcd__d3 best = {0, 0, 0};
-    if (p->normal_count == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
-    p->normals[p->normal_count++] = best;
+    if (k == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
+    p->normals[k] = best;
+    p->depths[k] = 0;
+    p->normal_count++;
     size_t left = 0;
-    for (size_t k = 0; k < p->touch_count; k++) {
-      if (!nsvcd__undoes(p, best, &p->of.touches[k])) p->of.touches[left++] = p->of.touches[k];
+    for (size_t n = 0; n < p->touch_count; n++) {
+      if (!nsvcd__is_undone_by(p, k, &p->of.touches[n]))
+        p->of.touches[left++] = p->of.touches[n];
     }
     p->touch_count = left;
   }
   return 1;
 }
 
-// The shortest vector, nearly, that has the skin's length along all normals that were gathered. 0
-// if there is none of less than four skins.
-static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p) {
+// The shortest vector, nearly, that has `least`, and as much more as the depths say if these count,
+// along all normals that were gathered. 0 if there is none of less than four times the longest.
+static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_depth) {
   nsvcd__d3 lift = {0, 0, 0};
+  double longest = 0;
   for (size_t round = 0; round < 64; round++) {
     double most = 0;
     for (size_t k = 0; k < p->normal_count; k++) {
-      const double lacks = p->given.skin - nsvcd__d3_dot(lift, p->normals[k]);
+      const double along = least + (by_depth ? p->depths[k] : 0);
+      const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
+      longest = fmax(longest, along);
       most = fmax(most, lacks);
       if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
-    if (nsvcd__d3_length(lift) > 4 * p->given.skin) break;
-    if (most <= 0.01 * p->given.skin) return lift;
+    if (nsvcd__d3_length(lift) > 4 * longest) break;
+    if (most <= 0.005 * longest) return lift;
   }
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// Lifts the motion off what it touches at its start: by nothing at first, and whenever something
-// touches at the start so lifted, by more, until nothing does. Triangles smaller than the skin can
-// be parted along a wall that others of them stay in touch with, and there may be too many touches
-// to look at together: so what has been found is tried. If there is no way off all that was found,
-// then what was found first may have been the wrong way, and is forgotten, once.
+// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+static double nsvcd__hair(const nsvcd__proof *p) {
+  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
+  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+}
+
+// Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
+// lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
+// that others of them stay in touch with, and there may be too many touches to look at together: so
+// what has been found is tried. If there is no way off all that was found, then what was found
+// first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way off.
+static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+  p->normal_count = 0;
+  still->lift = nsvcd__f3_of(0, 0, 0);
+  // what is about to touch is lifted off too, and may not touch afterwards
+  double beside = 0.05;
+  for (int turns = 0;; beside = 0.01) {
+    p->touch_count = 0;
+    p->ask.clearance = p->given.clearance + beside * p->ask.skin + nsvcd__hair(p);
+    (void)nsvcd__prove_anew(p, search);
+    if (p->touch_count == 0) return 1;
+    const size_t known = p->normal_count;
+    if (!nsvcd__choose_lifts(p) || p->normal_count == known) return 0;
+    nsvcd__d3 lift = nsvcd__lift_off(p, p->ask.skin, 0);
+    if (!(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
+      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
+      memmove(p->depths, p->depths + 1, p->normal_count * sizeof *p->depths);
+      lift = nsvcd__lift_off(p, p->ask.skin, 0);
+    }
+    if (!(nsvcd__d3_dot(lift, lift) > 0)) return 0;
+    still->lift = nsvcd__f3_round(lift);
+  }
+}
+
+// Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
+// that, and nothing is too deep, by what is needed.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->normal_count = 0;
-  // what is about to touch is lifted off too, and may not touch afterwards
-  const float quanta = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  const double hair = (double)(quanta + nsvcd__widest_quantum(&p->fixed));
-  p->ask.clearance = p->given.clearance + 0.05 * p->given.skin + hair;
   p->ask.gathers = 1;
-  for (int turns = 0, more = 1; more;) {
-    p->touch_count = 0;
-    (void)nsvcd__prove_anew(p, search);
-    if (p->touch_count == 0) break;
-    const size_t known = p->normal_count;
-    more = nsvcd__choose_lifts(p) && p->normal_count > known;
-    nsvcd__d3 lift = nsvcd__lift_off(p);
-    if (more && !(nsvcd__d3_dot(lift, lift) > 0) && turns++ == 0) {
-      memmove(p->normals, p->normals + 1, --p->normal_count * sizeof *p->normals);
-      lift = nsvcd__lift_off(p);
-    }
-    more &= nsvcd__d3_dot(lift, lift) > 0;
-    start.lift = more ? nsvcd__f3_round(lift) : nsvcd__f3_of(0, 0, 0);
-    p->ask.clearance = p->given.clearance + 0.01 * p->given.skin + hair;
+  p->ask.skin = p->given.skin;
+  p->needed = 0;
+  int is_free = nsvcd__lift_still(p, search, &start);
+  const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
+  if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
+    p->ask.skin = least;
+    is_free = nsvcd__lift_still(p, search, &start);
   }
   p->ask.gathers = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
-  whole->lift = start.lift;
+  whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
   nsvcd__proof_restart(p);
 }
 #endif  // NSVCD_NO_PROOF

@@ -100,12 +100,13 @@
 #define NSVCD__LONG 6000
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
-#define NSVCD__FINER 2      // times: from pass to pass, where the least distance is measured
-#define NSVCD__IN_ORDER 4   // segments searched together, where the first contact is sought
-#define NSVCD__TOUCHES 32   // contacts at the start, looked at together, where there is a skin
-#define NSVCD__LIFTS 6      // directions in which they are undone
-#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
-#define NSVCD__NEVER 1e300  // ticks
+#define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
+#define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
+#define NSVCD__TOUCHES 32  // contacts at the start, looked at together, where there is a skin
+#define NSVCD__LIFTS 6     // directions in which they are undone
+#define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300    // ticks
 
 typedef struct nsvcd__item {
   uint16_t moving, fixed, segment;
@@ -259,8 +260,9 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // with a skin, contacts at the start are gathered, not taken
+  // with a skin, contacts at the start are gathered, not taken; and how deep they may be
   int gathers;
+  double skin;
 } nsvcd__asked;
 
 // What is known, of a motion.
@@ -318,6 +320,9 @@ typedef struct nsvcd__proof {
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
   nsvcd__d3 normals[NSVCD__LIFTS];
+  // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
+  double depths[NSVCD__LIFTS];
+  double needed;
 
   // Segments as spans (S), where the memo says so; which have been cut off, and the end, ticks,
   // when that was done last.

@@ -32,11 +32,63 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
   nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->given.skin)
+  if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
   if (lift < 0) return 1;
   nsvcd__touch_normals(t, normals);
   return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
+}
+
+// The square of the distance of two triangles, the moving one gone so far along n.
+static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+  nsvcd__d3 moved[3];
+  for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
+  return nsvcd__triangles_nearest(moved, t->fixed).square;
+}
+
+// How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
+// if it is so after `most`. 0: it is all the way. On that way the distance is convex: thirds find
+// where it is least, and halves where it is the clearance.
+static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
+                                          double most) {
+  // parallel faces meet at one time only
+  const double reach = clearance + 0.003 * most;
+  const double square = reach * reach;
+  // as it nearly always is
+  if (nsvcd__square_after(t, n, 0.998 * most) <= square) return most;
+  double low = 0;
+  double high = most;
+  double within = 0;
+  int found = nsvcd__square_after(t, n, 0) <= square;
+  for (int k = 0; k < 16 && !found; k++) {
+    const double third = (high - low) / 3;
+    const double before = nsvcd__square_after(t, n, low + third);
+    const double after = nsvcd__square_after(t, n, high - third);
+    found = before <= square || after <= square;
+    within = after <= square ? high - third : low + third;
+    if (before < after) high -= third;
+    if (!(before < after)) low += third;
+  }
+  if (!found) return 0;
+  for (double beyond = most; beyond - within > 1e-3 * most;) {
+    const double middle = 0.5 * (within + beyond);
+    const int touches = nsvcd__square_after(t, n, middle) <= square;
+    within = touches ? middle : within;
+    beyond = touches ? beyond : middle;
+  }
+  return within;
+}
+
+// The same of normal k; how far is remembered.
+static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+  const nsvcd__d3 n = p->normals[k];
+  const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
+  const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
+  if (!nsvcd__undoes(p, n, t)) return 0;
+  p->needed = fmax(p->needed, lifted + most);
+  if (most > 0 && lifted + most > p->depths[k])
+    p->depths[k] = fmax(p->depths[k], lifted + nsvcd__way_out(t, n, p->given.clearance, most));
+  return 1;
 }
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
@@ -51,7 +103,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__undoes(p, p->normals[k], &touch)) return;
+    if (nsvcd__is_undone_by(p, k, &touch)) return;
   }
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }

@@ -110,28 +110,83 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
   out->patch_b = found->fixed_patch;
 }
 
-// Where the bodies may go, which are proven free until answer->time.low. The one that moves takes
-// the lift; if both do, a.
-static NSVCD__APART void nsvcd__tell_safe_place(const nsvcd__task *task,
-                                                nsvcd_answer *answer) {
+// Where both bodies are at time t, the one that takes the lift displaced by so much, in the fixed
+// one's frame and units. The one that moves takes it; if both do, a.
+static int nsvcd__takes_lift(const nsvcd__task *task) {
+  return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
+}
+static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
+                                         nsvcd_pose *moving, nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
-  const double t = (double)answer->time.low;
-  const int lifts_fixed = task->swapped && (motion->fixed_moves || motion->moving.count == 1);
+  const int moving_takes_it = nsvcd__takes_lift(task);
   const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(motion->lift));
-  for (int moving = 0; moving < 2; moving++) {
-    const double by = moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit;
-    nsvcd_pose *out = moving ? &answer->safe.a : &answer->safe.b;
+  const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, lift);
+  for (int n = 0; n < 2; n++) {
+    const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
+    nsvcd_pose *out = n ? fixed : moving;
     nsvcd__d3 place;
     const nsvcd__dquat turn =
-        nsvcd__turn_at(motion, moving ? &motion->moving : &motion->fixed, t, &place);
-    place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, by));
+        nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &place);
+    place = nsvcd__d3_add(place, nsvcd__d3_scale(seen, by));
     nsvcd__f3_store(nsvcd__f3_round(place), out->position);
     out->rotation[0] = (float)turn.x;
     out->rotation[1] = (float)turn.y;
     out->rotation[2] = (float)turn.z;
     out->rotation[3] = (float)turn.w;
   }
+}
+
+// Sets the bodies down at time t, where they are free of each other when lifted as the motion is:
+// to a little more than what they are pressed in by at the start, or to a little before they are in
+// contact. Returns how far they are lifted then, which is proven to be free, and all the way down
+// to it. All else that was known of the question is lost.
+static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  nsvcd__motion *whole = p->ask.motion;
+  nsvcd__motion down = *whole;
+  nsvcd_pose moving[2], fixed[2];
+  const int takes_it = nsvcd__takes_lift(task);
+  const nsvcd__track moving_track = {moving, takes_it ? 2u : 1u, 0};
+  const nsvcd__track fixed_track = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
+  // nearer to each other than stored triangles are known, nothing would be parted
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
+  const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
+  const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
+  const double way = nsvcd__d3_length(by);
+  if (!(nsvcd__d3_dot(by, lift) > 0) || !(way > kept)) return lift;
+  nsvcd__poses_at(task, t, lift, &moving[0], &fixed[0]);
+  nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
+  nsvcd__motion_set_tracks(&down, moving_track, fixed_track);
+  down.lift = nsvcd__f3_of(0, 0, 0);
+  p->ask.motion = &down;
+  p->ask.share = kept / way;
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  p->ask.motion = whole;
+  const double until = nsvcd__clear_until(p) / (double)down.ticks;
+  // up to a doubt it is proven, but not so that it is proven anew from there
+  const double clear = p->known.unsure < p->ask.end ? until - 0.5 * p->ask.share : until;
+  return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
+}
+
+// Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
+// contact at the start.
+static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
+  const nsvcd__task *task = &query->task;
+  const nsvcd__proof *p = query->proof;
+  const double t = (double)answer->time.low;
+  nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
+  const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
+  if (is_lifted) {
+    const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
+    answer->depth = (float)(depth * (double)task->motion.unit);
+    if (!p->unclear) lift = nsvcd__set_down(query, t);
+  } else if (t > 0) {
+    answer->depth = 0;
+  }
+  nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
   answer->safe.time = answer->time.low;
 }
 
@@ -192,7 +247,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
   if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
-  nsvcd__tell_safe_place(task, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
@@ -200,5 +254,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  nsvcd__tell_safe_place(query, answer);
 }
 #endif  // NSVCD_NO_PROOF

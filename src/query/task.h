@@ -157,6 +157,7 @@ static void nsvcd__answer_begin(const nsvcd__task *task, nsvcd_verdict verdict,
   answer->time.low = answer->safe.time = is_free ? 1.0f : 0.0f;
   answer->time.high = is_free ? 1 : HUGE_VALF;
   answer->distance.high = HUGE_VALF;
+  answer->depth = is_free ? 0 : HUGE_VALF;
   answer->safe.a = moving->poses[is_free ? moving->count - 1 : 0];
   answer->safe.b = fixed->poses[is_free ? fixed->count - 1 : 0];
   answer->nearest.gap = HUGE_VALF;
