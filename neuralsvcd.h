@@ -8383,6 +8383,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 32  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
+#define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
@@ -10223,7 +10224,7 @@ static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`. 0: it is all the way. On that way the distance is convex: thirds find
+// if it is so after `most`; -HUGE_VAL: it is all the way. On that way the distance is convex: thirds find
 // where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
                                           double most) {
@@ -10245,7 +10246,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
     if (before < after) high -= third;
     if (!(before < after)) low += third;
   }
-  if (!found) return 0;
+  if (!found) return -HUGE_VAL;
   for (double beyond = most; beyond - within > 1e-3 * most;) {
     const double middle = 0.5 * (within + beyond);
     const int touches = nsvcd__square_after(t, n, middle) <= square;
@@ -10255,15 +10256,21 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   return within;
 }
 
-// The same of normal k; how far is remembered.
-static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+// Remembers how deep a touch is along normal k.
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
-  if (!nsvcd__undoes(p, n, t)) return 0;
   p->needed = fmax(p->needed, lifted + most);
-  if (most > 0 && lifted + most > p->depths[k])
-    p->depths[k] = fmax(p->depths[k], lifted + nsvcd__way_out(t, n, p->given.clearance, most));
+  if (!(most > 0) || !(lifted + most > p->depths[k])) return;
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
+  p->depths[k] = fmax(p->depths[k], depth);
+}
+
+// Does normal k undo a touch? How far it has to is remembered.
+static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
+  nsvcd__note_depth(p, k, t);
   return 1;
 }
 
@@ -11655,6 +11662,41 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   }
 }
 
+// The normal along which a touch is undone first, by planes normal to it.
+static size_t nsvcd__shortest_way(const nsvcd__proof *p, const nsvcd__touch *t) {
+  size_t best = 0;
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < p->normal_count; k++) {
+    const double way = nsvcd__lift_along(p->normals[k], t->moving, t->fixed);
+    if (way < least) best = k;
+    least = fmin(least, way);
+  }
+  return best;
+}
+
+// What is not in touch at the start may be where the body is lifted to, and there may have been too
+// many touches: so it is lifted by no more than the depths that are known, to see what it touches
+// there, until it touches nothing.
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+  const nsvcd__f3 lift = still->lift;
+  p->ask.clearance = p->given.clearance;
+  for (int round = 0; round < NSVCD__DEEPEN; round++) {
+    const nsvcd__d3 least = nsvcd__lift_off(p, 0.5 * nsvcd__hair(p), 1);
+    double before = 0;
+    double after = 0;
+    for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
+    still->lift = nsvcd__f3_round(least);
+    p->touch_count = 0;
+    (void)nsvcd__prove_anew(p, search);
+    // what no plane normal to a lift parts is out of the way after it all the same
+    for (size_t n = 0; n < p->touch_count; n++)
+      nsvcd__note_depth(p, nsvcd__shortest_way(p, &p->of.touches[n]), &p->of.touches[n]);
+    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
+    if (!(after > 1.002 * before)) break;
+  }
+  still->lift = lift;
+}
+
 // Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
@@ -11670,6 +11712,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     p->ask.skin = least;
     is_free = nsvcd__lift_still(p, search, &start);
   }
+  if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
   p->ask.gathers = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
@@ -14263,6 +14306,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_logits NSVCD__AT(decoder_logits)
+#define nsvcd__deepen NSVCD__AT(deepen)
 #define nsvcd__deviation NSVCD__AT(deviation)
 #define nsvcd__discs_meet NSVCD__AT(discs_meet)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
@@ -14384,6 +14428,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_part NSVCD__AT(normals_part)
 #define nsvcd__not_parted NSVCD__AT(not_parted)
+#define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
@@ -14458,6 +14503,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
 #define nsvcd__share_of NSVCD__AT(share_of)
+#define nsvcd__shortest_way NSVCD__AT(shortest_way)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_items NSVCD__AT(sort_items)

@@ -1672,15 +1672,47 @@ static double proof_lifted_distance(const attack *a, const double *lift, double 
   return oracle_distance(&a->moving->oracle, &pose, &a->fixed->oracle, &fixed, NULL, NULL);
 }
 
+// Where the answer sends the bodies, are they apart?
+static int proof_is_safe(const attack *a) {
+  const oracle_pose moving = pose_widened(&a->answer.safe.a);
+  const oracle_pose fixed = pose_widened(&a->answer.safe.b);
+  return oracle_distance(&a->moving->oracle, &moving, &a->fixed->oracle, &fixed, NULL, NULL) > 0;
+}
+
+// Of a lift along one normal: do the bodies stay apart once they are lifted by the depth, to a
+// hundredth and what triangles are stored to, slanted as they may be; and by less, are they not?
+static void proof_check_depth(const attack *a, const double *lift, size_t *too_short,
+                              size_t *too_long) {
+  const double length = oracle_length(lift);
+  const double depth = (double)a->answer.depth;
+  const double quanta = (double)(nsvcd_body_describe(a->moving->body).quantum +
+                                 nsvcd_body_describe(a->fixed->body).quantum);
+  const double hair = 4 * quanta + 0.005 * depth;
+  double way[3];
+  int apart = 1;
+  for (int n = 0; n <= 20 && apart; n++) {
+    const double beyond = fmin(depth + hair + 0.05 * n * (length - depth - hair), length);
+    for (int k = 0; k < 3; k++) way[k] = lift[k] / length * beyond;
+    apart = proof_lifted_distance(a, way, 0) > 0;
+  }
+  *too_short += !apart;
+  for (int k = 0; k < 3; k++) way[k] = lift[k] / length * (depth - hair);
+  *too_long += depth > hair && proof_lifted_distance(a, way, 0) > hair;
+}
+
 // Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is
-// short.
+// short; where they are sent they are apart, and their depth is what it is.
 static void proof_lifts_are_true(void) {
   shapes_rng rng = {91};
   size_t asked = 0;
   size_t lifted = 0;
   size_t free_then = 0;
   size_t wrong = 0;
-  while (asked < 600) {
+  size_t deep = 0;
+  size_t too_short = 0;
+  size_t too_long = 0;
+  size_t unsafe = 0;
+  while (asked < 2400) {
     attack a;
     a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
     a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
@@ -1704,15 +1736,27 @@ static void proof_lifts_are_true(void) {
     CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
     for (int k = 0; k < 3; k++) lift[k] = (double)a.answer.lift[k];
     asked++;
-    lifted += oracle_length(lift) > 0;
-    CHECK_LE(oracle_length(lift), 4.001 * (double)skin);
+    const double length = oracle_length(lift);
+    lifted += length > 0;
+    CHECK_LE(length, 4.001 * (double)skin);
+    if (length > 0 && length < 1.001 * (double)skin) {
+      deep++;
+      proof_check_depth(&a, lift, &too_short, &too_long);
+    }
+    if (length > 0) unsafe += !proof_is_safe(&a);
     if (a.answer.verdict != NSVCD_FREE) continue;
     free_then++;
     for (int k = 0; k <= 20; k++) wrong += !(proof_lifted_distance(&a, lift, k / 20.0) > 0);
   }
   printf("  %zu bodies that touch: %zu lifted, %zu free then; %zu wrong\n", asked, lifted,
          free_then, wrong);
+  printf("  %zu depths, %zu too short, %zu too long; %zu places not safe\n", deep, too_short,
+         too_long, unsafe);
   CHECK_EQ(wrong, 0);
+  CHECK_EQ(unsafe, 0);
+  CHECK_EQ(too_short, 0);
+  // of lifts that several normals, nearly parallel, make
+  CHECK_LE(too_long, deep / 200);
   CHECK_GE(lifted, asked / 3);
   CHECK_GE(free_then, asked / 4);
 }

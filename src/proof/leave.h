@@ -132,6 +132,41 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   }
 }
 
+// The normal along which a touch is undone first, by planes normal to it.
+static size_t nsvcd__shortest_way(const nsvcd__proof *p, const nsvcd__touch *t) {
+  size_t best = 0;
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < p->normal_count; k++) {
+    const double way = nsvcd__lift_along(p->normals[k], t->moving, t->fixed);
+    if (way < least) best = k;
+    least = fmin(least, way);
+  }
+  return best;
+}
+
+// What is not in touch at the start may be where the body is lifted to, and there may have been too
+// many touches: so it is lifted by no more than the depths that are known, to see what it touches
+// there, until it touches nothing.
+static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
+  const nsvcd__f3 lift = still->lift;
+  p->ask.clearance = p->given.clearance;
+  for (int round = 0; round < NSVCD__DEEPEN; round++) {
+    const nsvcd__d3 least = nsvcd__lift_off(p, 0.5 * nsvcd__hair(p), 1);
+    double before = 0;
+    double after = 0;
+    for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
+    still->lift = nsvcd__f3_round(least);
+    p->touch_count = 0;
+    (void)nsvcd__prove_anew(p, search);
+    // what no plane normal to a lift parts is out of the way after it all the same
+    for (size_t n = 0; n < p->touch_count; n++)
+      nsvcd__note_depth(p, nsvcd__shortest_way(p, &p->of.touches[n]), &p->of.touches[n]);
+    for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
+    if (!(after > 1.002 * before)) break;
+  }
+  still->lift = lift;
+}
+
 // Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
 static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
@@ -147,6 +182,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     p->ask.skin = least;
     is_free = nsvcd__lift_still(p, search, &start);
   }
+  if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
   p->ask.gathers = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;

@@ -47,7 +47,7 @@ static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`. 0: it is all the way. On that way the distance is convex: thirds find
+// if it is so after `most`; -HUGE_VAL: it is all the way. On that way the distance is convex: thirds find
 // where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
                                           double most) {
@@ -69,7 +69,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
     if (before < after) high -= third;
     if (!(before < after)) low += third;
   }
-  if (!found) return 0;
+  if (!found) return -HUGE_VAL;
   for (double beyond = most; beyond - within > 1e-3 * most;) {
     const double middle = 0.5 * (within + beyond);
     const int touches = nsvcd__square_after(t, n, middle) <= square;
@@ -79,15 +79,21 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   return within;
 }
 
-// The same of normal k; how far is remembered.
-static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+// Remembers how deep a touch is along normal k.
+static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
-  if (!nsvcd__undoes(p, n, t)) return 0;
   p->needed = fmax(p->needed, lifted + most);
-  if (most > 0 && lifted + most > p->depths[k])
-    p->depths[k] = fmax(p->depths[k], lifted + nsvcd__way_out(t, n, p->given.clearance, most));
+  if (!(most > 0) || !(lifted + most > p->depths[k])) return;
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
+  p->depths[k] = fmax(p->depths[k], depth);
+}
+
+// Does normal k undo a touch? How far it has to is remembered.
+static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+  if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
+  nsvcd__note_depth(p, k, t);
   return 1;
 }
 
