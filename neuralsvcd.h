@@ -184,12 +184,13 @@
 //     hulls           planes between hulls
 //     couples         a triangle of each body, in double
 //     blocks          16 triangles at a time
+//     manifold        contact points that hold a body
 //     witnesses       two triangles that meet at one time
 //     items           an item: parted by planes, or by its triangles, or in contact
 //     containment     what is inside of what, exactly
 //     loop            the loop: all that a search finds is settled
 //     verdict         the verdict, the first contact, the least distance
-//     leave           leaving a contact
+//     leave           leaving a contact, and how deep it is
 //   network: an opinion
 //     latent_rotation Wigner matrices; latents turned by them
 //     winding_number  what is inside of what, for the network
@@ -667,6 +668,8 @@ typedef struct nsvcd_question {
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
   float tolerance;
+  // FIRST: 1: up to four contacts, which hold the body, are told, where else one is
+  int manifold;
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
   // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
@@ -734,6 +737,8 @@ typedef struct nsvcd_contact {
   uint32_t triangle_a, triangle_b;
   // that list them
   uint32_t patch_a, patch_b;
+  // of a manifold: of the corner, or the two edges, that touch; the same as long as they do
+  uint32_t id;
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
@@ -790,11 +795,13 @@ typedef struct nsvcd_answer {
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
   // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
-  // of a HIT whose triangles are known, at time.high
+  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of their ids.
+  // That is all places that are no farther apart than `to` (or the default, where only to_time is
+  // given) and the clearance, and of these the four that span most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
-  // the triangles that distance.high is about, whatever the verdict: of a HIT the first contact
-  // above; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
+  // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that
+  // was found; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
   // named where none were found. Of what is inside the point alone is set, one of it
   nsvcd_contact nearest;
   nsvcd_opinion opinion;
@@ -8385,6 +8392,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__SUPPORTS 8     // directions along which contact points are sought
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
 
@@ -8457,8 +8465,8 @@ typedef struct nsvcd__block {
 typedef struct nsvcd__contact {
   double tick;      // when
   double distance;  // of the triangles
-  // the fixed body's frame; out of the fixed body
-  nsvcd__d3 point, normal;
+  // the fixed body's frame; out of the fixed body; and against the moving triangle's own
+  nsvcd__d3 point, normal, other_normal;
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
@@ -8469,6 +8477,27 @@ typedef struct nsvcd__touch {
   // unit, from the fixed one's nearest point to the moving one's; 0: they meet
   nsvcd__d3 apart;
 } nsvcd__touch;
+
+// Places where the bodies touch when a contact is: proof/manifold.
+typedef struct nsvcd__manifold {
+  // unit: the contact's, and directions across it
+  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  // nearer than `reach` is touching; nearer to each other than `same` is the same place
+  double reach, same;
+  // the farthest along each: how far that is, -HUGE_VAL: there is none; and the number of the
+  // corner or the edges
+  nsvcd__contact supports[NSVCD__SUPPORTS];
+  double farthest[NSVCD__SUPPORTS];
+  uint32_t numbers[NSVCD__SUPPORTS];
+} nsvcd__manifold;
+
+// What is done with triangles that come within the clearance: they are contacts; or, of a motion at
+// rest, all are gathered, as touches or as supports.
+typedef enum nsvcd__gathering {
+  NSVCD__CONTACTS,
+  NSVCD__GATHER_TOUCHES,
+  NSVCD__GATHER_SUPPORTS
+} nsvcd__gathering;
 
 // What is said of a question in the end.
 typedef enum nsvcd__verdict {
@@ -8540,8 +8569,8 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // with a skin, contacts at the start are gathered, not taken; and how deep they may be
-  int gathers;
+  nsvcd__gathering gathers;
+  // how deep touches may be
   double skin;
 } nsvcd__asked;
 
@@ -8620,6 +8649,7 @@ typedef struct nsvcd__proof {
     nsvcd__item items[NSVCD__ITEMS];
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
+    nsvcd__manifold manifold;
   } of;
 
   // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
@@ -9622,6 +9652,10 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
+  nsvcd__d3 posed[3];
+  const nsvcd__placement at = nsvcd__placement_at(&p->arc, u);
+  nsvcd__place_triangle(&at, couple->moving, posed);
+  out.other_normal = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
@@ -10177,6 +10211,163 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 }
 #endif  // NSVCD_NO_PROOF
 
+// ---------------------------------------------------------------------------------- proof/manifold
+// In: couples of triangles that are near each other when a contact is. Out: up to four contact
+// points that hold the body: those that span the largest area seen along the contact's normal.
+//
+// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
+// such places the farthest along eight directions are kept, and of these the best four. Where two
+// are as far, the one with the lower number is: so the same are chosen again when little has moved.
+// Only normals that are much like the contact's count: where a side rises from the floor, the
+// corners of the floor's triangles are near the side as well, but it is not what the body stands on.
+
+#ifndef NSVCD_NO_PROOF
+// Prepares a manifold of contacts with about this normal, unit.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+  nsvcd__manifold *m = &p->of.manifold;
+  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
+  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
+  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
+  const nsvcd__d3 v = nsvcd__d3_cross(n, u);
+  memset(m, 0, sizeof *m);
+  m->normal = n;
+  m->reach = reach;
+  m->same = same;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__SUPPORTS);
+    m->along[k] =
+        nsvcd__d3_add(nsvcd__d3_scale(u, cos(angle)), nsvcd__d3_scale(v, sin(angle)));
+    m->farthest[k] = -HUGE_VAL;
+  }
+}
+
+// Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
+// face, or across two edges, either way round.
+static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
+                                             nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                             nsvcd__d3 normal, uint32_t number) {
+  nsvcd__manifold *m = &p->of.manifold;
+  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
+  const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(way, normal);
+  if (side * nsvcd__d3_dot(normal, m->normal) < 0.8) return;
+  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
+  nsvcd__contact contact;
+  int known = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double far = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = far - m->farthest[k];
+    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
+    if (!known) contact = nsvcd__contact_at(p, couple, 0, &nearest);
+    known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
+    m->supports[k] = contact;
+    m->numbers[k] = number;
+    m->farthest[k] = far;
+  }
+}
+
+// The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
+// fixed one.
+static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t kind) {
+  return (uint32_t)(3 * listing + corner) << 2 | kind;
+}
+
+// All places where a couple touches, to within the reach. posed: the moving triangle.
+static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
+                                                const nsvcd__d3 *posed) {
+  const nsvcd__manifold *m = &p->of.manifold;
+  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
+  nsvcd__d3 foot;
+  int is_farther = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
+    for (int i = 0; i < 3; i++)
+      is_farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+  }
+  for (size_t k = 0; k < 3 && is_farther; k++) {
+    const uint32_t moving_corner = nsvcd__support_number(couple->moving_listing, k, 0);
+    const uint32_t fixed_corner = nsvcd__support_number(couple->fixed_listing, k, 1);
+    if (nsvcd__foot_within(posed[k], fixed, &foot) &&
+        nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
+      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_corner);
+    if (nsvcd__foot_within(fixed[k], posed, &foot) &&
+        nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
+      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_corner);
+    for (size_t i = 0; i < 3; i++) {
+      const nsvcd__d3 *a = posed + k;
+      const nsvcd__d3 *b = posed + (k + 1) % 3;
+      const nsvcd__d3 *c = fixed + i;
+      const nsvcd__d3 *d = fixed + (i + 1) % 3;
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const double lengths =
+          nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
+      if (!(nsvcd__d3_dot(across, across) > 1e-4 * lengths)) continue;
+      nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
+      if (!(nearest.square <= m->reach * m->reach)) continue;
+      const uint32_t number =
+          moving_corner * 3 + fixed_corner * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, faces[1]), number | 2);
+    }
+  }
+}
+
+// Twice the area that four places span, seen along the normal.
+static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    const nsvcd__d3 a = m->supports[of[0]].point;
+    const nsvcd__d3 b = m->supports[of[1 + k]].point;
+    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
+    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
+    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
+    most = fmax(most, fabs(nsvcd__d3_dot(both, m->normal)));
+  }
+  return most;
+}
+
+// Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
+// how many.
+static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
+                                               double *area) {
+  int kept[NSVCD__SUPPORTS];
+  int count = 0;
+  // each place once, those with lower numbers first
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    int at = count;
+    int is_new = m->farthest[k] > -HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+      const nsvcd__d3 other = m->supports[kept[n]].point;
+      is_new &= nsvcd__d3_squared_distance(m->supports[k].point, other) > m->same * m->same;
+    }
+    if (!is_new) continue;
+    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
+    kept[at] = k;
+    count++;
+  }
+  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
+  *area = 0;
+  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
+  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
+  if (count <= 4) return count;
+  for (int all = 0; all < 1 << count; all++) {
+    int four[NSVCD__SUPPORTS];
+    int size = 0;
+    for (int n = 0; n < count; n++)
+      if (all >> n & 1) four[size++] = kept[n];
+    if (size != 4) continue;
+    const double spanned = nsvcd__spanned(m, four);
+    if (!(spanned > 1.001 * *area)) continue;
+    *area = spanned;
+    memcpy(chosen, four, 4 * sizeof *chosen);
+  }
+  return 4;
+}
+#endif  // NSVCD_NO_PROOF
+
 // --------------------------------------------------------------------------------- proof/witnesses
 // In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
 // within the clearance; with a skin, what touches at the start and which directions undo it.
@@ -10318,10 +10509,9 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers) {
-        nsvcd__gather_contact(p, &couple, posed);
-        continue;
-      }
+      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) nsvcd__gather_contact(p, &couple, posed);
+      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) nsvcd__gather_supports(p, &couple, posed);
+      if (p->ask.gathers) continue;
       const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
@@ -11703,7 +11893,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = 1;
+  p->ask.gathers = NSVCD__GATHER_TOUCHES;
   p->ask.skin = p->given.skin;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);
@@ -11713,7 +11903,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     is_free = nsvcd__lift_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
-  p->ask.gathers = 0;
+  p->ask.gathers = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
   whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
@@ -13140,15 +13330,13 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
-// To how many of the fixed body's units an answer is asked for; 0: FIRST asks for a share of the
-// motion alone.
+// To how many of the fixed body's units an answer is asked for, or is by default.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
   const float moving = task->motion.scale * task->moving->radius;
   const float fixed = task->fixed->radius;
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
-  if (q->to > 0) return (double)(q->to / task->motion.unit);
-  return q->ask == NSVCD_ASK_FIRST && q->to_time > 0 ? 0 : (double)usual;
+  return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
@@ -13186,13 +13374,17 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
+  p->touch_count = p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.is_brief = p->within = p->unclear = p->wide = 0;
   const double to = nsvcd__to_of(task);
+  const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
-    p->given.share = p->ask.share = nsvcd__share_of(p, to, (double)q->to_time);
+    p->given.share = nsvcd__share_of(p, by_time ? 0 : to, (double)q->to_time);
+  p->ask.share = p->given.share;
   nsvcd__proof_restart(p);
 }
 
@@ -13280,6 +13472,74 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
+// The bodies as they are at time t, as a motion of its own, with the fixed one's origin in the
+// world's: places in its frame are as exact as if it were there.
+static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
+  nsvcd__motion still = task->motion;
+  const nsvcd__to_world world = nsvcd__to_world_at(&still, t);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(still.lift));
+  const nsvcd__track moving_track = {&poses[0], 1, 0};
+  const nsvcd__track fixed_track = {&poses[1], 1, 0};
+  nsvcd__d3 place;
+  nsvcd__poses_at(task, t, nsvcd__d3_of(0, 0, 0), &poses[0], &poses[1]);
+  (void)nsvcd__turn_at(&still, &still.moving, t, &place);
+  place = nsvcd__d3_sub(place, world.position);
+  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, world.unit));
+  nsvcd__f3_store(nsvcd__f3_round(place), poses[0].position);
+  memset(poses[1].position, 0, sizeof poses[1].position);
+  nsvcd__motion_set_tracks(&still, moving_track, fixed_track);
+  still.lift = nsvcd__f3_of(0, 0, 0);
+  return still;
+}
+
+// Gathers a manifold of contacts with about this normal, which chooses some of its supports and says
+// what they span. All else that was known of the question is lost.
+static int nsvcd__gather_manifold(nsvcd__query *query, nsvcd__motion *still, nsvcd__d3 normal,
+                                  int *chosen, double *area) {
+  nsvcd__proof *p = query->proof;
+  nsvcd__motion *whole = p->ask.motion;
+  const double hair = nsvcd__hair(p);
+  const double reach = p->given.clearance + fmax(nsvcd__to_of(&query->task), 4 * hair);
+  nsvcd__manifold_begin(p, normal, reach, hair + 1e-5 * (double)p->given.lengths);
+  p->ask.motion = still;
+  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.clearance = reach;
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.clearance = p->given.clearance;
+  p->ask.motion = whole;
+  return nsvcd__manifold_choose(&p->of.manifold, chosen, area);
+}
+
+// The manifold of the contact that was found. Where a body stands, that may be one of a side that
+// rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
+static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  const nsvcd__contact found = p->known.found;
+  const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
+  const int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  double widest = -1;
+  nsvcd_pose poses[2];
+  nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
+  for (int k = 0; k < tries; k++) {
+    int chosen[NSVCD_MAX_CONTACTS];
+    double area;
+    const int count = nsvcd__gather_manifold(query, &still, normals[k], chosen, &area);
+    if (count == 0 || !(area > 1.001 * widest)) continue;
+    widest = area;
+    answer->contact_count = (size_t)count;
+    for (int n = 0; n < count; n++) {
+      nsvcd__contact support = p->of.manifold.supports[chosen[n]];
+      support.tick = found.tick;
+      nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
+      // which body a corner is of
+      answer->contacts[n].id = p->of.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+    }
+  }
+}
+
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
 // contact at the start.
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
@@ -13302,6 +13562,7 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
 // Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
+  const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
@@ -13330,7 +13591,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  answer->work = p->work;
   if (names || is_within)
     nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
@@ -13363,7 +13623,9 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
+  answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13416,6 +13678,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   }
   if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
   if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
+  if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
   const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
   if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
@@ -14189,6 +14452,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__BY_DISC NSVCD__NUMBER_AT(BY_DISC)
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
+#define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
 #define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
@@ -14203,6 +14467,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
 #define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
 #define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
+#define NSVCD__GATHER_SUPPORTS NSVCD__NUMBER_AT(GATHER_SUPPORTS)
+#define NSVCD__GATHER_TOUCHES NSVCD__NUMBER_AT(GATHER_TOUCHES)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
@@ -14330,6 +14596,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__forget NSVCD__AT(forget)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
 #define nsvcd__gather_items NSVCD__AT(gather_items)
+#define nsvcd__gather_manifold NSVCD__AT(gather_manifold)
+#define nsvcd__gather_supports NSVCD__AT(gather_supports)
+#define nsvcd__gathering NSVCD__AT(gathering)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
@@ -14368,6 +14637,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
 #define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
+#define nsvcd__keep_support NSVCD__AT(keep_support)
 #define nsvcd__knots NSVCD__AT(knots)
 #define nsvcd__knots_keep NSVCD__AT(knots_keep)
 #define nsvcd__knots_load NSVCD__AT(knots_load)
@@ -14394,6 +14664,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
+#define nsvcd__manifold NSVCD__AT(manifold)
+#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
+#define nsvcd__manifold_choose NSVCD__AT(manifold_choose)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
@@ -14468,6 +14741,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
+#define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
 #define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
 #define nsvcd__row_left NSVCD__AT(row_left)
@@ -14510,6 +14784,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__span NSVCD__AT(span)
 #define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
 #define nsvcd__span_of_segment NSVCD__AT(span_of_segment)
+#define nsvcd__spanned NSVCD__AT(spanned)
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
@@ -14520,6 +14795,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
+#define nsvcd__support_number NSVCD__AT(support_number)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__surroundings NSVCD__AT(surroundings)
 #define nsvcd__swap_answer NSVCD__AT(swap_answer)
@@ -14534,6 +14810,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__takes_lift NSVCD__AT(takes_lift)
 #define nsvcd__task NSVCD__AT(task)
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
+#define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
 #define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)

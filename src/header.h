@@ -248,12 +248,13 @@ extern "C" {
 #include "proof/hulls.h"      // planes between hulls
 #include "proof/couples.h"    // a triangle of each body, in double
 #include "proof/blocks.h"     // 16 triangles at a time
+#include "proof/manifold.h"   // contact points that hold a body
 #include "proof/witnesses.h"  // two triangles that meet at one time
 #include "proof/items.h"      // an item: parted by planes, or by its triangles, or in contact
 #include "proof/containment.h"  // what is inside of what, exactly
 #include "proof/loop.h"         // the loop: all that a search finds is settled
 #include "proof/verdict.h"      // the verdict, the first contact, the least distance
-#include "proof/leave.h"        // leaving a contact
+#include "proof/leave.h"        // leaving a contact, and how deep it is
 
 // ============================================================================= network: an opinion
 #include "network/latent_rotation.h"  // Wigner matrices; latents turned by them

@@ -99,6 +99,8 @@ typedef struct nsvcd_question {
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
   float tolerance;
+  // FIRST: 1: up to four contacts, which hold the body, are told, where else one is
+  int manifold;
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
   // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
@@ -166,6 +168,8 @@ typedef struct nsvcd_contact {
   uint32_t triangle_a, triangle_b;
   // that list them
   uint32_t patch_a, patch_b;
+  // of a manifold: of the corner, or the two edges, that touch; the same as long as they do
+  uint32_t id;
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
@@ -222,11 +226,13 @@ typedef struct nsvcd_answer {
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
   // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
-  // of a HIT whose triangles are known, at time.high
+  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of their ids.
+  // That is all places that are no farther apart than `to` (or the default, where only to_time is
+  // given) and the clearance, and of these the four that span most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
-  // the triangles that distance.high is about, whatever the verdict: of a HIT the first contact
-  // above; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
+  // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that
+  // was found; of what is UNDECIDED two that come too near to tell, of FIRST the earliest. None are
   // named where none were found. Of what is inside the point alone is set, one of it
   nsvcd_contact nearest;
   nsvcd_opinion opinion;

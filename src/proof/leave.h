@@ -173,7 +173,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = 1;
+  p->ask.gathers = NSVCD__GATHER_TOUCHES;
   p->ask.skin = p->given.skin;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);
@@ -183,7 +183,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     is_free = nsvcd__lift_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
-  p->ask.gathers = 0;
+  p->ask.gathers = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
   whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);

@@ -106,6 +106,7 @@
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__SUPPORTS 8     // directions along which contact points are sought
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
 
@@ -178,8 +179,8 @@ typedef struct nsvcd__block {
 typedef struct nsvcd__contact {
   double tick;      // when
   double distance;  // of the triangles
-  // the fixed body's frame; out of the fixed body
-  nsvcd__d3 point, normal;
+  // the fixed body's frame; out of the fixed body; and against the moving triangle's own
+  nsvcd__d3 point, normal, other_normal;
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
@@ -190,6 +191,27 @@ typedef struct nsvcd__touch {
   // unit, from the fixed one's nearest point to the moving one's; 0: they meet
   nsvcd__d3 apart;
 } nsvcd__touch;
+
+// Places where the bodies touch when a contact is: proof/manifold.
+typedef struct nsvcd__manifold {
+  // unit: the contact's, and directions across it
+  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  // nearer than `reach` is touching; nearer to each other than `same` is the same place
+  double reach, same;
+  // the farthest along each: how far that is, -HUGE_VAL: there is none; and the number of the
+  // corner or the edges
+  nsvcd__contact supports[NSVCD__SUPPORTS];
+  double farthest[NSVCD__SUPPORTS];
+  uint32_t numbers[NSVCD__SUPPORTS];
+} nsvcd__manifold;
+
+// What is done with triangles that come within the clearance: they are contacts; or, of a motion at
+// rest, all are gathered, as touches or as supports.
+typedef enum nsvcd__gathering {
+  NSVCD__CONTACTS,
+  NSVCD__GATHER_TOUCHES,
+  NSVCD__GATHER_SUPPORTS
+} nsvcd__gathering;
 
 // What is said of a question in the end.
 typedef enum nsvcd__verdict {
@@ -261,8 +283,8 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // with a skin, contacts at the start are gathered, not taken; and how deep they may be
-  int gathers;
+  nsvcd__gathering gathers;
+  // how deep touches may be
   double skin;
 } nsvcd__asked;
 
@@ -341,6 +363,7 @@ typedef struct nsvcd__proof {
     nsvcd__item items[NSVCD__ITEMS];
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
+    nsvcd__manifold manifold;
   } of;
 
   // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed

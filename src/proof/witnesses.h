@@ -1,7 +1,7 @@
 // In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
 // within the clearance; with a skin, what touches at the start and which directions undo it.
 #pragma once
-#include "couples.h"
+#include "manifold.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -141,10 +141,9 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers) {
-        nsvcd__gather_contact(p, &couple, posed);
-        continue;
-      }
+      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) nsvcd__gather_contact(p, &couple, posed);
+      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) nsvcd__gather_supports(p, &couple, posed);
+      if (p->ask.gathers) continue;
       const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.

@@ -31,15 +31,13 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
   return out;
 }
 
-// To how many of the fixed body's units an answer is asked for; 0: FIRST asks for a share of the
-// motion alone.
+// To how many of the fixed body's units an answer is asked for, or is by default.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
   const float moving = task->motion.scale * task->moving->radius;
   const float fixed = task->fixed->radius;
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
-  if (q->to > 0) return (double)(q->to / task->motion.unit);
-  return q->ask == NSVCD_ASK_FIRST && q->to_time > 0 ? 0 : (double)usual;
+  return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
@@ -77,13 +75,17 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
+  p->touch_count = p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.is_brief = p->within = p->unclear = p->wide = 0;
   const double to = nsvcd__to_of(task);
+  const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
-    p->given.share = p->ask.share = nsvcd__share_of(p, to, (double)q->to_time);
+    p->given.share = nsvcd__share_of(p, by_time ? 0 : to, (double)q->to_time);
+  p->ask.share = p->given.share;
   nsvcd__proof_restart(p);
 }
 
@@ -171,6 +173,74 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
+// The bodies as they are at time t, as a motion of its own, with the fixed one's origin in the
+// world's: places in its frame are as exact as if it were there.
+static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
+  nsvcd__motion still = task->motion;
+  const nsvcd__to_world world = nsvcd__to_world_at(&still, t);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(still.lift));
+  const nsvcd__track moving_track = {&poses[0], 1, 0};
+  const nsvcd__track fixed_track = {&poses[1], 1, 0};
+  nsvcd__d3 place;
+  nsvcd__poses_at(task, t, nsvcd__d3_of(0, 0, 0), &poses[0], &poses[1]);
+  (void)nsvcd__turn_at(&still, &still.moving, t, &place);
+  place = nsvcd__d3_sub(place, world.position);
+  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, world.unit));
+  nsvcd__f3_store(nsvcd__f3_round(place), poses[0].position);
+  memset(poses[1].position, 0, sizeof poses[1].position);
+  nsvcd__motion_set_tracks(&still, moving_track, fixed_track);
+  still.lift = nsvcd__f3_of(0, 0, 0);
+  return still;
+}
+
+// Gathers a manifold of contacts with about this normal, which chooses some of its supports and says
+// what they span. All else that was known of the question is lost.
+static int nsvcd__gather_manifold(nsvcd__query *query, nsvcd__motion *still, nsvcd__d3 normal,
+                                  int *chosen, double *area) {
+  nsvcd__proof *p = query->proof;
+  nsvcd__motion *whole = p->ask.motion;
+  const double hair = nsvcd__hair(p);
+  const double reach = p->given.clearance + fmax(nsvcd__to_of(&query->task), 4 * hair);
+  nsvcd__manifold_begin(p, normal, reach, hair + 1e-5 * (double)p->given.lengths);
+  p->ask.motion = still;
+  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.clearance = reach;
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.clearance = p->given.clearance;
+  p->ask.motion = whole;
+  return nsvcd__manifold_choose(&p->of.manifold, chosen, area);
+}
+
+// The manifold of the contact that was found. Where a body stands, that may be one of a side that
+// rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
+static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+  nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
+  const nsvcd__contact found = p->known.found;
+  const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
+  const int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  double widest = -1;
+  nsvcd_pose poses[2];
+  nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
+  for (int k = 0; k < tries; k++) {
+    int chosen[NSVCD_MAX_CONTACTS];
+    double area;
+    const int count = nsvcd__gather_manifold(query, &still, normals[k], chosen, &area);
+    if (count == 0 || !(area > 1.001 * widest)) continue;
+    widest = area;
+    answer->contact_count = (size_t)count;
+    for (int n = 0; n < count; n++) {
+      nsvcd__contact support = p->of.manifold.supports[chosen[n]];
+      support.tick = found.tick;
+      nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
+      // which body a corner is of
+      answer->contacts[n].id = p->of.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+    }
+  }
+}
+
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
 // contact at the start.
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
@@ -193,6 +263,7 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
 // Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
+  const nsvcd_question *q = task->question;
   const double unit = (double)task->motion.unit;
   nsvcd__search *search = &query->broad_phase;
   nsvcd__proof *p = query->proof;
@@ -221,7 +292,6 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  answer->work = p->work;
   if (names || is_within)
     nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
@@ -254,6 +324,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
       nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
   const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
   nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
+  answer->work = p->work;
 }
 #endif  // NSVCD_NO_PROOF

@@ -49,6 +49,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   }
   if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
   if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
+  if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
   const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
   if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;

@@ -1,0 +1,157 @@
+// In: couples of triangles that are near each other when a contact is. Out: up to four contact
+// points that hold the body: those that span the largest area seen along the contact's normal.
+//
+// Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
+// such places the farthest along eight directions are kept, and of these the best four. Where two
+// are as far, the one with the lower number is: so the same are chosen again when little has moved.
+// Only normals that are much like the contact's count: where a side rises from the floor, the
+// corners of the floor's triangles are near the side as well, but it is not what the body stands on.
+#pragma once
+#include "couples.h"
+
+#ifndef NSVCD_NO_PROOF
+// Prepares a manifold of contacts with about this normal, unit.
+static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+  nsvcd__manifold *m = &p->of.manifold;
+  const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
+  const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
+  const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
+  const nsvcd__d3 v = nsvcd__d3_cross(n, u);
+  memset(m, 0, sizeof *m);
+  m->normal = n;
+  m->reach = reach;
+  m->same = same;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__SUPPORTS);
+    m->along[k] =
+        nsvcd__d3_add(nsvcd__d3_scale(u, cos(angle)), nsvcd__d3_scale(v, sin(angle)));
+    m->farthest[k] = -HUGE_VAL;
+  }
+}
+
+// Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
+// face, or across two edges, either way round.
+static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
+                                             nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                             nsvcd__d3 normal, uint32_t number) {
+  nsvcd__manifold *m = &p->of.manifold;
+  const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
+  const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
+  const double gap = side * nsvcd__d3_dot(way, normal);
+  if (side * nsvcd__d3_dot(normal, m->normal) < 0.8) return;
+  nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
+  nsvcd__contact contact;
+  int known = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double far = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = far - m->farthest[k];
+    if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
+    if (!known) contact = nsvcd__contact_at(p, couple, 0, &nearest);
+    known = 1;
+    contact.normal = nsvcd__d3_scale(normal, side);
+    m->supports[k] = contact;
+    m->numbers[k] = number;
+    m->farthest[k] = far;
+  }
+}
+
+// The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
+// fixed one.
+static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t kind) {
+  return (uint32_t)(3 * listing + corner) << 2 | kind;
+}
+
+// All places where a couple touches, to within the reach. posed: the moving triangle.
+static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
+                                                const nsvcd__d3 *posed) {
+  const nsvcd__manifold *m = &p->of.manifold;
+  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
+  nsvcd__d3 foot;
+  int is_farther = 0;
+  for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
+    for (int i = 0; i < 3; i++)
+      is_farther |=
+          nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+  }
+  for (size_t k = 0; k < 3 && is_farther; k++) {
+    const uint32_t moving_corner = nsvcd__support_number(couple->moving_listing, k, 0);
+    const uint32_t fixed_corner = nsvcd__support_number(couple->fixed_listing, k, 1);
+    if (nsvcd__foot_within(posed[k], fixed, &foot) &&
+        nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
+      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_corner);
+    if (nsvcd__foot_within(fixed[k], posed, &foot) &&
+        nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
+      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_corner);
+    for (size_t i = 0; i < 3; i++) {
+      const nsvcd__d3 *a = posed + k;
+      const nsvcd__d3 *b = posed + (k + 1) % 3;
+      const nsvcd__d3 *c = fixed + i;
+      const nsvcd__d3 *d = fixed + (i + 1) % 3;
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const double lengths =
+          nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
+      if (!(nsvcd__d3_dot(across, across) > 1e-4 * lengths)) continue;
+      nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
+      if (!(nearest.square <= m->reach * m->reach)) continue;
+      const uint32_t number =
+          moving_corner * 3 + fixed_corner * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
+                          nsvcd__d3_unit(across, faces[1]), number | 2);
+    }
+  }
+}
+
+// Twice the area that four places span, seen along the normal.
+static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
+  double most = 0;
+  for (int k = 0; k < 3; k++) {
+    const nsvcd__d3 a = m->supports[of[0]].point;
+    const nsvcd__d3 b = m->supports[of[1 + k]].point;
+    const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
+    const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
+    const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
+    most = fmax(most, fabs(nsvcd__d3_dot(both, m->normal)));
+  }
+  return most;
+}
+
+// Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
+// how many.
+static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
+                                               double *area) {
+  int kept[NSVCD__SUPPORTS];
+  int count = 0;
+  // each place once, those with lower numbers first
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    int at = count;
+    int is_new = m->farthest[k] > -HUGE_VAL;
+    for (int n = 0; n < count; n++) {
+      const nsvcd__d3 other = m->supports[kept[n]].point;
+      is_new &= nsvcd__d3_squared_distance(m->supports[k].point, other) > m->same * m->same;
+    }
+    if (!is_new) continue;
+    for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
+    kept[at] = k;
+    count++;
+  }
+  memcpy(chosen, kept, sizeof(int) * (size_t)(count < 4 ? count : 4));
+  *area = 0;
+  for (int n = count; n < 4 && count > 0; n++) kept[n] = kept[count - 1];
+  if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
+  if (count <= 4) return count;
+  for (int all = 0; all < 1 << count; all++) {
+    int four[NSVCD__SUPPORTS];
+    int size = 0;
+    for (int n = 0; n < count; n++)
+      if (all >> n & 1) four[size++] = kept[n];
+    if (size != 4) continue;
+    const double spanned = nsvcd__spanned(m, four);
+    if (!(spanned > 1.001 * *area)) continue;
+    *area = spanned;
+    memcpy(chosen, four, 4 * sizeof *chosen);
+  }
+  return 4;
+}
+#endif  // NSVCD_NO_PROOF
