@@ -10250,7 +10250,10 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(way, normal);
-  if (side * nsvcd__d3_dot(normal, m->normal) < 0.8) return;
+  const double aside = nsvcd__d3_dot(way, way) - gap * gap;
+  // past the end of an edge they are not over each other
+  if (side * nsvcd__d3_dot(normal, m->normal) < 0.8 || aside > 0.01 * m->same * m->same)
+    return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
@@ -10273,12 +10276,34 @@ static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t ki
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
+// Could places on these two patches be farther than those that are kept? They are within both
+// spheres, the moving one at the pose `at`.
+static int nsvcd__may_support(const nsvcd__proof *p, const nsvcd__placement *at, size_t i,
+                              size_t j) {
+  const nsvcd__manifold *m = &p->of.manifold;
+  const nsvcd__d3 moving = nsvcd__d3_widen(nsvcd__facet_centre(&p->moving, i));
+  const nsvcd__d3 place = nsvcd__place_point(at, moving);
+  const nsvcd__d3 fixed = nsvcd__d3_widen(nsvcd__facet_centre(&p->fixed, j));
+  const double r =
+      (double)(p->ask.motion->scale * nsvcd__body_r(p->moving.body)[i]) + m->reach;
+  const double s = (double)nsvcd__body_r(p->fixed.body)[j];
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const double least = m->farthest[k] - 2 * m->same;
+    const int by_moving = nsvcd__d3_dot(m->along[k], place) + r > least;
+    if (by_moving && nsvcd__d3_dot(m->along[k], fixed) + s > least) return 1;
+  }
+  return 0;
+}
+
 // All places where a couple touches, to within the reach. posed: the moving triangle.
 static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
                                                 const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
+  // faces look at each other
+  const int moving_faces = p->moving.body->open || nsvcd__d3_dot(faces[0], m->normal) <= 0;
+  const int fixed_faces = p->fixed.body->open || nsvcd__d3_dot(faces[1], m->normal) >= 0;
   nsvcd__d3 foot;
   int is_farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
@@ -10289,10 +10314,10 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
   for (size_t k = 0; k < 3 && is_farther; k++) {
     const uint32_t moving_corner = nsvcd__support_number(couple->moving_listing, k, 0);
     const uint32_t fixed_corner = nsvcd__support_number(couple->fixed_listing, k, 1);
-    if (nsvcd__foot_within(posed[k], fixed, &foot) &&
+    if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_corner);
-    if (nsvcd__foot_within(fixed[k], posed, &foot) &&
+    if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_corner);
     for (size_t i = 0; i < 3; i++) {
@@ -10884,11 +10909,16 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together.
+// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together, or as was
+// allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
+    if (p->ask.gathers == NSVCD__GATHER_SUPPORTS &&
+        !nsvcd__may_support(p, &at, item->moving, item->fixed))
+      continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
     (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
@@ -14671,6 +14701,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
+#define nsvcd__may_support NSVCD__AT(may_support)
 #define nsvcd__mean_direction NSVCD__AT(mean_direction)
 #define nsvcd__measure NSVCD__AT(measure)
 #define nsvcd__measure_once NSVCD__AT(measure_once)

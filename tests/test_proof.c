@@ -460,7 +460,7 @@ static void proof_report(const char *name, const replay *sum) {
 // witnesses
 
 static struct {
-  size_t count;
+  size_t count, supports;
   double worst_gap, worst_normal;  // over what is allowed
   size_t no_normal, off[3];  // normals that are 0, or off by more than 0.001, 0.01, 0.1 radians
 } witnesses;
@@ -600,6 +600,53 @@ static void proof_check_witness(const attack *a) {
   CHECK_EQ(w->contact_count, 1);
   CHECK_EQ(memcmp(&w->contacts[0], &w->nearest, sizeof w->nearest), 0);
   proof_check_triangles(a, 1);
+}
+
+// Of a manifold: each point is where its triangles are, as near to each other as it says, and that
+// is no more than what was asked for. All else is as without.
+static void proof_check_manifold(attack *a, const nsvcd_question *asked) {
+  const nsvcd_answer alone = a->answer;
+  nsvcd_question question = *asked;
+  question.manifold = 1;
+  CHECK_EQ(proof_ask_with(a, &question), NSVCD_OK);
+  const nsvcd_answer *w = &a->answer;
+  const double t = (double)w->time.high;
+  const oracle_pose pose = proof_pose_at(&a->motion.moving, t);
+  const oracle_pose fixed = proof_pose_at(&a->motion.fixed, t);
+  const double scales[2] = {(double)a->motion.moving.scale, (double)a->motion.fixed.scale};
+  const double sizes[2] = {scales[0] * a->moving->size, scales[1] * a->fixed->size};
+  const double far = oracle_length(fixed.position) + oracle_length(pose.position);
+  const double moved = proof_speed_bound(a, t, 3e-8) + 1e-6 * (sizes[0] + sizes[1]) + 1e-7 * far;
+  double radii[2], quanta = 0;
+  for (int k = 0; k < 2; k++) {
+    const nsvcd_body_facts facts = nsvcd_body_describe(k ? a->fixed->body : a->moving->body);
+    radii[k] = scales[k] * (double)facts.radius;
+    quanta += scales[k] * (double)facts.quantum;
+  }
+  const double hair = quanta + moved;
+  const double to = (double)NSVCD_DEFAULT_TO * fmin(radii[0], radii[1]);
+  const double reach = 1.001 * fmax(to, 4 * quanta) + hair;
+  CHECK_EQ(memcmp(&alone.nearest, &w->nearest, sizeof w->nearest), 0);
+  CHECK_EQ(memcmp(&alone.safe, &w->safe, sizeof w->safe), 0);
+  CHECK_EQ(memcmp(&alone.time, &w->time, sizeof w->time), 0);
+  CHECK(w->contact_count >= 1 && w->contact_count <= NSVCD_MAX_CONTACTS);
+  for (size_t n = 0; n < w->contact_count; n++) {
+    const nsvcd_contact *c = &w->contacts[n];
+    const oracle_triangle x = proof_world_triangle(a->moving, c->triangle_a, &pose, scales[0]);
+    const oracle_triangle y = proof_world_triangle(a->fixed, c->triangle_b, &fixed, scales[1]);
+    const oracle_triangle point = proof_point_triangle(c->point);
+    const double off[2] = {proof_triangle_distance(&x, &point),
+                           proof_triangle_distance(&y, &point)};
+    const double normal[3] = {(double)c->normal[0], (double)c->normal[1], (double)c->normal[2]};
+    if (w->contact_count > 1) CHECK_NEAR(oracle_length(normal), 1, 1e-6);
+    CHECK_LE(fmin(off[0], off[1]), hair);
+    CHECK_LE(fmax(off[0], off[1]), reach);
+    CHECK_LE(c->gap, reach);
+    CHECK_LE(proof_triangle_distance(&x, &y), (double)c->gap + reach);
+    if (n > 0) CHECK(c->id > c[-1].id);
+  }
+  witnesses.supports += w->contact_count;
+  a->answer = alone;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -1286,6 +1333,7 @@ static void proof_check_first(attack *a, float tolerance, timing_sum *sum) {
   sum->at_start += at_start;
   if (at_start) CHECK_EQ(first->nearest.time, 0);
   proof_check_lateness(a, (double)tolerance, 0, sum);
+  proof_check_manifold(a, &options);
 }
 
 // What comes within the tolerance may be left undecided, but is not called a contact.
@@ -2744,11 +2792,12 @@ void test_proof(void) {
   RUN(proof_triangles_listed_twice);
   RUN(proof_half_turns);
   printf(
-      "  %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; off by 0.001, 0.01, 0.1: "
+      "  %zu points of manifolds; %zu witnesses, gap at most %.3g of what is allowed, normal %.3g; "
+      "off by 0.001, 0.01, 0.1: "
       "%zu, %zu, %zu; "
       "none: %zu\n",
-      witnesses.count, witnesses.worst_gap, witnesses.worst_normal, witnesses.off[0],
-      witnesses.off[1], witnesses.off[2], witnesses.no_normal);
+      witnesses.supports, witnesses.count, witnesses.worst_gap, witnesses.worst_normal,
+      witnesses.off[0], witnesses.off[1], witnesses.off[2], witnesses.no_normal);
 }
 
 CHECK_ALONE(test_proof)

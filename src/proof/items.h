@@ -300,11 +300,16 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together.
+// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together, or as was
+// allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
+    if (p->ask.gathers == NSVCD__GATHER_SUPPORTS &&
+        !nsvcd__may_support(p, &at, item->moving, item->fixed))
+      continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
     (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
