@@ -8392,7 +8392,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__SUPPORTS 8     // directions along which contact points are sought
+#define NSVCD__SUPPORTS 8     // directions along which contact points are sought, and
+#define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
 
@@ -8646,10 +8647,12 @@ typedef struct nsvcd__proof {
   size_t fresh_count, count, misses;
   nsvcd__item fresh[NSVCD__FRESH];
   union {
-    nsvcd__item items[NSVCD__ITEMS];
+    struct {
+      nsvcd__item items[NSVCD__ITEMS];
+      nsvcd__manifold manifold;
+    } kept;
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
-    nsvcd__manifold manifold;
   } of;
 
   // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
@@ -10224,7 +10227,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit.
 static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
-  nsvcd__manifold *m = &p->of.manifold;
+  nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
@@ -10246,7 +10249,7 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
 static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
                                              nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.manifold;
+  nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(way, normal);
@@ -10276,34 +10279,17 @@ static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t ki
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
-// Could places on these two patches be farther than those that are kept? They are within both
-// spheres, the moving one at the pose `at`.
-static int nsvcd__may_support(const nsvcd__proof *p, const nsvcd__placement *at, size_t i,
-                              size_t j) {
-  const nsvcd__manifold *m = &p->of.manifold;
-  const nsvcd__d3 moving = nsvcd__d3_widen(nsvcd__facet_centre(&p->moving, i));
-  const nsvcd__d3 place = nsvcd__place_point(at, moving);
-  const nsvcd__d3 fixed = nsvcd__d3_widen(nsvcd__facet_centre(&p->fixed, j));
-  const double r =
-      (double)(p->ask.motion->scale * nsvcd__body_r(p->moving.body)[i]) + m->reach;
-  const double s = (double)nsvcd__body_r(p->fixed.body)[j];
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double least = m->farthest[k] - 2 * m->same;
-    const int by_moving = nsvcd__d3_dot(m->along[k], place) + r > least;
-    if (by_moving && nsvcd__d3_dot(m->along[k], fixed) + s > least) return 1;
-  }
-  return 0;
-}
-
 // All places where a couple touches, to within the reach. posed: the moving triangle.
 static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
                                                 const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.manifold;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
-  // faces look at each other
-  const int moving_faces = p->moving.body->open || nsvcd__d3_dot(faces[0], m->normal) <= 0;
-  const int fixed_faces = p->fixed.body->open || nsvcd__d3_dot(faces[1], m->normal) >= 0;
+  // faces look at each other, along the normal
+  const double moving_looks = -nsvcd__d3_dot(faces[0], m->normal);
+  const double fixed_looks = nsvcd__d3_dot(faces[1], m->normal);
+  const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
+  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
   nsvcd__d3 foot;
   int is_farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
@@ -10327,9 +10313,11 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
       const nsvcd__d3 *d = fixed + (i + 1) % 3;
       nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
       const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const double along = nsvcd__d3_dot(across, m->normal);
       const double lengths =
           nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
-      if (!(nsvcd__d3_dot(across, across) > 1e-4 * lengths)) continue;
+      const double square = nsvcd__d3_dot(across, across);
+      if (!(square > 1e-4 * lengths) || along * along < 0.64 * square) continue;
       nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number =
@@ -10527,6 +10515,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
+      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) {
+        nsvcd__gather_supports(p, &couple, posed);
+        continue;
+      }
       if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
         nearest.on_a = nearest.on_b;
       } else {
@@ -10534,9 +10526,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) nsvcd__gather_contact(p, &couple, posed);
-      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) nsvcd__gather_supports(p, &couple, posed);
-      if (p->ask.gathers) continue;
+      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+        nsvcd__gather_contact(p, &couple, posed);
+        continue;
+      }
       const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
@@ -10851,9 +10844,9 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
 // Settles the items that no plane parts.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
                                                        nsvcd__search *search) {
-  nsvcd__sort_items(p, p->of.items, p->count);
+  nsvcd__sort_items(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__item *item = &p->of.items[n];
+    const nsvcd__item *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_spent(p)) return NSVCD__SPENT;
     nsvcd__clip_segment(p, search);
@@ -10904,28 +10897,86 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
       const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
       if (outcome != NSVCD__SETTLED) return outcome;
     }
-    p->of.items[p->count++] = *item;
+    p->of.kept.items[p->count++] = *item;
   }
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together, or as was
+// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as much as can be looked at together, or as was
 // allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->ask.gathers == NSVCD__GATHER_SUPPORTS &&
-        !nsvcd__may_support(p, &at, item->moving, item->fixed))
-      continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
-    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+      (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    } else if (p->count < NSVCD__ITEMS) {
+      p->of.kept.items[p->count++] = *item;
+    }
   }
   p->fresh_count = 0;
   return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
                                                                     : NSVCD__SPENT;
+}
+// How far places on both patches of an item, the moving one posed, can at most be along each
+// direction of a manifold: they are within both hulls.
+static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                  const nsvcd__item *item, float *most) {
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  const float scale = p->ask.motion->scale;
+  const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
+  const float fixed_more = p->fixed.slacks[item->fixed];
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
+    float by_moving = HUGE_VALF;
+    float by_fixed = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
+      const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
+      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
+      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+    }
+    most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
+  }
+}
+
+// The manifold of the items that were gathered: first of those that may be farthest along some
+// direction, then of what may still be farther. Where bodies are deep in each other there are many,
+// and few of their places are like a contact: so many are looked at, and no more.
+static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__transform pose = nsvcd__transform_of(&at);
+  size_t looks = 0;
+  float farthest[NSVCD__SUPPORTS];
+  size_t best[NSVCD__SUPPORTS] = {0};
+  float most[NSVCD__SUPPORTS];
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) farthest[k] = -HUGE_VALF;
+  for (size_t n = 0; n < p->count; n++) {
+    p->of.kept.items[n].sought = 0;
+    nsvcd__supports_bound(p, &pose, &p->of.kept.items[n], most);
+    for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+      if (most[k] > farthest[k]) best[k] = n;
+      farthest[k] = fmaxf(farthest[k], most[k]);
+    }
+  }
+  for (size_t n = 0; n < NSVCD__SUPPORTS + p->count && p->count > 0; n++) {
+    const size_t which = n < NSVCD__SUPPORTS ? best[n] : n - NSVCD__SUPPORTS;
+    nsvcd__item *item = &p->of.kept.items[which];
+    int matters = 0;
+    nsvcd__supports_bound(p, &pose, item, most);
+    for (int k = 0; k < NSVCD__SUPPORTS; k++)
+      matters |= (double)most[k] > m->farthest[k] + m->same;
+    if (item->sought || !matters) continue;
+    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[0] > -HUGE_VAL)))
+      break;
+    item->sought = 1;
+    looks++;
+    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+  }
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -11436,7 +11487,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     }
   }
   outcome = nsvcd__see_to_items(p, search);
-  return outcome == NSVCD__SETTLED ? nsvcd__settle_items(p, search) : outcome;
+  if (outcome != NSVCD__SETTLED || p->ask.gathers) return outcome;
+  return nsvcd__settle_items(p, search);
 }
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
@@ -13522,52 +13574,51 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   return still;
 }
 
-// Gathers a manifold of contacts with about this normal, which chooses some of its supports and says
-// what they span. All else that was known of the question is lost.
-static int nsvcd__gather_manifold(nsvcd__query *query, nsvcd__motion *still, nsvcd__d3 normal,
-                                  int *chosen, double *area) {
-  nsvcd__proof *p = query->proof;
-  nsvcd__motion *whole = p->ask.motion;
-  const double hair = nsvcd__hair(p);
-  const double reach = p->given.clearance + fmax(nsvcd__to_of(&query->task), 4 * hair);
-  nsvcd__manifold_begin(p, normal, reach, hair + 1e-5 * (double)p->given.lengths);
-  p->ask.motion = still;
-  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
-  p->ask.clearance = reach;
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
-  p->ask.motion = whole;
-  return nsvcd__manifold_choose(&p->of.manifold, chosen, area);
-}
-
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
 // rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
+// All else that was known of the question is lost.
 static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__contact found = p->known.found;
   const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
-  const int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  const double hair = nsvcd__hair(p);
+  const double same = hair + 1e-5 * (double)p->given.lengths;
+  const double extent =
+      (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
   double widest = -1;
   nsvcd_pose poses[2];
+  nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
+  p->ask.motion = &still;
+  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    const int count = nsvcd__gather_manifold(query, &still, normals[k], chosen, &area);
+    p->ask.motion = &still;
+    nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
+    nsvcd__look_at_supports(p);
+    p->ask.motion = whole;
+    const int count = nsvcd__manifold_choose(&p->of.kept.manifold, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
+    if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = p->of.manifold.supports[chosen[n]];
+      nsvcd__contact support = p->of.kept.manifold.supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
       // which body a corner is of
-      answer->contacts[n].id = p->of.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+      answer->contacts[n].id =
+          p->of.kept.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.clearance = p->given.clearance;
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
@@ -14626,7 +14677,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__forget NSVCD__AT(forget)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
 #define nsvcd__gather_items NSVCD__AT(gather_items)
-#define nsvcd__gather_manifold NSVCD__AT(gather_manifold)
 #define nsvcd__gather_supports NSVCD__AT(gather_supports)
 #define nsvcd__gathering NSVCD__AT(gathering)
 #define nsvcd__given NSVCD__AT(given)
@@ -14694,6 +14744,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
+#define nsvcd__look_at_supports NSVCD__AT(look_at_supports)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__manifold_choose NSVCD__AT(manifold_choose)
@@ -14701,7 +14752,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
-#define nsvcd__may_support NSVCD__AT(may_support)
 #define nsvcd__mean_direction NSVCD__AT(mean_direction)
 #define nsvcd__measure NSVCD__AT(measure)
 #define nsvcd__measure_once NSVCD__AT(measure_once)
@@ -14827,6 +14877,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
 #define nsvcd__support_number NSVCD__AT(support_number)
+#define nsvcd__supports_bound NSVCD__AT(supports_bound)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__surroundings NSVCD__AT(surroundings)
 #define nsvcd__swap_answer NSVCD__AT(swap_answer)

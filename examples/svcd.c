@@ -25,9 +25,10 @@ enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8 };
 typedef struct settings {  // of all commands
   nsvcd_encode_options encode;
   nsvcd_question sweep;  // what is asked, of whatever bodies
-  float first, measure;  // a share of the motion, metres; 0: not asked for
+  float first[2];        // a share of the motion, or metres; 0: not asked for
+  float measure;         // metres
   size_t repeat;
-  const char *from, *to, *rotate, *scale, *picture;
+  const char *from, *to, *rotate, *scale, *picture, *details;
   int int8, help;
   const char *paths[2];
   size_t path_count;
@@ -48,7 +49,8 @@ static const option options[] = {
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
     {"--clearance", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE"},
-    {"--first", CHECK | SWEEP, OPTION_NUMBER, AT(first), 0, 1, NULL},
+    {"--first", CHECK | SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m"},
+    {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network"},
     {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
@@ -102,11 +104,14 @@ static int hides_first(const nsvcd_answer *answer) {
   return answer->verdict == NSVCD_HIT && answer->why != NSVCD_WHY_NOTHING;
 }
 
-// Asks for the first contact, to a share of the motion, or, if that is 0, for any.
-static void ask_first(nsvcd_question *question, float share) {
-  question->ask = share > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
-  question->to_time = share;
-  question->to = 0;
+// Asks for the first contact, to a share of the motion or to metres, or, if both are 0, for any.
+static int wants_first(const settings *options) {
+  return options->first[0] > 0 || options->first[1] > 0;
+}
+static void ask_first(nsvcd_question *question, const settings *options) {
+  question->ask = wants_first(options) ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+  question->to_time = options->first[0];
+  question->to = options->first[1];
 }
 
 // Answers one problem: once to warm up, then --repeat times by the clock. The shortest time counts:
@@ -119,7 +124,8 @@ static int answer(const session *s, const settings *options, void *workspace, co
   question.b = movers.b;
   question.a.body = s->bodies[p->moving].body;
   question.b.body = s->bodies[p->fixed].body;
-  ask_first(&question, options->first);
+  ask_first(&question, options);
+  question.manifold = options->details && wants_first(options);
   out->microseconds = HUGE_VAL;
   for (size_t i = 0; i <= options->repeat; i++) {
     const double start = seconds();
@@ -157,6 +163,38 @@ static int print_answers(const session *s) {
   return complain("standard output: %s", strerror(errno));
 }
 
+// What is not known is no number.
+static void print_numbers(FILE *out, const float *numbers, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    if (isinf(numbers[k])) fprintf(out, "\tnan");
+    if (!isinf(numbers[k])) fprintf(out, "\t%.9g", (double)numbers[k]);
+  }
+}
+
+// All that an answer says, a line a problem.
+static int write_details(const session *s, const char *path) {
+  FILE *out = fopen(path, "w");
+  if (!out) return complain("%s: %s", path, strerror(errno));
+  for (size_t i = 0; i < s->file.problem_count; i++) {
+    const nsvcd_answer *a = &s->outcomes[i].answer;
+    const float known[6] = {a->time.low,      a->time.high, a->distance.low,
+                            a->distance.high, a->depth,     a->safe.time};
+    fprintf(out, "%s\t%s", s->file.problems[i].id, nsvcd_verdict_string(a->verdict));
+    print_numbers(out, known, 6);
+    print_numbers(out, a->safe.a.position, 3);
+    print_numbers(out, a->safe.a.rotation, 4);
+    fprintf(out, "\t%zu", a->contact_count);
+    for (size_t n = 0; n < a->contact_count; n++) {
+      print_numbers(out, a->contacts[n].point, 3);
+      print_numbers(out, a->contacts[n].normal, 3);
+      print_numbers(out, &a->contacts[n].gap, 1);
+    }
+    fprintf(out, "\n");
+  }
+  const int is_written = fflush(out) == 0 && !ferror(out);
+  return fclose(out) == 0 && is_written ? 1 : complain("%s: cannot be written", path);
+}
+
 // The library knows which recalls it was calibrated for: ask it before any work is done. A body of
 // one triangle serves.
 static int recall_is_known(const nsvcd_question *asked) {
@@ -188,8 +226,10 @@ static int check_options(settings *options) {
   if (options->int8) sweep->network.precision = NSVCD_PRECISION_INT8;
   options->encode.no_triangles = sweep->method == NSVCD_METHOD_NETWORK;
   if (options->encode.no_triangles &&
-      (sweep->clearance > 0 || options->first > 0 || sweep->skin > 0))
+      (sweep->clearance > 0 || wants_first(options) || sweep->skin > 0))
     return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
+  if (options->details && !ends_with(options->details, ".tsv"))
+    return usage_error("--details", "a file that ends in .tsv is wanted");
   if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }
@@ -206,7 +246,7 @@ static int check(settings *options) {
     memset(s.bodies, 0, s.file.mesh_count * sizeof *s.bodies);
   }
   good = good && encode_meshes(&s.file, &options->encode, s.bodies) && answer_all(&s, options) &&
-         print_answers(&s);
+         (!options->details || write_details(&s, options->details)) && print_answers(&s);
   if (good) print_summary(&s);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);
@@ -418,7 +458,7 @@ static int sweep_method(sweep_job *job, settings *options) {
       return REFUSED;
     }
   }
-  options->first = 0;
+  options->first[0] = options->first[1] = 0;
   return DONE;
 }
 
@@ -458,13 +498,12 @@ static int sweep_ask(sweep_job *job, const settings *options) {
     job->poses[i] = pose_rounded(&job->motion.poses[i]);
   job->microseconds = sweep_timed(job, options->repeat, &job->answer);
   if (job->microseconds < 0) return 0;
-  if (job->answer.verdict != NSVCD_FREE && options->first > 0) {
-    ask_first(question, options->first);
+  if (job->answer.verdict != NSVCD_FREE && wants_first(options)) {
+    ask_first(question, options);
     job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
   }
   if (!(options->measure > 0) || collides_of(&job->answer)) return job->microseconds_first >= 0;
-  ask_first(question, 0);
-  question->clearance = 0;
+  question->clearance = question->to_time = 0;
   question->ask = NSVCD_ASK_DISTANCE;
   question->to = options->measure;
   return sweep_once(job, &job->nearest);
@@ -501,7 +540,7 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   char reason[120];
   if (collides)
     snprintf(when, sizeof when, " at t = %.4f%s", (double)contact_time_of(a),
-             options->first > 0 ? ", the first contact" : "");
+             wants_first(options) ? ", the first contact" : "");
   if (hides_first(a))
     snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->time.high,
              (double)a->time.low);
@@ -653,7 +692,8 @@ static void help_sweep(FILE *out) {
       out,
       "svcd sweep A B [--from POSE] [--to POSE] [--rotate AXIS,DEGREES] [--scale S[,S]]\n"
       "           [--picture OUT.svg] [--clearance METRES] [--measure METRES] [--skin METRES]\n"
-      "           [--first T] [--method proof|network] [--points N] [--work N] [--repeat R]\n"
+      "           [--first T|METRESm] [--method proof|network] [--points N] [--work N] [--repeat "
+      "R]\n"
       "A moves, B rests where its file has it: do they hit each other? A and B are OBJ or .body\n"
       "files. Without --from and --to A passes straight through the middle of B's box, from\n"
       "outside to outside, downwards along the axis along which B is thinnest.\n"
@@ -665,8 +705,8 @@ static void help_sweep(FILE *out) {
       "  --clearance M      to come as near as this is a hit (0: to meet is)\n"
       "  --measure M        if they are free: how near do they come? to this\n"
       "  --skin M           to touch at the start, no deeper than this, is no hit (0)\n"
-      "  --first T          the time of the contact is that of the first one, to this share of\n"
-      "                     the motion (0.001; 0: of any contact)\n"
+      "  --first T|METRESm  the time of the contact is that of the first one, to this share of\n"
+      "                     the motion, or to metres: 0.001m (0.001; 0: of any contact)\n"
       "  --method M         proof: a witness or a certificate; network: an opinion (proof)\n"
       "  --points N         patches of a body, 1..%d (%d and more; %d for the network)\n"
       "  --work N           units that a proof may take (%d)\n"
@@ -704,8 +744,8 @@ static void help_check(FILE *out) {
   fprintf(
       out,
       "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base]\n"
-      "           [--int8] [--recall R] [--clearance METRES] [--first TOLERANCE]\n"
-      "           [--skin METRES] [--work LIMIT] [--repeat R] FILE\n"
+      "           [--int8] [--recall R] [--clearance METRES] [--first T|METRESm]\n"
+      "           [--skin METRES] [--work LIMIT] [--repeat R] [--details OUT.tsv] FILE\n"
       "Answers the problems of FILE, a line each on standard output, separated by tabs:\n"
       "ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on\n"
       "standard error.\n"
@@ -717,11 +757,13 @@ static void help_check(FILE *out) {
       "  --recall R          share of collisions to be found: 0.99, 0.999, 0.9999 or 0:\n"
       "                      balanced errors (0)\n"
       "  --clearance METRES  to come as close as this is a collision (0: to meet is)\n"
-      "  --first TOLERANCE   TIME is that of the first contact, to this share of the motion\n"
-      "                      (0: of any contact)\n"
+      "  --first T|METRESm   TIME is that of the first contact, to this share of the motion, or\n"
+      "                      to metres: 0.001m (0: of any contact)\n"
       "  --skin METRES       what is touched at the start, no deeper than this, does not count\n"
       "  --work LIMIT        units that a proof may take (%d)\n"
-      "  --repeat R          time every query R times, report the least (5)\n",
+      "  --repeat R          time every query R times, report the least (5)\n"
+      "  --details OUT.tsv   writes all that is known, a line a problem: brackets of time and\n"
+      "                      distance, depth, where it is safe to go, contacts\n",
       NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
       NSVCD_DEFAULT_WORK);
 }
@@ -779,7 +821,7 @@ static int run(const command *c, int argc, char **argv) {
   settings given;
   memset(&given, 0, sizeof given);
   given.repeat = c->repeat;
-  given.first = c->first;
+  given.first[0] = c->first;
   const int status = take_options(&line, &given, given.paths, c->paths, &given.path_count);
   if (status != DONE) return status;
   if (!given.help) return c->run(&given);

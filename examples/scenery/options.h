@@ -7,6 +7,7 @@ typedef enum option_kind {
   OPTION_FLAG,    // int, set to 1
   OPTION_COUNT,   // size_t, low to high
   OPTION_NUMBER,  // float, low to high
+  OPTION_LENGTH,  // float[2]: a number, low to high; or, followed by an m, metres, and the number 0
   OPTION_WORD,    // int: low for the first of the words in `text`, and so on
   OPTION_TEXT     // const char *, as it stands
 } option_kind;
@@ -71,12 +72,28 @@ static int take_word(const option *o, const char *value, int *out) {
   return 0;
 }
 
+// "0.5", or "0.5m".
+static int take_length(const option *o, const char *value, float *out) {
+  char number[64];
+  const size_t length = strlen(value);
+  const int is_metres = length > 1 && value[length - 1] == 'm';
+  float taken;
+  if (length >= sizeof number) return 0;
+  snprintf(number, sizeof number, "%.*s", (int)(length - (size_t)is_metres), value);
+  if (!parse_float(number, &taken) || (double)taken < o->low) return 0;
+  if ((double)taken > (is_metres ? (double)NSVCD_MAX_COORDINATE : o->high)) return 0;
+  out[is_metres] = taken;
+  out[!is_metres] = 0;
+  return 1;
+}
+
 static int take_value(const option *o, const char *value, void *settings) {
   char *place = (char *)settings + o->offset;
   float number;
   if (o->kind == OPTION_FLAG) *(int *)(void *)place = 1;
   if (o->kind == OPTION_TEXT) *(const char **)(void *)place = value;
   if (o->kind == OPTION_WORD) return take_word(o, value, (int *)(void *)place);
+  if (o->kind == OPTION_LENGTH) return take_length(o, value, (float *)(void *)place);
   if (o->kind == OPTION_COUNT)
     return parse_count(value, (size_t)o->low, (size_t)o->high, (size_t *)(void *)place);
   if (o->kind == OPTION_NUMBER) {

@@ -242,9 +242,9 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
 // Settles the items that no plane parts.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
                                                        nsvcd__search *search) {
-  nsvcd__sort_items(p, p->of.items, p->count);
+  nsvcd__sort_items(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__item *item = &p->of.items[n];
+    const nsvcd__item *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
     if (nsvcd__is_spent(p)) return NSVCD__SPENT;
     nsvcd__clip_segment(p, search);
@@ -295,27 +295,85 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
       const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
       if (outcome != NSVCD__SETTLED) return outcome;
     }
-    p->of.items[p->count++] = *item;
+    p->of.kept.items[p->count++] = *item;
   }
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start. SPENT: as much as can be looked at together, or as was
+// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as much as can be looked at together, or as was
 // allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (p->ask.gathers == NSVCD__GATHER_SUPPORTS &&
-        !nsvcd__may_support(p, &at, item->moving, item->fixed))
-      continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
-    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+      (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+    } else if (p->count < NSVCD__ITEMS) {
+      p->of.kept.items[p->count++] = *item;
+    }
   }
   p->fresh_count = 0;
   return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
                                                                     : NSVCD__SPENT;
+}
+// How far places on both patches of an item, the moving one posed, can at most be along each
+// direction of a manifold: they are within both hulls.
+static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform *pose,
+                                  const nsvcd__item *item, float *most) {
+  const nsvcd__manifold *m = &p->of.kept.manifold;
+  const float scale = p->ask.motion->scale;
+  const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
+  const float fixed_more = p->fixed.slacks[item->fixed];
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
+    float by_moving = HUGE_VALF;
+    float by_fixed = HUGE_VALF;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, item->moving, l);
+      const nsvcd__v3 fixed = nsvcd__hull_of(&p->fixed, item->fixed, l);
+      const nsvcd__v height = nsvcd__v3_dot(back, nsvcd__v3_transform(pose, moving));
+      by_moving = nsvcd__least_of(by_moving, nsvcd__v_least(height));
+      by_fixed = nsvcd__least_of(by_fixed, nsvcd__v_least(nsvcd__v3_dot(back, fixed)));
+    }
+    most[k] = fminf(moving_more - by_moving, fixed_more - by_fixed);
+  }
+}
+
+// The manifold of the items that were gathered: first of those that may be farthest along some
+// direction, then of what may still be farther. Where bodies are deep in each other there are many,
+// and few of their places are like a contact: so many are looked at, and no more.
+static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
+  nsvcd__manifold *m = &p->of.kept.manifold;
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  const nsvcd__transform pose = nsvcd__transform_of(&at);
+  size_t looks = 0;
+  float farthest[NSVCD__SUPPORTS];
+  size_t best[NSVCD__SUPPORTS] = {0};
+  float most[NSVCD__SUPPORTS];
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) farthest[k] = -HUGE_VALF;
+  for (size_t n = 0; n < p->count; n++) {
+    p->of.kept.items[n].sought = 0;
+    nsvcd__supports_bound(p, &pose, &p->of.kept.items[n], most);
+    for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+      if (most[k] > farthest[k]) best[k] = n;
+      farthest[k] = fmaxf(farthest[k], most[k]);
+    }
+  }
+  for (size_t n = 0; n < NSVCD__SUPPORTS + p->count && p->count > 0; n++) {
+    const size_t which = n < NSVCD__SUPPORTS ? best[n] : n - NSVCD__SUPPORTS;
+    nsvcd__item *item = &p->of.kept.items[which];
+    int matters = 0;
+    nsvcd__supports_bound(p, &pose, item, most);
+    for (int k = 0; k < NSVCD__SUPPORTS; k++)
+      matters |= (double)most[k] > m->farthest[k] + m->same;
+    if (item->sought || !matters) continue;
+    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[0] > -HUGE_VAL)))
+      break;
+    item->sought = 1;
+    looks++;
+    (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
+  }
 }
 #endif  // NSVCD_NO_PROOF

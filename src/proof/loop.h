@@ -103,7 +103,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     }
   }
   outcome = nsvcd__see_to_items(p, search);
-  return outcome == NSVCD__SETTLED ? nsvcd__settle_items(p, search) : outcome;
+  if (outcome != NSVCD__SETTLED || p->ask.gathers) return outcome;
+  return nsvcd__settle_items(p, search);
 }
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some

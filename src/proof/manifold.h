@@ -12,7 +12,7 @@
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit.
 static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
-  nsvcd__manifold *m = &p->of.manifold;
+  nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
@@ -34,7 +34,7 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
 static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
                                              nsvcd__d3 normal, uint32_t number) {
-  nsvcd__manifold *m = &p->of.manifold;
+  nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(way, normal);
@@ -64,34 +64,17 @@ static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t ki
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
-// Could places on these two patches be farther than those that are kept? They are within both
-// spheres, the moving one at the pose `at`.
-static int nsvcd__may_support(const nsvcd__proof *p, const nsvcd__placement *at, size_t i,
-                              size_t j) {
-  const nsvcd__manifold *m = &p->of.manifold;
-  const nsvcd__d3 moving = nsvcd__d3_widen(nsvcd__facet_centre(&p->moving, i));
-  const nsvcd__d3 place = nsvcd__place_point(at, moving);
-  const nsvcd__d3 fixed = nsvcd__d3_widen(nsvcd__facet_centre(&p->fixed, j));
-  const double r =
-      (double)(p->ask.motion->scale * nsvcd__body_r(p->moving.body)[i]) + m->reach;
-  const double s = (double)nsvcd__body_r(p->fixed.body)[j];
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double least = m->farthest[k] - 2 * m->same;
-    const int by_moving = nsvcd__d3_dot(m->along[k], place) + r > least;
-    if (by_moving && nsvcd__d3_dot(m->along[k], fixed) + s > least) return 1;
-  }
-  return 0;
-}
-
 // All places where a couple touches, to within the reach. posed: the moving triangle.
 static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
                                                 const nsvcd__d3 *posed) {
-  const nsvcd__manifold *m = &p->of.manifold;
+  const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
-  // faces look at each other
-  const int moving_faces = p->moving.body->open || nsvcd__d3_dot(faces[0], m->normal) <= 0;
-  const int fixed_faces = p->fixed.body->open || nsvcd__d3_dot(faces[1], m->normal) >= 0;
+  // faces look at each other, along the normal
+  const double moving_looks = -nsvcd__d3_dot(faces[0], m->normal);
+  const double fixed_looks = nsvcd__d3_dot(faces[1], m->normal);
+  const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
+  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
   nsvcd__d3 foot;
   int is_farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
@@ -115,9 +98,11 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
       const nsvcd__d3 *d = fixed + (i + 1) % 3;
       nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
       const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const double along = nsvcd__d3_dot(across, m->normal);
       const double lengths =
           nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
-      if (!(nsvcd__d3_dot(across, across) > 1e-4 * lengths)) continue;
+      const double square = nsvcd__d3_dot(across, across);
+      if (!(square > 1e-4 * lengths) || along * along < 0.64 * square) continue;
       nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number =

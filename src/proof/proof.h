@@ -106,7 +106,8 @@
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__SUPPORTS 8     // directions along which contact points are sought
+#define NSVCD__SUPPORTS 8     // directions along which contact points are sought, and
+#define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
 
@@ -360,10 +361,12 @@ typedef struct nsvcd__proof {
   size_t fresh_count, count, misses;
   nsvcd__item fresh[NSVCD__FRESH];
   union {
-    nsvcd__item items[NSVCD__ITEMS];
+    struct {
+      nsvcd__item items[NSVCD__ITEMS];
+      nsvcd__manifold manifold;
+    } kept;
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
-    nsvcd__manifold manifold;
   } of;
 
   // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed

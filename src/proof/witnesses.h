@@ -134,6 +134,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
+      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) {
+        nsvcd__gather_supports(p, &couple, posed);
+        continue;
+      }
       if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
         nearest.on_a = nearest.on_b;
       } else {
@@ -141,9 +145,10 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) nsvcd__gather_contact(p, &couple, posed);
-      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) nsvcd__gather_supports(p, &couple, posed);
-      if (p->ask.gathers) continue;
+      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+        nsvcd__gather_contact(p, &couple, posed);
+        continue;
+      }
       const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.

@@ -193,52 +193,51 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   return still;
 }
 
-// Gathers a manifold of contacts with about this normal, which chooses some of its supports and says
-// what they span. All else that was known of the question is lost.
-static int nsvcd__gather_manifold(nsvcd__query *query, nsvcd__motion *still, nsvcd__d3 normal,
-                                  int *chosen, double *area) {
-  nsvcd__proof *p = query->proof;
-  nsvcd__motion *whole = p->ask.motion;
-  const double hair = nsvcd__hair(p);
-  const double reach = p->given.clearance + fmax(nsvcd__to_of(&query->task), 4 * hair);
-  nsvcd__manifold_begin(p, normal, reach, hair + 1e-5 * (double)p->given.lengths);
-  p->ask.motion = still;
-  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
-  p->ask.clearance = reach;
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
-  (void)nsvcd__prove_anew(p, &query->broad_phase);
-  p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
-  p->ask.motion = whole;
-  return nsvcd__manifold_choose(&p->of.manifold, chosen, area);
-}
-
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
 // rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
+// All else that was known of the question is lost.
 static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__contact found = p->known.found;
   const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
-  const int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  const double hair = nsvcd__hair(p);
+  const double same = hair + 1e-5 * (double)p->given.lengths;
+  const double extent =
+      (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
   double widest = -1;
   nsvcd_pose poses[2];
+  nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
+  p->ask.motion = &still;
+  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
+  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    const int count = nsvcd__gather_manifold(query, &still, normals[k], chosen, &area);
+    p->ask.motion = &still;
+    nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
+    nsvcd__look_at_supports(p);
+    p->ask.motion = whole;
+    const int count = nsvcd__manifold_choose(&p->of.kept.manifold, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
+    if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = p->of.manifold.supports[chosen[n]];
+      nsvcd__contact support = p->of.kept.manifold.supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
       // which body a corner is of
-      answer->contacts[n].id = p->of.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+      answer->contacts[n].id =
+          p->of.kept.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
+  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.clearance = p->given.clearance;
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
