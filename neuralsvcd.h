@@ -435,8 +435,12 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
 #define NSVCD_SMALL_PATCHES 512
-// A mesh of up to FEW triangles has NSVCD_DEFAULT_PATCHES patches, where the options do not say; of
-// up to MANY, NSVCD_SMALL_PATCHES. A mesh of more is a level, with a patch for each 12 triangles.
+// Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
+// fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
+// of more is a level, with a patch for each 12 triangles. What is stored of a patch is as exact as
+// it is small: of what is large and has few triangles, ask for more.
+#define NSVCD_LEAST_PATCHES 12
+#define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_FEW_TRIANGLES 32768
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
@@ -744,7 +748,7 @@ typedef struct nsvcd_contact {
 // Where the bodies may go: to where they are at a time until which they are free of each other,
 // lifted off what they touch.
 typedef struct nsvcd_safe_place {
-  // time.low
+  // time.low, or, where they are about to touch then, a hair before
   float time;
   // of both, world. The lift is in the pose of a; where only b moves, in that of b
   nsvcd_pose a, b;
@@ -795,9 +799,9 @@ typedef struct nsvcd_answer {
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
   // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
-  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of their ids.
-  // That is all places that are no farther apart than `to` (or the default, where only to_time is
-  // given) and the clearance, and of these the four that span most
+  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
+  // That is of all places that are no farther apart than `to` (or the default, where only to_time
+  // is given) and the clearance the four that span most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
   // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that
@@ -6115,6 +6119,8 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
     return (size_t)fmin(fmax(count, 1), most);
   }
   if (!triangles) return NSVCD_DEFAULT_NETWORK_PATCHES;
+  if (mesh->triangle_count <= NSVCD_LEAST_PATCHES) return NSVCD_LEAST_PATCHES;
+  if (mesh->triangle_count <= NSVCD_VERY_FEW_TRIANGLES) return mesh->triangle_count;
   if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_PATCHES;
   if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_PATCHES;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
@@ -8116,7 +8122,8 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
-  for (size_t s = 0; s < search->segments; s++) {
+  for (uint64_t left = search->near_segments; left; left &= left - 1) {
+    const size_t s = nsvcd__lowest_bit(left);
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
@@ -8148,17 +8155,23 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   return 0;
 }
 
-// Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet:
-// then there is no step to take.
+// Those of the segments from one to another, the last one not included.
+static uint64_t nsvcd__some_segments(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
+// Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
+// groups' spheres never meet there: then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
-                               nsvcd__search *search) {
+                               uint64_t segments, nsvcd__search *search) {
   search->moving = moving;
   search->fixed = fixed;
   nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-  const uint64_t all = nsvcd__all_segments(search);
+  const uint64_t all = segments & nsvcd__all_segments(search);
   const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
-  search->wanted = ~(uint64_t)0;
+  search->wanted = segments;
   search->steps = 0;
   search->step = 0;
   search->waiting = 0;
@@ -8547,6 +8560,10 @@ typedef struct nsvcd__given {
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double share, width;
+  // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
+  double to;
+  // FIRST, with `to`: no point goes farther on the whole motion
+  double way;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken
@@ -8570,6 +8587,8 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
+  // all of a time before what is later, whatever that costs
+  int by_time;
   nsvcd__gathering gathers;
   // how deep touches may be
   double skin;
@@ -10221,8 +10240,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
 // such places the farthest along eight directions are kept, and of these the best four. Where two
 // are as far, the one with the lower number is: so the same are chosen again when little has moved.
-// Only normals that are much like the contact's count: where a side rises from the floor, the
-// corners of the floor's triangles are near the side as well, but it is not what the body stands on.
+// Only normals that are much like the contact's count: where a side rises from the floor, corners
+// of the floor's triangles are near the side as well, but it is not what the body stands on.
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit.
@@ -10275,7 +10294,7 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t kind) {
+static uint32_t nsvcd__corner_id(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
@@ -10298,30 +10317,29 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
           nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
   for (size_t k = 0; k < 3 && is_farther; k++) {
-    const uint32_t moving_corner = nsvcd__support_number(couple->moving_listing, k, 0);
-    const uint32_t fixed_corner = nsvcd__support_number(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_corner);
+      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_corner);
+      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
-      const nsvcd__d3 *a = posed + k;
-      const nsvcd__d3 *b = posed + (k + 1) % 3;
-      const nsvcd__d3 *c = fixed + i;
-      const nsvcd__d3 *d = fixed + (i + 1) % 3;
-      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-      const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const nsvcd__d3 a = posed[(k + 1) % 3];
+      const nsvcd__d3 b = fixed[(i + 1) % 3];
+      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
+      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
+      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
       const double along = nsvcd__d3_dot(across, m->normal);
-      const double lengths =
-          nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
       const double square = nsvcd__d3_dot(across, across);
-      if (!(square > 1e-4 * lengths) || along * along < 0.64 * square) continue;
-      nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
+      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      if (!(square > 1e-4 * lengths)) continue;
+      if (along * along < 0.64 * square) continue;
+      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
-      const uint32_t number =
-          moving_corner * 3 + fixed_corner * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
       nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
                           nsvcd__d3_unit(across, faces[1]), number | 2);
     }
@@ -10428,8 +10446,8 @@ static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`; -HUGE_VAL: it is all the way. On that way the distance is convex: thirds find
-// where it is least, and halves where it is the clearance.
+// if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
+// find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
                                           double most) {
   // parallel faces meet at one time only
@@ -10902,8 +10920,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as much as can be looked at together, or as was
-// allowed.
+// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
+// much as can be looked at together, or as was allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
@@ -10948,6 +10966,7 @@ static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform 
 // and few of their places are like a contact: so many are looked at, and no more.
 static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
@@ -10956,8 +10975,8 @@ static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   float most[NSVCD__SUPPORTS];
   for (int k = 0; k < NSVCD__SUPPORTS; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
-    p->of.kept.items[n].sought = 0;
-    nsvcd__supports_bound(p, &pose, &p->of.kept.items[n], most);
+    items[n].sought = 0;
+    nsvcd__supports_bound(p, &pose, &items[n], most);
     for (int k = 0; k < NSVCD__SUPPORTS; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
@@ -10965,7 +10984,7 @@ static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   }
   for (size_t n = 0; n < NSVCD__SUPPORTS + p->count && p->count > 0; n++) {
     const size_t which = n < NSVCD__SUPPORTS ? best[n] : n - NSVCD__SUPPORTS;
-    nsvcd__item *item = &p->of.kept.items[which];
+    nsvcd__item *item = &items[which];
     int matters = 0;
     nsvcd__supports_bound(p, &pose, item, most);
     for (int k = 0; k < NSVCD__SUPPORTS; k++)
@@ -11492,26 +11511,35 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
 }
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
-// segments at a time, until there is a contact: it is the first of the tile.
+// segments of a tile at a time, until there is a contact: it is the first of the tile. What is
+// settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments
+// before any in later ones.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
-  const int in_order = p->ask.first > 0;
-  const size_t few = in_order ? NSVCD__IN_ORDER : search->segments;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const int has_tiles = nsvcd__is_large(moving) || nsvcd__is_large(fixed);
+  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
+  const size_t many = p->ask.by_time ? few : search->segments;
   nsvcd__outcome outcome = NSVCD__SETTLED;
-  do {
-    p->known.settled = 0;
-    for (size_t s = 0; s < search->segments && outcome == NSVCD__SETTLED; s += few) {
-      const size_t next = s + few < search->segments ? s + few : search->segments;
-      if (!nsvcd__matters(p, search, s)) break;
-      if (in_order) search->wanted = (((uint64_t)1 << few) - 1) << s;
-      search->step = 0;
-      search->waiting = 0;
-      outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-        p->known.settled = (double)search->begin[next];
-    }
-  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-  // what is settled in one of several tiles tells nothing of the others
-  if (nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body)) p->known.settled = 0;
+  for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
+    const size_t to = from + many < search->segments ? from + many : search->segments;
+    if (!nsvcd__matters(p, search, from)) break;
+    (void)nsvcd__search_begin(moving, fixed, nsvcd__some_segments(from, to), search);
+    do {
+      for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
+        const size_t next = s + few < to ? s + few : to;
+        if (!nsvcd__matters(p, search, s)) break;
+        search->wanted = nsvcd__some_segments(s, next);
+        search->step = 0;
+        search->waiting = 0;
+        outcome = nsvcd__prove_segments(p, search);
+        if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
+          p->known.settled = (double)search->begin[next];
+      }
+    } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+    if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+      p->known.settled = (double)search->begin[to];
+  }
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF
@@ -11551,7 +11579,6 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                        nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
   p->known.lost = outcome == NSVCD__SPENT;
@@ -11614,10 +11641,26 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   return nsvcd__prove_anew(p, search);
 }
 
+// There was not work enough for the first contact, and of large bodies nothing is settled then:
+// once more, by time.
+static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__known known = p->known;
+  const double end = p->ask.end;
+  p->ask.by_time = 1;
+  p->ask.limit = nsvcd__limit_after(p, p->given.work / (2 * NSVCD__IN_DOUBT));
+  (void)nsvcd__prove_anew(p, search);
+  p->ask.by_time = 0;
+  known.settled = nsvcd__clear_until(p);
+  p->known = known;
+  p->ask.end = end;
+}
+
 // When do they meet first? What is proven of that stays, also where there is no more work left, and
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+  const int is_large = nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body);
+  if (p->known.lost && is_large && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
@@ -11914,11 +11957,12 @@ static double nsvcd__hair(const nsvcd__proof *p) {
 static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   p->normal_count = 0;
   still->lift = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch is lifted off too, and may not touch afterwards
-  double beside = 0.05;
-  for (int turns = 0;; beside = 0.01) {
+  // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
+  // touch afterwards
+  double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
+  for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->touch_count = 0;
-    p->ask.clearance = p->given.clearance + beside * p->ask.skin + nsvcd__hair(p);
+    p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
     const size_t known = p->normal_count;
@@ -13305,7 +13349,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  int more = nsvcd__search_begin(task->moving, task->fixed, search);
+  int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
@@ -13436,6 +13480,7 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
+  p->given.way = whole;
   return to < most * whole ? to / whole : most;
 }
 
@@ -13460,8 +13505,9 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = 0;
   const double to = nsvcd__to_of(task);
+  p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
@@ -13545,6 +13591,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
   p->ask.share = kept / way;
+  p->ask.measure = 0;
+  p->ask.clearance = p->given.clearance;
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
@@ -13587,6 +13635,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   const double same = hair + 1e-5 * (double)p->given.lengths;
   const double extent =
       (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
+  const nsvcd__manifold *m = &p->of.kept.manifold;
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__motion *whole = p->ask.motion;
@@ -13603,18 +13652,17 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
     nsvcd__look_at_supports(p);
     p->ask.motion = whole;
-    const int count = nsvcd__manifold_choose(&p->of.kept.manifold, chosen, &area);
+    const int count = nsvcd__manifold_choose(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = p->of.kept.manifold.supports[chosen[n]];
+      nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
       // which body a corner is of
-      answer->contacts[n].id =
-          p->of.kept.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+      answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
   p->ask.gathers = NSVCD__CONTACTS;
@@ -13626,18 +13674,17 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
-  const double t = (double)answer->time.low;
+  const double t = (double)answer->safe.time;
   nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
   const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
   if (is_lifted) {
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
     if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (t > 0) {
+  } else if (answer->time.low > 0) {
     answer->depth = 0;
   }
   nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
-  answer->safe.time = answer->time.low;
 }
 
 // Proves a question whose motion has been prepared, if it can.
@@ -13685,6 +13732,10 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
     if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+    // nearer than this it is proven on the way, but who asks again from there would not be told so
+    const double hairs = 3 * nsvcd__hair(p);
+    const double back = p->given.way > hairs ? hairs / p->given.way : p->given.share;
+    answer->safe.time = (float)fmax(0, until - back);
   }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
@@ -14632,6 +14683,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
+#define nsvcd__corner_id NSVCD__AT(corner_id)
 #define nsvcd__couple NSVCD__AT(couple)
 #define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
@@ -14810,6 +14862,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__prove NSVCD__AT(prove)
 #define nsvcd__prove_and_look NSVCD__AT(prove_and_look)
 #define nsvcd__prove_anew NSVCD__AT(prove_anew)
+#define nsvcd__prove_by_time NSVCD__AT(prove_by_time)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
@@ -14861,6 +14914,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__shortest_way NSVCD__AT(shortest_way)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
+#define nsvcd__some_segments NSVCD__AT(some_segments)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
 #define nsvcd__span NSVCD__AT(span)
 #define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
@@ -14876,7 +14930,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
-#define nsvcd__support_number NSVCD__AT(support_number)
 #define nsvcd__supports_bound NSVCD__AT(supports_bound)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__surroundings NSVCD__AT(surroundings)
@@ -15787,6 +15840,7 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.b = b;
   question.ask = NSVCD_ASK_HIT;
   question.to = question.to_time = 0;
+  question.manifold = 0;
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;

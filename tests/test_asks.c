@@ -50,6 +50,7 @@ static nsvcd_pose asks_pose(double x, double y, double z, double turn) {
 // sharp rim, a cone of triangles smaller than the skin, a cup, boxes.
 #define STANDING 16
 static double asks_corner;  // of the last box, from its middle
+static double asks_reach;   // of the last one, from its axis
 static const nsvcd_body *asks_standing(int n, shapes_rng *rng) {
   shapes_mesh shape;
   double low[3], high[3];
@@ -62,6 +63,9 @@ static const nsvcd_body *asks_standing(int n, shapes_rng *rng) {
   if (n > 7) shapes_box(&shape, low[0], low[1], low[2], n % 3 ? 1 : 4);
   shapes_bounds(&shape, low, high);
   asks_corner = hypot(high[0], high[1]);
+  asks_reach = 0;
+  for (size_t i = 0; i < shape.vertices; i++)
+    asks_reach = fmax(asks_reach, hypot(shape.positions[3 * i], shape.positions[3 * i + 1]));
   for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= low[2];
   return asks_body(&shape, 0);
 }
@@ -89,6 +93,7 @@ static void asks_check_safe(const nsvcd_question *question, const nsvcd_answer *
   still.ask = NSVCD_ASK_HIT;
   still.to = still.to_time = still.skin = 0;
   still.clearance *= 0.99f;
+  still.manifold = 0;
   still.a.poses = &answer->safe.a;
   still.b.poses = &answer->safe.b;
   still.a.count = still.b.count = 1;
@@ -389,15 +394,15 @@ static void asks_names_what_meets_inside(void) {
 // -------------------------------------------------------------------------------------------------
 // first, in metres, and the poses that are safe
 
-// How far some point of the body goes on its way, as the other sees it, at least: `turn` is its angle
+// How far some point of the last body goes on its way, as the other sees it, at least: `turn` is its angle
 // about z, of which a tenth is left to the radius, `rises` the other's way up.
-static double asks_way(const nsvcd_body *body, const nsvcd_pose *path, double turn, double rises) {
+static double asks_way(const nsvcd_pose *path, double turn, double rises) {
   double square = 0;
   for (int k = 0; k < 3; k++) {
     const double step = (double)path[1].position[k] - (double)path[0].position[k];
     square += (step - (k == 2 ? rises : 0)) * (step - (k == 2 ? rises : 0));
   }
-  return sqrt(square) + 0.9 * fabs(turn) * (double)nsvcd_body_describe(body).radius;
+  return sqrt(square) + 0.9 * fabs(turn) * asks_reach;
 }
 
 // Is the answer as narrow as it was asked for, and are the bodies where it sends them free of each
@@ -412,7 +417,8 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
   CHECK(late > 0);
   if (question->to > 0) CHECK(late * way <= 1.001 * (double)question->to + 1e-6 * way);
   if (question->to_time > 0) CHECK(late <= 1.001 * (double)question->to_time + 1e-6);
-  CHECK(answer->safe.time >= answer->time.low && answer->safe.time <= answer->time.low);
+  CHECK(answer->safe.time <= answer->time.low);
+  CHECK_LE((double)answer->time.low - (double)answer->safe.time, 2e-4 / way + 0.003);
   for (int k = 0; k < 2; k++) {
     const nsvcd_mover *mover = k ? &question->b : &question->a;
     const nsvcd_pose *safe = k ? &answer->safe.b : &answer->safe.a;
@@ -510,6 +516,59 @@ static void asks_manifold_holds(void) {
   nsvcd_body_free(tables[1], NULL);
 }
 
+// Ask, go there, respond, ask again: what falls on a table and is pushed along it slides on, however
+// coarsely it is asked, up to half of the skin; where it is sent it is free of the table, turned as
+// it comes or flat, with a distance asked for as well.
+static void asks_goes_on_for_frames(void) {
+  const float shares[3] = {0.02f, 0.2f, 0.5f};
+  const double frame = 1.0 / 60;
+  const float skin = 1e-3f;
+  shapes_rng rng = {2713};
+  const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
+  for (int n = 0; n < STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n, &rng);
+    for (int round = 0; round < 6; round++) {
+      double speed[3] = {0.2, 0, -1};
+      nsvcd_pose path[2] = {asks_pose(-0.3, 0, 0.01, 0.3 * n), asks_pose(0, 0, 0, 0)};
+      nsvcd_question question = question_of(body, path, 2, tables[round % 2], NULL, NULL);
+      question.ask = NSVCD_ASK_FIRST;
+      question.manifold = 1;
+      question.clearance = round % 2 ? 5e-4f : 0;
+      question.skin = skin;
+      question.to = shares[round / 2] * skin;
+      for (int k = 0; k < 60; k++) {
+        speed[2] -= 9.81 * frame;
+        path[1] = path[0];
+        for (int i = 0; i < 3; i++) path[1].position[i] += (float)(speed[i] * frame);
+        const nsvcd_answer answer = asks(&question);
+        CHECK(answer.depth <= skin);
+        asks_check_safe(&question, &answer);
+        if (k % 10 == 0) {
+          nsvcd_question near_by = question;
+          near_by.ask = NSVCD_ASK_DISTANCE;
+          near_by.to = 1e-4f;
+          near_by.manifold = 0;
+          const nsvcd_answer apart = asks(&near_by);
+          asks_check_safe(&near_by, &apart);
+        }
+        path[0] = answer.safe.a;
+        for (size_t c = 0; c < answer.contact_count; c++) {
+          const float *normal = answer.contacts[c].normal;
+          double along = 0;
+          for (int i = 0; i < 3; i++) along += speed[i] * (double)normal[i];
+          for (int i = 0; i < 3 && along < 0; i++) speed[i] -= along * (double)normal[i];
+        }
+      }
+      // what is left of a frame after a contact is lost
+      CHECK_GE(path[0].position[0], -0.3 + 0.2 * 0.1);
+      CHECK_LE(fabs((double)path[0].position[2]), 2e-3);
+    }
+    nsvcd_body_free(body, NULL);
+  }
+  nsvcd_body_free(tables[0], NULL);
+  nsvcd_body_free(tables[1], NULL);
+}
+
 static void asks_first_is_to_metres(void) {
   shapes_rng rng = {2711};
   const nsvcd_body *table = asks_table(0, 4);
@@ -535,7 +594,7 @@ static void asks_first_is_to_metres(void) {
       question.clearance = round % 2 ? 0.002f : 0.0f;
       if (round % 4 < 3) question.to = round % 4 == 1 ? 10 : 0.0005f;
       if (round % 4 > 0) question.to_time = 0.003f;
-      const double way = asks_way(body, path, turn, question.b.count > 1 ? 0.5 * from : 0);
+      const double way = asks_way(path, turn, question.b.count > 1 ? 0.5 * from : 0);
       const nsvcd_answer answer = asks(&question);
       asks_check_first(&question, &answer, way);
       const nsvcd_mover a = question.a;
@@ -566,6 +625,7 @@ static void asks_first_is_to_metres(void) {
 void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_manifold_holds);
+  RUN(asks_goes_on_for_frames);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
   RUN(asks_skin_under_a_ceiling);

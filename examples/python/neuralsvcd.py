@@ -168,19 +168,19 @@ _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, 
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, scale=c_float)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
-    tolerance=c_float, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
+    tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
 _Range = _struct("nsvcd_range", low=c_float, high=c_float)
 _Contact = _struct(
     "nsvcd_contact", point=c_float * 3, normal=c_float * 3, gap=c_float, time=c_float, triangle_a=c_uint32,
-    triangle_b=c_uint32, patch_a=c_uint32, patch_b=c_uint32)
+    triangle_b=c_uint32, patch_a=c_uint32, patch_b=c_uint32, id=c_uint32)
 _SafePlace = _struct("nsvcd_safe_place", time=c_float, a=_Pose, b=_Pose)
 _Opinion = _struct(
     "nsvcd_opinion", asked=c_int, logit=c_float, time=c_float, patch_a=c_uint32, patch_b=c_uint32, candidates=c_size_t,
     limited=c_int)
 _Answer = _struct(
     "nsvcd_answer", verdict=c_int, by=c_int, why=c_int, inside=c_int, time=_Range, distance=_Range, safe=_SafePlace,
-    lift=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact, opinion=_Opinion,
-    work=c_size_t)
+    depth=c_float, lift=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact,
+    opinion=_Opinion, work=c_size_t)
 _BodyPair = _struct("nsvcd_body_pair", a=c_uint32, b=c_uint32)
 _PlanProgress = _struct(
     "nsvcd_plan_progress", seed=c_size_t, iteration=c_size_t, iterations=c_size_t, refining=c_int, cost=c_float,
@@ -597,6 +597,7 @@ class Options(_Options):
     clearance  metres: to come as near as this is a hit
     skin       metres: a contact at the start that is no deeper does not count
     tolerance  metres: what comes closer and does not meet may be left undecided
+    manifold   first: up to four contacts, which hold the body, are told, where else one is
     method     proof where both bodies have triangles, else network, which knows neither first nor distance, nor a
                clearance or a skin
     work       units that a proof may take; 100000
@@ -611,6 +612,7 @@ class Options(_Options):
     clearance: float = 0
     skin: float = 0
     tolerance: float = 0
+    manifold: bool = False
     method: Union[Method, str] = Method.DEFAULT
     work: int = 0
     segments: int = 0
@@ -647,6 +649,7 @@ class Contact(NamedTuple):
     time     in [0, 1]
     triangle_a, triangle_b  as numbered in the meshes; None: none are named
     patch_a, patch_b        that list them
+    id       of a manifold: of the corner, or the two edges, that touch; the same as long as they do
     """
     point: Vector
     normal: Vector
@@ -656,6 +659,7 @@ class Contact(NamedTuple):
     triangle_b: Optional[int]
     patch_a: int
     patch_b: int
+    id: int
 
 
 class SafePlace(NamedTuple):
@@ -692,8 +696,10 @@ class Answer(NamedTuple):
     time      in [0, 1]: free before low, in contact at high; low is 0 where not asked for "first"
     distance  metres: the least; of a hit, up to time.high
     safe      where the bodies may go: poses at time.low
+    depth     metres: of a contact at the start, the smallest lift of a off b, up to options.skin or so, that ends it;
+              0: there is no such contact; inf: it is not known
     lift      metres, world: by what a was lifted off b for options.skin
-    contacts  of a hit whose triangles are known, at time.high
+    contacts  of a hit whose triangles are known, at time.high: one, or a manifold, in the order of their ids
     nearest   the triangles that distance.high is about, whatever the verdict
     opinion   of the network, where it was asked
     work      units that the proof took
@@ -705,6 +711,7 @@ class Answer(NamedTuple):
     time: Range
     distance: Range
     safe: SafePlace
+    depth: float
     lift: Vector
     contacts: list[Contact]
     nearest: Contact
@@ -737,16 +744,16 @@ _CONTACTS = _Answer.contacts.offset
 
 def _contact_of(v: Any) -> Contact:
     return Contact(v[0:3], v[3:6], v[6], v[7], None if v[8] == NO_TRIANGLE else v[8],
-                   None if v[9] == NO_TRIANGLE else v[9], v[10], v[11])
+                   None if v[9] == NO_TRIANGLE else v[9], v[10], v[11], v[12])
 
 
 def _answer_of(c: Any) -> Answer:
     v: Any = _FIELDS.unpack(c)
-    contacts = [_contact_of(_CONTACT.unpack_from(c, _CONTACTS + k * _CONTACT.size)) for k in range(v[26])]
-    opinion = Opinion(v[40], v[41], v[42], v[43], v[44], bool(v[45])) if v[39] else None
+    contacts = [_contact_of(_CONTACT.unpack_from(c, _CONTACTS + k * _CONTACT.size)) for k in range(v[27])]
+    opinion = Opinion(v[42], v[43], v[44], v[45], v[46], bool(v[47])) if v[41] else None
     return Answer(_VERDICTS[v[0]], _BYS[v[1]], _WHYS[v[2]], bool(v[3]), Range(v[4], v[5]), Range(v[6], v[7]),
-                  SafePlace(v[8], v[9:12] + v[12:16], v[16:19] + v[19:23]), v[23:26], contacts, _contact_of(v[27:39]),
-                  opinion, v[46])
+                  SafePlace(v[8], v[9:12] + v[12:16], v[16:19] + v[19:23]), v[23], v[24:27], contacts,
+                  _contact_of(v[28:41]), opinion, v[48])
 
 
 def _motion(poses: Optional[ArrayLike], shape: tuple[Optional[int], ...], name: str) -> Optional[Floats]:

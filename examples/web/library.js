@@ -49,8 +49,8 @@ async function createLibrary(bytes) {
   // nsvcd_answer.
   function answer() {
     const at = c.web_answer();
-    const f = floats(at, 95);
-    const w = words(at, 95);
+    const f = floats(at, 101);
+    const w = words(at, 101);
     return {
       verdict: w[0],
       by: w[1],
@@ -58,11 +58,11 @@ async function createLibrary(bytes) {
       time: {low: f[4], high: f[5]},
       distance: {low: f[6], high: f[7]},
       nearest: {
-        point: [...f.slice(75, 78)], normal: [...f.slice(78, 81)],
-        time: f[82],
-        triangles: [w[83], w[84]],
+        point: [...f.slice(80, 83)], normal: [...f.slice(83, 86)],
+        time: f[87],
+        triangles: [w[88], w[89]],
       },
-      opinion: {logit: f[88]},
+      opinion: {logit: f[94]},
     };
   }
   return {encode, mesh, facts, sweep, answer};

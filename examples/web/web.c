@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 // library.js counts on it.
-_Static_assert(sizeof(nsvcd_answer) == 4 * 95 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
+_Static_assert(sizeof(nsvcd_answer) == 4 * 101 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 

@@ -183,6 +183,8 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
     return (size_t)fmin(fmax(count, 1), most);
   }
   if (!triangles) return NSVCD_DEFAULT_NETWORK_PATCHES;
+  if (mesh->triangle_count <= NSVCD_LEAST_PATCHES) return NSVCD_LEAST_PATCHES;
+  if (mesh->triangle_count <= NSVCD_VERY_FEW_TRIANGLES) return mesh->triangle_count;
   if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_PATCHES;
   if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_PATCHES;
   const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;

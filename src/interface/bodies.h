@@ -17,8 +17,12 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_MAX_PATCHES 65536
 // A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
 #define NSVCD_SMALL_PATCHES 512
-// A mesh of up to FEW triangles has NSVCD_DEFAULT_PATCHES patches, where the options do not say; of
-// up to MANY, NSVCD_SMALL_PATCHES. A mesh of more is a level, with a patch for each 12 triangles.
+// Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
+// fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
+// of more is a level, with a patch for each 12 triangles. What is stored of a patch is as exact as
+// it is small: of what is large and has few triangles, ask for more.
+#define NSVCD_LEAST_PATCHES 12
+#define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_FEW_TRIANGLES 32768
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12

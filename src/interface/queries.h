@@ -175,7 +175,7 @@ typedef struct nsvcd_contact {
 // Where the bodies may go: to where they are at a time until which they are free of each other,
 // lifted off what they touch.
 typedef struct nsvcd_safe_place {
-  // time.low
+  // time.low, or, where they are about to touch then, a hair before
   float time;
   // of both, world. The lift is in the pose of a; where only b moves, in that of b
   nsvcd_pose a, b;
@@ -226,9 +226,9 @@ typedef struct nsvcd_answer {
   // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
   // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
   float lift[3];
-  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of their ids.
-  // That is all places that are no farther apart than `to` (or the default, where only to_time is
-  // given) and the clearance, and of these the four that span most
+  // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
+  // That is of all places that are no farther apart than `to` (or the default, where only to_time
+  // is given) and the clearance the four that span most
   size_t contact_count;
   nsvcd_contact contacts[NSVCD_MAX_CONTACTS];
   // the triangles that distance.high is about, whatever the verdict: of a HIT the contact that

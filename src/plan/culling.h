@@ -177,6 +177,7 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.b = b;
   question.ask = NSVCD_ASK_HIT;
   question.to = question.to_time = 0;
+  question.manifold = 0;
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;

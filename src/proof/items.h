@@ -300,8 +300,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
-// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as much as can be looked at together, or as was
-// allowed.
+// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
+// much as can be looked at together, or as was allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
   for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
     const nsvcd__item *item = &p->fresh[n];
@@ -346,6 +346,7 @@ static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform 
 // and few of their places are like a contact: so many are looked at, and no more.
 static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
@@ -354,8 +355,8 @@ static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   float most[NSVCD__SUPPORTS];
   for (int k = 0; k < NSVCD__SUPPORTS; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
-    p->of.kept.items[n].sought = 0;
-    nsvcd__supports_bound(p, &pose, &p->of.kept.items[n], most);
+    items[n].sought = 0;
+    nsvcd__supports_bound(p, &pose, &items[n], most);
     for (int k = 0; k < NSVCD__SUPPORTS; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
@@ -363,7 +364,7 @@ static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
   }
   for (size_t n = 0; n < NSVCD__SUPPORTS + p->count && p->count > 0; n++) {
     const size_t which = n < NSVCD__SUPPORTS ? best[n] : n - NSVCD__SUPPORTS;
-    nsvcd__item *item = &p->of.kept.items[which];
+    nsvcd__item *item = &items[which];
     int matters = 0;
     nsvcd__supports_bound(p, &pose, item, most);
     for (int k = 0; k < NSVCD__SUPPORTS; k++)

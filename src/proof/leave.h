@@ -112,11 +112,12 @@ static double nsvcd__hair(const nsvcd__proof *p) {
 static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   p->normal_count = 0;
   still->lift = nsvcd__f3_of(0, 0, 0);
-  // what is about to touch is lifted off too, and may not touch afterwards
-  double beside = 0.05;
-  for (int turns = 0;; beside = 0.01) {
+  // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
+  // touch afterwards
+  double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
+  for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->touch_count = 0;
-    p->ask.clearance = p->given.clearance + beside * p->ask.skin + nsvcd__hair(p);
+    p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
     const size_t known = p->normal_count;

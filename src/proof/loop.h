@@ -108,26 +108,35 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
 }
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
-// segments at a time, until there is a contact: it is the first of the tile.
+// segments of a tile at a time, until there is a contact: it is the first of the tile. What is
+// settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments
+// before any in later ones.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
-  const int in_order = p->ask.first > 0;
-  const size_t few = in_order ? NSVCD__IN_ORDER : search->segments;
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  const int has_tiles = nsvcd__is_large(moving) || nsvcd__is_large(fixed);
+  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
+  const size_t many = p->ask.by_time ? few : search->segments;
   nsvcd__outcome outcome = NSVCD__SETTLED;
-  do {
-    p->known.settled = 0;
-    for (size_t s = 0; s < search->segments && outcome == NSVCD__SETTLED; s += few) {
-      const size_t next = s + few < search->segments ? s + few : search->segments;
-      if (!nsvcd__matters(p, search, s)) break;
-      if (in_order) search->wanted = (((uint64_t)1 << few) - 1) << s;
-      search->step = 0;
-      search->waiting = 0;
-      outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-        p->known.settled = (double)search->begin[next];
-    }
-  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-  // what is settled in one of several tiles tells nothing of the others
-  if (nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body)) p->known.settled = 0;
+  for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
+    const size_t to = from + many < search->segments ? from + many : search->segments;
+    if (!nsvcd__matters(p, search, from)) break;
+    (void)nsvcd__search_begin(moving, fixed, nsvcd__some_segments(from, to), search);
+    do {
+      for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
+        const size_t next = s + few < to ? s + few : to;
+        if (!nsvcd__matters(p, search, s)) break;
+        search->wanted = nsvcd__some_segments(s, next);
+        search->step = 0;
+        search->waiting = 0;
+        outcome = nsvcd__prove_segments(p, search);
+        if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
+          p->known.settled = (double)search->begin[next];
+      }
+    } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+    if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+      p->known.settled = (double)search->begin[to];
+  }
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF

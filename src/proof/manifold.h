@@ -4,8 +4,8 @@
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
 // such places the farthest along eight directions are kept, and of these the best four. Where two
 // are as far, the one with the lower number is: so the same are chosen again when little has moved.
-// Only normals that are much like the contact's count: where a side rises from the floor, the
-// corners of the floor's triangles are near the side as well, but it is not what the body stands on.
+// Only normals that are much like the contact's count: where a side rises from the floor, corners
+// of the floor's triangles are near the side as well, but it is not what the body stands on.
 #pragma once
 #include "couples.h"
 
@@ -60,7 +60,7 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__support_number(size_t listing, size_t corner, uint32_t kind) {
+static uint32_t nsvcd__corner_id(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
@@ -83,30 +83,29 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
           nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
   for (size_t k = 0; k < 3 && is_farther; k++) {
-    const uint32_t moving_corner = nsvcd__support_number(couple->moving_listing, k, 0);
-    const uint32_t fixed_corner = nsvcd__support_number(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_corner);
+      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_corner);
+      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
-      const nsvcd__d3 *a = posed + k;
-      const nsvcd__d3 *b = posed + (k + 1) % 3;
-      const nsvcd__d3 *c = fixed + i;
-      const nsvcd__d3 *d = fixed + (i + 1) % 3;
-      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
-      const nsvcd__d3 across = nsvcd__d3_cross(nsvcd__d3_sub(*b, *a), nsvcd__d3_sub(*d, *c));
+      const nsvcd__d3 a = posed[(k + 1) % 3];
+      const nsvcd__d3 b = fixed[(i + 1) % 3];
+      const nsvcd__d3 u = nsvcd__d3_sub(a, posed[k]);
+      const nsvcd__d3 v = nsvcd__d3_sub(b, fixed[i]);
+      const nsvcd__d3 across = nsvcd__d3_cross(u, v);
       const double along = nsvcd__d3_dot(across, m->normal);
-      const double lengths =
-          nsvcd__d3_squared_distance(*a, *b) * nsvcd__d3_squared_distance(*c, *d);
       const double square = nsvcd__d3_dot(across, across);
-      if (!(square > 1e-4 * lengths) || along * along < 0.64 * square) continue;
-      nsvcd__edges_nearest(*a, *b, *c, *d, &nearest);
+      const double lengths = nsvcd__d3_dot(u, u) * nsvcd__d3_dot(v, v);
+      nsvcd__nearest nearest = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+      if (!(square > 1e-4 * lengths)) continue;
+      if (along * along < 0.64 * square) continue;
+      nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
-      const uint32_t number =
-          moving_corner * 3 + fixed_corner * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
+      const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
       nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
                           nsvcd__d3_unit(across, faces[1]), number | 2);
     }

@@ -261,6 +261,10 @@ typedef struct nsvcd__given {
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double share, width;
+  // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
+  double to;
+  // FIRST, with `to`: no point goes farther on the whole motion
+  double way;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken
@@ -284,6 +288,8 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
+  // all of a time before what is later, whatever that costs
+  int by_time;
   nsvcd__gathering gathers;
   // how deep touches may be
   double skin;

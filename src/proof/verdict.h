@@ -34,7 +34,6 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                        nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
-  nsvcd__search_begin(p->moving.body, p->fixed.body, search);
   p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
   p->known.lost = outcome == NSVCD__SPENT;
@@ -97,10 +96,26 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
   return nsvcd__prove_anew(p, search);
 }
 
+// There was not work enough for the first contact, and of large bodies nothing is settled then:
+// once more, by time.
+static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__known known = p->known;
+  const double end = p->ask.end;
+  p->ask.by_time = 1;
+  p->ask.limit = nsvcd__limit_after(p, p->given.work / (2 * NSVCD__IN_DOUBT));
+  (void)nsvcd__prove_anew(p, search);
+  p->ask.by_time = 0;
+  known.settled = nsvcd__clear_until(p);
+  p->known = known;
+  p->ask.end = end;
+}
+
 // When do they meet first? What is proven of that stays, also where there is no more work left, and
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
+  const int is_large = nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body);
+  if (p->known.lost && is_large && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {

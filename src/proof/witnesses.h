@@ -47,8 +47,8 @@ static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
-// if it is so after `most`; -HUGE_VAL: it is all the way. On that way the distance is convex: thirds find
-// where it is least, and halves where it is the clearance.
+// if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
+// find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
                                           double most) {
   // parallel faces meet at one time only

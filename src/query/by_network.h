@@ -189,7 +189,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  int more = nsvcd__search_begin(task->moving, task->fixed, search);
+  int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);

@@ -55,6 +55,7 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
+  p->given.way = whole;
   return to < most * whole ? to / whole : most;
 }
 
@@ -79,8 +80,9 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->within = p->unclear = p->wide = 0;
+  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = 0;
   const double to = nsvcd__to_of(task);
+  p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
@@ -164,6 +166,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
   p->ask.share = kept / way;
+  p->ask.measure = 0;
+  p->ask.clearance = p->given.clearance;
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
@@ -206,6 +210,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   const double same = hair + 1e-5 * (double)p->given.lengths;
   const double extent =
       (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
+  const nsvcd__manifold *m = &p->of.kept.manifold;
   double widest = -1;
   nsvcd_pose poses[2];
   nsvcd__motion *whole = p->ask.motion;
@@ -222,18 +227,17 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
     nsvcd__look_at_supports(p);
     p->ask.motion = whole;
-    const int count = nsvcd__manifold_choose(&p->of.kept.manifold, chosen, &area);
+    const int count = nsvcd__manifold_choose(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = p->of.kept.manifold.supports[chosen[n]];
+      nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
       // which body a corner is of
-      answer->contacts[n].id =
-          p->of.kept.manifold.numbers[chosen[n]] ^ (uint32_t)task->swapped;
+      answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
   p->ask.gathers = NSVCD__CONTACTS;
@@ -245,18 +249,17 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
-  const double t = (double)answer->time.low;
+  const double t = (double)answer->safe.time;
   nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
   const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
   if (is_lifted) {
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
     if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (t > 0) {
+  } else if (answer->time.low > 0) {
     answer->depth = 0;
   }
   nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
-  answer->safe.time = answer->time.low;
 }
 
 // Proves a question whose motion has been prepared, if it can.
@@ -304,6 +307,10 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
     if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+    // nearer than this it is proven on the way, but who asks again from there would not be told so
+    const double hairs = 3 * nsvcd__hair(p);
+    const double back = p->given.way > hairs ? hairs / p->given.way : p->given.share;
+    answer->safe.time = (float)fmax(0, until - back);
   }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;

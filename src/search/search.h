@@ -197,7 +197,8 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
   nsvcd__tile_fill(&search->moving_tile, &search->moving_walk);
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
-  for (size_t s = 0; s < search->segments; s++) {
+  for (uint64_t left = search->near_segments; left; left &= left - 1) {
+    const size_t s = nsvcd__lowest_bit(left);
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
@@ -229,17 +230,23 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   return 0;
 }
 
-// Starts the search of a motion that has been cut. Returns 0 if the groups' spheres never meet:
-// then there is no step to take.
+// Those of the segments from one to another, the last one not included.
+static uint64_t nsvcd__some_segments(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
+// Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
+// groups' spheres never meet there: then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
-                               nsvcd__search *search) {
+                               uint64_t segments, nsvcd__search *search) {
   search->moving = moving;
   search->fixed = fixed;
   nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
-  const uint64_t all = nsvcd__all_segments(search);
+  const uint64_t all = segments & nsvcd__all_segments(search);
   const uint64_t wanted = nsvcd__meet_in(search->group, all, nsvcd__body_sphere(fixed));
   search->near_segments = wanted;
-  search->wanted = ~(uint64_t)0;
+  search->wanted = segments;
   search->steps = 0;
   search->step = 0;
   search->waiting = 0;
