@@ -8156,7 +8156,7 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
 }
 
 // Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__some_segments(size_t from, size_t to) {
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
   const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
   return before_end & ~(((uint64_t)1 << from) - 1);
 }
@@ -8405,7 +8405,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__SUPPORTS 8     // directions along which contact points are sought, and
+#define NSVCD__AROUND 8       // directions along which contact points are sought, and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
@@ -8495,22 +8495,22 @@ typedef struct nsvcd__touch {
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
-  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  nsvcd__d3 normal, along[NSVCD__AROUND];
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none; and the number of the
   // corner or the edges
-  nsvcd__contact supports[NSVCD__SUPPORTS];
-  double farthest[NSVCD__SUPPORTS];
-  uint32_t numbers[NSVCD__SUPPORTS];
+  nsvcd__contact supports[NSVCD__AROUND];
+  double farthest[NSVCD__AROUND];
+  uint32_t numbers[NSVCD__AROUND];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
 // rest, all are gathered, as touches or as supports.
 typedef enum nsvcd__gathering {
   NSVCD__CONTACTS,
-  NSVCD__GATHER_TOUCHES,
-  NSVCD__GATHER_SUPPORTS
+  NSVCD__TOUCHING,
+  NSVCD__SUPPORTING
 } nsvcd__gathering;
 
 // What is said of a question in the end.
@@ -10255,8 +10255,8 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
   m->normal = n;
   m->reach = reach;
   m->same = same;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__SUPPORTS);
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__AROUND);
     m->along[k] =
         nsvcd__d3_add(nsvcd__d3_scale(u, cos(angle)), nsvcd__d3_scale(v, sin(angle)));
     m->farthest[k] = -HUGE_VAL;
@@ -10279,7 +10279,7 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+  for (int k = 0; k < NSVCD__AROUND; k++) {
     const double far = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = far - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
@@ -10310,13 +10310,12 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
   const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
   const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
   nsvcd__d3 foot;
-  int is_farther = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
+  int farther = 0;
+  for (int k = 0; k < NSVCD__AROUND && !farther; k++) {
     for (int i = 0; i < 3; i++)
-      is_farther |=
-          nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+      farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
-  for (size_t k = 0; k < 3 && is_farther; k++) {
+  for (size_t k = 0; k < 3 && farther; k++) {
     const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
@@ -10364,10 +10363,10 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 // how many.
 static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
                                                double *area) {
-  int kept[NSVCD__SUPPORTS];
+  int kept[NSVCD__AROUND];
   int count = 0;
   // each place once, those with lower numbers first
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+  for (int k = 0; k < NSVCD__AROUND; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL;
     for (int n = 0; n < count; n++) {
@@ -10385,7 +10384,7 @@ static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *ch
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
   for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__SUPPORTS];
+    int four[NSVCD__AROUND];
     int size = 0;
     for (int n = 0; n < count; n++)
       if (all >> n & 1) four[size++] = kept[n];
@@ -10439,7 +10438,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
-static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
   return nsvcd__triangles_nearest(moved, t->fixed).square;
@@ -10454,15 +10453,15 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   const double reach = clearance + 0.003 * most;
   const double square = reach * reach;
   // as it nearly always is
-  if (nsvcd__square_after(t, n, 0.998 * most) <= square) return most;
+  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
   double low = 0;
   double high = most;
   double within = 0;
-  int found = nsvcd__square_after(t, n, 0) <= square;
+  int found = nsvcd__gap_after(t, n, 0) <= square;
   for (int k = 0; k < 16 && !found; k++) {
     const double third = (high - low) / 3;
-    const double before = nsvcd__square_after(t, n, low + third);
-    const double after = nsvcd__square_after(t, n, high - third);
+    const double before = nsvcd__gap_after(t, n, low + third);
+    const double after = nsvcd__gap_after(t, n, high - third);
     found = before <= square || after <= square;
     within = after <= square ? high - third : low + third;
     if (before < after) high -= third;
@@ -10471,7 +10470,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   if (!found) return -HUGE_VAL;
   for (double beyond = most; beyond - within > 1e-3 * most;) {
     const double middle = 0.5 * (within + beyond);
-    const int touches = nsvcd__square_after(t, n, middle) <= square;
+    const int touches = nsvcd__gap_after(t, n, middle) <= square;
     within = touches ? middle : within;
     beyond = touches ? beyond : middle;
   }
@@ -10533,7 +10532,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
-      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) {
+      if (p->ask.gathers == NSVCD__SUPPORTING) {
         nsvcd__gather_supports(p, &couple, posed);
         continue;
       }
@@ -10544,7 +10543,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+      if (p->ask.gathers == NSVCD__TOUCHING) {
         nsvcd__gather_contact(p, &couple, posed);
         continue;
       }
@@ -10928,7 +10927,7 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     NSVCD__PAUSE(p);
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
-    if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+    if (p->ask.gathers == NSVCD__TOUCHING) {
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     } else if (p->count < NSVCD__ITEMS) {
       p->of.kept.items[p->count++] = *item;
@@ -10940,13 +10939,13 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
 }
 // How far places on both patches of an item, the moving one posed, can at most be along each
 // direction of a manifold: they are within both hulls.
-static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform *pose,
-                                  const nsvcd__item *item, float *most) {
+static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
+                            const nsvcd__item *item, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
   const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
   const float fixed_more = p->fixed.slacks[item->fixed];
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+  for (int k = 0; k < NSVCD__AROUND; k++) {
     const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
     float by_moving = HUGE_VALF;
     float by_fixed = HUGE_VALF;
@@ -10964,30 +10963,30 @@ static void nsvcd__supports_bound(const nsvcd__proof *p, const nsvcd__transform 
 // The manifold of the items that were gathered: first of those that may be farthest along some
 // direction, then of what may still be farther. Where bodies are deep in each other there are many,
 // and few of their places are like a contact: so many are looked at, and no more.
-static NSVCD__APART void nsvcd__look_at_supports(nsvcd__proof *p) {
+static NSVCD__APART void nsvcd__seek_supports(nsvcd__proof *p) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
-  float farthest[NSVCD__SUPPORTS];
-  size_t best[NSVCD__SUPPORTS] = {0};
-  float most[NSVCD__SUPPORTS];
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) farthest[k] = -HUGE_VALF;
+  float farthest[NSVCD__AROUND];
+  size_t best[NSVCD__AROUND] = {0};
+  float most[NSVCD__AROUND];
+  for (int k = 0; k < NSVCD__AROUND; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
     items[n].sought = 0;
-    nsvcd__supports_bound(p, &pose, &items[n], most);
-    for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+    nsvcd__bound_of(p, &pose, &items[n], most);
+    for (int k = 0; k < NSVCD__AROUND; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
     }
   }
-  for (size_t n = 0; n < NSVCD__SUPPORTS + p->count && p->count > 0; n++) {
-    const size_t which = n < NSVCD__SUPPORTS ? best[n] : n - NSVCD__SUPPORTS;
+  for (size_t n = 0; n < NSVCD__AROUND + p->count && p->count > 0; n++) {
+    const size_t which = n < NSVCD__AROUND ? best[n] : n - NSVCD__AROUND;
     nsvcd__item *item = &items[which];
     int matters = 0;
-    nsvcd__supports_bound(p, &pose, item, most);
-    for (int k = 0; k < NSVCD__SUPPORTS; k++)
+    nsvcd__bound_of(p, &pose, item, most);
+    for (int k = 0; k < NSVCD__AROUND; k++)
       matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
     if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[0] > -HUGE_VAL)))
@@ -11524,12 +11523,12 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
     const size_t to = from + many < search->segments ? from + many : search->segments;
     if (!nsvcd__matters(p, search, from)) break;
-    (void)nsvcd__search_begin(moving, fixed, nsvcd__some_segments(from, to), search);
+    (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(from, to), search);
     do {
       for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
         const size_t next = s + few < to ? s + few : to;
         if (!nsvcd__matters(p, search, s)) break;
-        search->wanted = nsvcd__some_segments(s, next);
+        search->wanted = nsvcd__segments_in(s, next);
         search->step = 0;
         search->waiting = 0;
         outcome = nsvcd__prove_segments(p, search);
@@ -12019,7 +12018,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = NSVCD__GATHER_TOUCHES;
+  p->ask.gathers = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);
@@ -13641,7 +13640,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
-  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
@@ -13650,7 +13649,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     double area;
     p->ask.motion = &still;
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
-    nsvcd__look_at_supports(p);
+    nsvcd__seek_supports(p);
     p->ask.motion = whole;
     const int count = nsvcd__manifold_choose(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
@@ -14599,15 +14598,15 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
 #define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
 #define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
-#define NSVCD__GATHER_SUPPORTS NSVCD__NUMBER_AT(GATHER_SUPPORTS)
-#define NSVCD__GATHER_TOUCHES NSVCD__NUMBER_AT(GATHER_TOUCHES)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
 #define NSVCD__SETTLED NSVCD__NUMBER_AT(SETTLED)
 #define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
 #define NSVCD__SPENT NSVCD__NUMBER_AT(SPENT)
+#define NSVCD__SUPPORTING NSVCD__NUMBER_AT(SUPPORTING)
 #define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
+#define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
 #define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
 #define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
@@ -14635,6 +14634,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
+#define nsvcd__bound_of NSVCD__AT(bound_of)
 #define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
@@ -14727,6 +14727,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__foot_within NSVCD__AT(foot_within)
 #define nsvcd__forget NSVCD__AT(forget)
+#define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
 #define nsvcd__gather_items NSVCD__AT(gather_items)
 #define nsvcd__gather_supports NSVCD__AT(gather_supports)
@@ -14796,7 +14797,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
-#define nsvcd__look_at_supports NSVCD__AT(look_at_supports)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__manifold_choose NSVCD__AT(manifold_choose)
@@ -14896,9 +14896,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__see_to_items NSVCD__AT(see_to_items)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
 #define nsvcd__seek_item NSVCD__AT(seek_item)
+#define nsvcd__seek_supports NSVCD__AT(seek_supports)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
 #define nsvcd__segments NSVCD__AT(segments)
+#define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
 #define nsvcd__self_test NSVCD__AT(self_test)
 #define nsvcd__set_down NSVCD__AT(set_down)
@@ -14914,7 +14916,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__shortest_way NSVCD__AT(shortest_way)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
-#define nsvcd__some_segments NSVCD__AT(some_segments)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
 #define nsvcd__span NSVCD__AT(span)
 #define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
@@ -14923,14 +14924,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
-#define nsvcd__square_after NSVCD__AT(square_after)
 #define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
 #define nsvcd__support NSVCD__AT(support)
 #define nsvcd__support_along NSVCD__AT(support_along)
-#define nsvcd__supports_bound NSVCD__AT(supports_bound)
 #define nsvcd__surface_is_near NSVCD__AT(surface_is_near)
 #define nsvcd__surroundings NSVCD__AT(surroundings)
 #define nsvcd__swap_answer NSVCD__AT(swap_answer)

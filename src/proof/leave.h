@@ -174,7 +174,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = NSVCD__GATHER_TOUCHES;
+  p->ask.gathers = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);

@@ -121,12 +121,12 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
   for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
     const size_t to = from + many < search->segments ? from + many : search->segments;
     if (!nsvcd__matters(p, search, from)) break;
-    (void)nsvcd__search_begin(moving, fixed, nsvcd__some_segments(from, to), search);
+    (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(from, to), search);
     do {
       for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
         const size_t next = s + few < to ? s + few : to;
         if (!nsvcd__matters(p, search, s)) break;
-        search->wanted = nsvcd__some_segments(s, next);
+        search->wanted = nsvcd__segments_in(s, next);
         search->step = 0;
         search->waiting = 0;
         outcome = nsvcd__prove_segments(p, search);

@@ -21,8 +21,8 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
   m->normal = n;
   m->reach = reach;
   m->same = same;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
-    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__SUPPORTS);
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__AROUND);
     m->along[k] =
         nsvcd__d3_add(nsvcd__d3_scale(u, cos(angle)), nsvcd__d3_scale(v, sin(angle)));
     m->farthest[k] = -HUGE_VAL;
@@ -45,7 +45,7 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+  for (int k = 0; k < NSVCD__AROUND; k++) {
     const double far = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = far - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
@@ -76,13 +76,12 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
   const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
   const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
   nsvcd__d3 foot;
-  int is_farther = 0;
-  for (int k = 0; k < NSVCD__SUPPORTS && !is_farther; k++) {
+  int farther = 0;
+  for (int k = 0; k < NSVCD__AROUND && !farther; k++) {
     for (int i = 0; i < 3; i++)
-      is_farther |=
-          nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
+      farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
-  for (size_t k = 0; k < 3 && is_farther; k++) {
+  for (size_t k = 0; k < 3 && farther; k++) {
     const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
@@ -130,10 +129,10 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 // how many.
 static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
                                                double *area) {
-  int kept[NSVCD__SUPPORTS];
+  int kept[NSVCD__AROUND];
   int count = 0;
   // each place once, those with lower numbers first
-  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
+  for (int k = 0; k < NSVCD__AROUND; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL;
     for (int n = 0; n < count; n++) {
@@ -151,7 +150,7 @@ static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *ch
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
   for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__SUPPORTS];
+    int four[NSVCD__AROUND];
     int size = 0;
     for (int n = 0; n < count; n++)
       if (all >> n & 1) four[size++] = kept[n];

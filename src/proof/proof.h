@@ -106,7 +106,7 @@
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__SUPPORTS 8     // directions along which contact points are sought, and
+#define NSVCD__AROUND 8       // directions along which contact points are sought, and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
@@ -196,22 +196,22 @@ typedef struct nsvcd__touch {
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
-  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  nsvcd__d3 normal, along[NSVCD__AROUND];
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none; and the number of the
   // corner or the edges
-  nsvcd__contact supports[NSVCD__SUPPORTS];
-  double farthest[NSVCD__SUPPORTS];
-  uint32_t numbers[NSVCD__SUPPORTS];
+  nsvcd__contact supports[NSVCD__AROUND];
+  double farthest[NSVCD__AROUND];
+  uint32_t numbers[NSVCD__AROUND];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
 // rest, all are gathered, as touches or as supports.
 typedef enum nsvcd__gathering {
   NSVCD__CONTACTS,
-  NSVCD__GATHER_TOUCHES,
-  NSVCD__GATHER_SUPPORTS
+  NSVCD__TOUCHING,
+  NSVCD__SUPPORTING
 } nsvcd__gathering;
 
 // What is said of a question in the end.

@@ -40,7 +40,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
-static double nsvcd__square_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
+static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
   return nsvcd__triangles_nearest(moved, t->fixed).square;
@@ -55,15 +55,15 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   const double reach = clearance + 0.003 * most;
   const double square = reach * reach;
   // as it nearly always is
-  if (nsvcd__square_after(t, n, 0.998 * most) <= square) return most;
+  if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
   double low = 0;
   double high = most;
   double within = 0;
-  int found = nsvcd__square_after(t, n, 0) <= square;
+  int found = nsvcd__gap_after(t, n, 0) <= square;
   for (int k = 0; k < 16 && !found; k++) {
     const double third = (high - low) / 3;
-    const double before = nsvcd__square_after(t, n, low + third);
-    const double after = nsvcd__square_after(t, n, high - third);
+    const double before = nsvcd__gap_after(t, n, low + third);
+    const double after = nsvcd__gap_after(t, n, high - third);
     found = before <= square || after <= square;
     within = after <= square ? high - third : low + third;
     if (before < after) high -= third;
@@ -72,7 +72,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
   if (!found) return -HUGE_VAL;
   for (double beyond = most; beyond - within > 1e-3 * most;) {
     const double middle = 0.5 * (within + beyond);
-    const int touches = nsvcd__square_after(t, n, middle) <= square;
+    const int touches = nsvcd__gap_after(t, n, middle) <= square;
     within = touches ? middle : within;
     beyond = touches ? beyond : middle;
   }
@@ -134,7 +134,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
-      if (p->ask.gathers == NSVCD__GATHER_SUPPORTS) {
+      if (p->ask.gathers == NSVCD__SUPPORTING) {
         nsvcd__gather_supports(p, &couple, posed);
         continue;
       }
@@ -145,7 +145,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest = nsvcd__triangles_nearest(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
-      if (p->ask.gathers == NSVCD__GATHER_TOUCHES) {
+      if (p->ask.gathers == NSVCD__TOUCHING) {
         nsvcd__gather_contact(p, &couple, posed);
         continue;
       }

@@ -216,7 +216,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
-  p->ask.gathers = NSVCD__GATHER_SUPPORTS;
+  p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
@@ -225,7 +225,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     double area;
     p->ask.motion = &still;
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
-    nsvcd__look_at_supports(p);
+    nsvcd__seek_supports(p);
     p->ask.motion = whole;
     const int count = nsvcd__manifold_choose(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;

@@ -231,7 +231,7 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
 }
 
 // Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__some_segments(size_t from, size_t to) {
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
   const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
   return before_end & ~(((uint64_t)1 << from) - 1);
 }
