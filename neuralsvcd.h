@@ -10294,21 +10294,21 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__corner_id(size_t listing, size_t corner, uint32_t kind) {
+static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
 // All places where a couple touches, to within the reach. posed: the moving triangle.
-static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
-                                                const nsvcd__d3 *posed) {
+static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__couple *couple,
+                                              const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
   // faces look at each other, along the normal
-  const double moving_looks = -nsvcd__d3_dot(faces[0], m->normal);
-  const double fixed_looks = nsvcd__d3_dot(faces[1], m->normal);
-  const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
-  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
+  const double moving_up = -nsvcd__d3_dot(faces[0], m->normal);
+  const double fixed_up = nsvcd__d3_dot(faces[1], m->normal);
+  const int moving_faces = (p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8;
+  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__AROUND && !farther; k++) {
@@ -10316,8 +10316,8 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
   for (size_t k = 0; k < 3 && farther; k++) {
-    const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
@@ -10361,7 +10361,7 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
+static NSVCD__APART int nsvcd__choose_contacts(const nsvcd__manifold *m, int *chosen,
                                                double *area) {
   int kept[NSVCD__AROUND];
   int count = 0;
@@ -10533,7 +10533,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
       if (p->ask.gathers == NSVCD__SUPPORTING) {
-        nsvcd__gather_supports(p, &couple, posed);
+        nsvcd__gather_places(p, &couple, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
@@ -13651,7 +13651,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
     nsvcd__seek_supports(p);
     p->ask.motion = whole;
-    const int count = nsvcd__manifold_choose(m, chosen, &area);
+    const int count = nsvcd__choose_contacts(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
@@ -14659,6 +14659,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__certify_item NSVCD__AT(certify_item)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__check NSVCD__AT(check)
+#define nsvcd__choose_contacts NSVCD__AT(choose_contacts)
 #define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
 #define nsvcd__choose_segments NSVCD__AT(choose_segments)
 #define nsvcd__chords NSVCD__AT(chords)
@@ -14683,7 +14684,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
-#define nsvcd__corner_id NSVCD__AT(corner_id)
 #define nsvcd__couple NSVCD__AT(couple)
 #define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
@@ -14730,7 +14730,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
 #define nsvcd__gather_items NSVCD__AT(gather_items)
-#define nsvcd__gather_supports NSVCD__AT(gather_supports)
+#define nsvcd__gather_places NSVCD__AT(gather_places)
 #define nsvcd__gathering NSVCD__AT(gathering)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
@@ -14743,6 +14743,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__hint NSVCD__AT(hint)
 #define nsvcd__hull_of NSVCD__AT(hull_of)
 #define nsvcd__hulls_are_apart NSVCD__AT(hulls_are_apart)
+#define nsvcd__id_of NSVCD__AT(id_of)
 #define nsvcd__inputs_in NSVCD__AT(inputs_in)
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
@@ -14799,7 +14800,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
-#define nsvcd__manifold_choose NSVCD__AT(manifold_choose)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)

@@ -60,21 +60,21 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
 
 // The number of a corner or an edge of a listed triangle: kind 0, of the moving body; 1, of the
 // fixed one.
-static uint32_t nsvcd__corner_id(size_t listing, size_t corner, uint32_t kind) {
+static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
 // All places where a couple touches, to within the reach. posed: the moving triangle.
-static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__couple *couple,
-                                                const nsvcd__d3 *posed) {
+static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__couple *couple,
+                                              const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
   // faces look at each other, along the normal
-  const double moving_looks = -nsvcd__d3_dot(faces[0], m->normal);
-  const double fixed_looks = nsvcd__d3_dot(faces[1], m->normal);
-  const int moving_faces = (p->moving.body->open ? fabs(moving_looks) : moving_looks) >= 0.8;
-  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_looks) : fixed_looks) >= 0.8;
+  const double moving_up = -nsvcd__d3_dot(faces[0], m->normal);
+  const double fixed_up = nsvcd__d3_dot(faces[1], m->normal);
+  const int moving_faces = (p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8;
+  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__AROUND && !farther; k++) {
@@ -82,8 +82,8 @@ static NSVCD__APART void nsvcd__gather_supports(nsvcd__proof *p, const nsvcd__co
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
   for (size_t k = 0; k < 3 && farther; k++) {
-    const uint32_t moving_id = nsvcd__corner_id(couple->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__corner_id(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
@@ -127,7 +127,7 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__manifold_choose(const nsvcd__manifold *m, int *chosen,
+static NSVCD__APART int nsvcd__choose_contacts(const nsvcd__manifold *m, int *chosen,
                                                double *area) {
   int kept[NSVCD__AROUND];
   int count = 0;

@@ -135,7 +135,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       nsvcd__place_triangle(at, couple.moving, posed);
       p->work++;
       if (p->ask.gathers == NSVCD__SUPPORTING) {
-        nsvcd__gather_supports(p, &couple, posed);
+        nsvcd__gather_places(p, &couple, posed);
         continue;
       }
       if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {

@@ -227,7 +227,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
     nsvcd__seek_supports(p);
     p->ask.motion = whole;
-    const int count = nsvcd__manifold_choose(m, chosen, &area);
+    const int count = nsvcd__choose_contacts(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
