@@ -108,7 +108,7 @@ level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first 
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, normals[0]) > -0.3 \|\| nsvcd__d3_dot(n, normals[1]) > -0.3|n, normals[0]) > -0.3 \&\& nsvcd__d3_dot(n, normals[1]) > -0.3
-asks: a lift that is not tried|    more \&= nsvcd__d3_dot(lift, lift) > 0;|    more = 0;
+asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
 asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
@@ -119,9 +119,30 @@ asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__mee
 asks: metres without the way|(arc->speed + arc->turn * extent)|(arc->turn * extent)
 asks: metres without the turn|(arc->speed + arc->turn * extent)|(arc->speed)
 asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
-asks: a safe place not lifted|moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit|0
-asks: a safe place on the other side|moving == lifts_fixed ? 0 : moving ? world.unit : -world.unit|moving == lifts_fixed ? 0 : moving ? -world.unit : world.unit
-asks: a safe place too late|const double t = (double)answer->time.low;|const double t = fmin(1, 1.05 * (double)answer->time.low + 0.01);
+asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
+asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
+asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
+asks: a safe place where it is about to touch|answer->safe.time = (float)fmax(0, until - back);|answer->safe.time = answer->time.low;
+asks: set down to the ground|const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);|const nsvcd__d3 least = nsvcd__lift_off(p, 0, 1);
+asks: not set down|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return lift;
+asks: set down through contacts|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return least;
+asks: set down with a distance asked for|  p->ask.measure = 0;\n  p->ask.clearance = p->given.clearance;\n  p->ask.limit|  p->ask.limit
+asks: a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
+asks: depths of what is apart|  if (!found) return -HUGE_VAL;|  if (!found) return 0;
+asks: half of a depth|p->depths[k] = fmax(p->depths[k], depth);|p->depths[k] = fmax(p->depths[k], 0.5 * depth);
+asks: one depth for all normals|const double along = least + (by_depth ? p->depths[k] : 0);|const double along = least + (by_depth ? p->depths[0] : 0);
+asks: no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
+asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
+asks: a floor that is near by|fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
+asks: contacts of sides|(p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8|1
+asks: contacts of any face|(p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8|1
+asks: contacts out of reach|nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach|1
+asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
+asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
+asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (!(spanned > 1.001 * *area) \&\& *area > 0) continue;
+asks: contacts in any order|at > 0 \&\& m->numbers[k] < m->numbers[kept[at - 1]]|0
+asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;|int tries = 1;
+asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
 LIST
 
 survived=0

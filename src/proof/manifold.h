@@ -40,8 +40,7 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
   const double gap = side * nsvcd__d3_dot(way, normal);
   const double aside = nsvcd__d3_dot(way, way) - gap * gap;
   // past the end of an edge they are not over each other
-  if (side * nsvcd__d3_dot(normal, m->normal) < 0.8 || aside > 0.01 * m->same * m->same)
-    return;
+  if (aside > 0.01 * m->same * m->same) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
