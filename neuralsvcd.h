@@ -10279,15 +10279,15 @@ static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__coupl
   nsvcd__contact contact;
   int known = 0;
   for (int k = 0; k < NSVCD__AROUND; k++) {
-    const double far = nsvcd__d3_dot(m->along[k], on_fixed);
-    const double more = far - m->farthest[k];
+    const double place = nsvcd__d3_dot(m->along[k], on_fixed);
+    const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
     if (!known) contact = nsvcd__contact_at(p, couple, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
     m->numbers[k] = number;
-    m->farthest[k] = far;
+    m->farthest[k] = place;
   }
 }
 

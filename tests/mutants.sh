@@ -127,11 +127,10 @@ asks: set down to the ground|const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1)
 asks: not set down|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return lift;
 asks: set down through contacts|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return least;
 asks: set down with a distance asked for|  p->ask.measure = 0;\n  p->ask.clearance = p->given.clearance;\n  p->ask.limit|  p->ask.limit
-asks: a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
-asks: depths of what is apart|  if (!found) return -HUGE_VAL;|  if (!found) return 0;
+a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
 asks: half of a depth|p->depths[k] = fmax(p->depths[k], depth);|p->depths[k] = fmax(p->depths[k], 0.5 * depth);
 asks: one depth for all normals|const double along = least + (by_depth ? p->depths[k] : 0);|const double along = least + (by_depth ? p->depths[0] : 0);
-asks: no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
+no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
 asks: a floor that is near by|fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
 asks: contacts of sides|(p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8|1
@@ -140,7 +139,6 @@ asks: contacts out of reach|nsvcd__d3_squared_distance(posed[k], foot) <= m->rea
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
 asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (!(spanned > 1.001 * *area) \&\& *area > 0) continue;
-asks: contacts in any order|at > 0 \&\& m->numbers[k] < m->numbers[kept[at - 1]]|0
 asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;|int tries = 1;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
 LIST

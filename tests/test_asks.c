@@ -305,11 +305,11 @@ static void asks_first_keeps_what_is_proven(void) {
   shapes_box(&shape, 1, 1, 0.05, 12);
   for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.025;
   shapes_box_at(&shape, 0.4, 0, 0.3, 0.05, 0.05, 0.6);
-  const nsvcd_body *table = asks_body(&shape, 0);
+  const nsvcd_body *table = asks_body(&shape, 192);
   const nsvcd_body_facts facts = nsvcd_body_describe(table);
   memset(&shape, 0, sizeof shape);
   shapes_box_at(&shape, 0, 0, 0.05, 0.1, 0.1, 0.1);
-  const nsvcd_body *box = asks_body(&shape, 0);
+  const nsvcd_body *box = asks_body(&shape, 192);
   for (int start = 0; start < 2; start++) {
     nsvcd_pose path[33];
     float until = 0;
@@ -433,8 +433,8 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
 }
 
 // Does the convex hull of the contacts, seen from above, hold (x, y)? Then of the directions to them
-// no two neighbours are half a turn apart.
-static int asks_supports(const nsvcd_answer *answer, double x, double y) {
+// no two neighbours are half a turn apart. *widest_gap: between neighbours, radians.
+static int asks_supports(const nsvcd_answer *answer, double x, double y, double *widest_gap) {
   double widest = 0;
   double angles[NSVCD_MAX_CONTACTS] = {0};
   const size_t count = answer->contact_count;
@@ -452,6 +452,7 @@ static int asks_supports(const nsvcd_answer *answer, double x, double y) {
     const double next = n + 1 < count ? angles[n + 1] : angles[0] + 6.283185307179586;
     widest = fmax(widest, next - angles[n]);
   }
+  *widest_gap = widest;
   return widest < 3.1416;
 }
 
@@ -480,7 +481,10 @@ static void asks_manifold_holds(void) {
         question.to = (float)to;
         const nsvcd_answer answer = asks(&question);
         CHECK_EQ(answer.verdict, NSVCD_HIT);
-        CHECK(asks_supports(&answer, x, 0.01));
+        double gap = 7;
+        CHECK(asks_supports(&answer, x, 0.01, &gap));
+        // of a round base they stand all around
+        if (n % STANDING < 7 && n % 2 == 0) CHECK_LE(gap, 2.4);
         int is_same = answer.contact_count == count;
         for (size_t k = 0; k < answer.contact_count; k++) {
           const nsvcd_contact *c = &answer.contacts[k];
@@ -512,6 +516,75 @@ static void asks_manifold_holds(void) {
   }
   printf("  set down again, the same contacts: %zu of %zu\n", same, moved);
   CHECK_GE(same, moved * 9 / 10);
+  nsvcd_body_free(tables[0], NULL);
+  nsvcd_body_free(tables[1], NULL);
+}
+
+// A finely cut plate comes down on the end of a post, or a post on a plate, so that corners of the
+// plate's triangles are just beside the sides of the post: those are no contacts, but the corners of
+// its end are.
+static void asks_manifold_has_no_ghosts(void) {
+  shapes_rng rng = {2714};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 1, 0.05, 16);
+  const nsvcd_body *plate = asks_body(&shape, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.1, 0.1, 0.1, 1);
+  const nsvcd_body *stump = asks_body(&shape, 0);
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.1, 0.1, 3, 1);
+  const nsvcd_body *post = asks_body(&shape, 0);
+  for (int k = 0; k < 200; k++) {
+    const nsvcd_body *below = k % 2 ? post : plate;
+    const nsvcd_body *above = k % 2 ? plate : k % 4 ? stump : post;
+    const double height = 0.5 * (k % 2 ? 3.05 : k % 4 ? 0.15 : 3.05);
+    // 1 / 16 is how far the plate's corners are from each other
+    const double x = 1.0 / 16 - 0.05 - shapes_uniform(&rng, 0, 5e-4);
+    const double side = k % 8 < 4 ? 1 : -1;
+    const nsvcd_pose path[2] = {asks_pose(side * x, 0.01, height + 0.01, 0),
+                                asks_pose(side * x, 0.01, height - 0.01, 0)};
+    nsvcd_question question = question_of(above, path, 2, below, NULL, NULL);
+    question.ask = NSVCD_ASK_FIRST;
+    question.manifold = 1;
+    question.to = 5e-4f;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.contact_count, 4);
+    for (size_t n = 0; n < answer.contact_count; n++) {
+      const nsvcd_contact *c = &answer.contacts[n];
+      const double from = k % 2 ? 0 : side * x;
+      const double across = k % 2 ? 0 : 0.01;
+      CHECK_NEAR(c->normal[2], 1, 1e-5);
+      CHECK_NEAR(fabs((double)c->point[0] - from), 0.05, 1e-4);
+      CHECK_NEAR(fabs((double)c->point[1] - across), 0.05, 1e-4);
+      if (n > 0) CHECK(c->id > c[-1].id);
+    }
+  }
+  nsvcd_body_free(plate, NULL);
+  nsvcd_body_free(stump, NULL);
+  nsvcd_body_free(post, NULL);
+}
+
+// Pressed into a table and sinking, with a skin for that: how near it comes is asked as well.
+static void asks_safe_with_a_distance(void) {
+  const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
+  shapes_rng rng = {2715};
+  for (int n = 0; n < 4 * STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n % STANDING, &rng);
+    const double depth = shapes_uniform(&rng, 0, 6e-4);
+    const double x = shapes_uniform(&rng, -0.2, 0.2);
+    const nsvcd_pose path[2] = {asks_pose(x, 0.01, -depth, 0.1 * n),
+                                asks_pose(x + 0.01, 0.01, -depth - 1.2e-3, 0.1 * n)};
+    nsvcd_question question = question_of(body, path, 2, tables[n % 2], NULL, NULL);
+    question.skin = 2e-3f;
+    question.ask = NSVCD_ASK_DISTANCE;
+    question.to = n % 3 ? 1e-4f : 1e-3f;
+    question.clearance = n % 4 > 1 ? 1e-4f : 0;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_FREE);
+    asks_check_safe(&question, &answer);
+    nsvcd_body_free(body, NULL);
+  }
   nsvcd_body_free(tables[0], NULL);
   nsvcd_body_free(tables[1], NULL);
 }
@@ -625,6 +698,8 @@ static void asks_first_is_to_metres(void) {
 void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_manifold_holds);
+  RUN(asks_manifold_has_no_ghosts);
+  RUN(asks_safe_with_a_distance);
   RUN(asks_goes_on_for_frames);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);

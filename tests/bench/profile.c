@@ -67,7 +67,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__cut_motion(&motion, q->moving->extent + q->fixed->extent, &work->broad_phase);
   keep_least(times, CUT, start);
   start = seconds();
-  int more = nsvcd__search_begin(q->moving, q->fixed, &work->broad_phase);
+  int more = nsvcd__search_begin(q->moving, q->fixed, ~(uint64_t)0, &work->broad_phase);
   keep_least(times, BEGIN, start);
   nsvcd__candidates_start(&kept, work->kept, NSVCD__SHORTLIST * NSVCD_DEFAULT_PAIRS);
   start = seconds();
