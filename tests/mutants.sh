@@ -133,12 +133,10 @@ asks: one depth for all normals|const double along = least + (by_depth ? p->dept
 no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
 asks: a floor that is near by|fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
-asks: contacts of sides|(p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8|1
-asks: contacts of any face|(p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8|1
 asks: contacts out of reach|nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
-asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (!(spanned > 1.001 * *area) \&\& *area > 0) continue;
+asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*area > 0) continue;
 asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;|int tries = 1;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
 LIST

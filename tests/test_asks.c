@@ -484,7 +484,7 @@ static void asks_manifold_holds(void) {
         double gap = 7;
         CHECK(asks_supports(&answer, x, 0.01, &gap));
         // of a round base they stand all around
-        if (n % STANDING < 7 && n % 2 == 0) CHECK_LE(gap, 2.4);
+        if (n % STANDING < 7 && n % 2 == 0) CHECK_LE(gap, 1.9);
         int is_same = answer.contact_count == count;
         for (size_t k = 0; k < answer.contact_count; k++) {
           const nsvcd_contact *c = &answer.contacts[k];
@@ -542,7 +542,9 @@ static void asks_manifold_has_no_ghosts(void) {
     // 1 / 16 is how far the plate's corners are from each other
     const double x = 1.0 / 16 - 0.05 - shapes_uniform(&rng, 0, 5e-4);
     const double side = k % 8 < 4 ? 1 : -1;
-    const nsvcd_pose path[2] = {asks_pose(side * x, 0.01, height + 0.01, 0),
+    // or it is in contact from the start
+    const double from_height = k % 3 ? 0.01 : -3e-4;
+    const nsvcd_pose path[2] = {asks_pose(side * x, 0.01, height + from_height, 0),
                                 asks_pose(side * x, 0.01, height - 0.01, 0)};
     nsvcd_question question = question_of(above, path, 2, below, NULL, NULL);
     question.ask = NSVCD_ASK_FIRST;
