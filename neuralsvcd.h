@@ -8155,12 +8155,6 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   return 0;
 }
 
-// Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__segments_in(size_t from, size_t to) {
-  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
-  return before_end & ~(((uint64_t)1 << from) - 1);
-}
-
 // Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
 // groups' spheres never meet there: then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
@@ -11508,6 +11502,12 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
   return nsvcd__settle_items(p, search);
 }
 
+// Those of the segments from one to another, the last one not included.
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments
@@ -13682,7 +13682,9 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
   } else if (answer->time.low > 0) {
     answer->depth = 0;
   }
-  nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
+  // at the ends they are as the caller has them: nsvcd__answer_begin
+  if (is_lifted || (t > 0 && t < 1))
+    nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
 // Proves a question whose motion has been prepared, if it can.
@@ -13748,11 +13750,12 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
 
   // By what the moving body was lifted, in the world at the start.
-  const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
-  const nsvcd__d3 lift =
-      nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
-  const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
-  nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
+  if (nsvcd__d3_dot(lift, lift) > 0) {
+    const nsvcd__to_world start = nsvcd__to_world_at(&task->motion, 0);
+    const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, lift);
+    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->lift);
+  }
   if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
   answer->work = p->work;

@@ -107,6 +107,12 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
   return nsvcd__settle_items(p, search);
 }
 
+// Those of the segments from one to another, the last one not included.
+static uint64_t nsvcd__segments_in(size_t from, size_t to) {
+  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
+  return before_end & ~(((uint64_t)1 << from) - 1);
+}
+
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
 // settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments

@@ -259,7 +259,9 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
   } else if (answer->time.low > 0) {
     answer->depth = 0;
   }
-  nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
+  // at the ends they are as the caller has them: nsvcd__answer_begin
+  if (is_lifted || (t > 0 && t < 1))
+    nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
 // Proves a question whose motion has been prepared, if it can.
@@ -325,11 +327,12 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
 
   // By what the moving body was lifted, in the world at the start.
-  const nsvcd__to_world start = nsvcd__to_world_at(p->ask.motion, 0);
-  const nsvcd__d3 lift =
-      nsvcd__dmat3_apply(&start.rotation, nsvcd__d3_widen(p->ask.motion->lift));
-  const nsvcd__d3 metres = nsvcd__d3_scale(lift, p->given.skin > 0 ? start.unit : 0);
-  nsvcd__f3_store(nsvcd__f3_round(metres), answer->lift);
+  const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
+  if (nsvcd__d3_dot(lift, lift) > 0) {
+    const nsvcd__to_world start = nsvcd__to_world_at(&task->motion, 0);
+    const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, lift);
+    nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->lift);
+  }
   if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
   answer->work = p->work;

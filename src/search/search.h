@@ -230,12 +230,6 @@ static int nsvcd__search_next_tile(nsvcd__search *search) {
   return 0;
 }
 
-// Those of the segments from one to another, the last one not included.
-static uint64_t nsvcd__segments_in(size_t from, size_t to) {
-  const uint64_t before_end = to < 64 ? ((uint64_t)1 << to) - 1 : ~(uint64_t)0;
-  return before_end & ~(((uint64_t)1 << from) - 1);
-}
-
 // Starts the search of a motion that has been cut, in some of its segments. Returns 0 if the
 // groups' spheres never meet there: then there is no step to take.
 static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed,
