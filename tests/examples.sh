@@ -346,6 +346,21 @@ printf 'nsvcd-problems 1\nmesh m cube.obj\nproblem slide m 1 m 1 %s 0 nan 2 1\n0
 expect 0 '0 of 1 right' build/svcd check --repeat 1 "$dir/slide.txt"
 expect 0 '1 of 1 right' build/svcd check --repeat 1 --skin 0.001 "$dir/slide.txt"
 expect 2 'neither' build/svcd check --method network --skin 0.1 "$dir/slide.txt"
+# All that is known of it, in a line: free all the way, in contact by no more than its triangles are stored to.
+expect 0 '1 of 1 right' build/svcd check --repeat 1 --skin 0.001 --first 0.001m --details "$dir/slide.tsv" "$dir/slide.txt"
+awk -F '\t' '{ good = NF == 16 && $1 == "slide" && $2 == "free" && $3 == 1 && $4 == 1 && $7 < 4e-5 && $8 == 1 && $9 > 0.299 &&
+  $11 > 0.99999 && $11 < 1.0002 && $16 == 0 } END { exit !good }' "$dir/slide.tsv" || fail "the slide in detail: $(cat "$dir/slide.tsv")"
+# A cube set down on another one, to a tenth of a millimetre: four contacts, at the corners of what they share, with normals upwards.
+printf 'nsvcd-problems 1\nmesh m cube.obj\nproblem down m 1 m 1 %s 1 nan 2 1\n0.2 0.3 2 0 0 0 1\n0.2 0.3 0.5 0 0 0 1\n0 0 0 0 0 0 1\n' "$pose" >"$dir/down.txt"
+expect 0 '1 of 1 right' build/svcd check --repeat 1 --first 0.0001m --details "$dir/down.tsv" "$dir/down.txt"
+awk -F '\t' '{ good = NF == 44 && $2 == "hit" && $4 - $3 < 0.0001 && $3 <= 0.6667 && $4 >= 0.6666 && $7 == 0 && $11 > 0.99999 && $16 == 4
+  for (n = 17; n < 44; n += 7) good = good && $(n + 2) > 0.999 && $(n + 2) < 1.001 && $(n + 5) > 0.999 && $(n + 6) <= 0.0002 &&
+    ($n < 0.21 || $n > 0.99) && ($(n + 1) < 0.31 || $(n + 1) > 0.99) } END { exit !good }' "$dir/down.tsv" ||
+  fail "a cube set down: $(cat "$dir/down.tsv")"
+expect 2 'ends in .tsv' build/svcd check --details "$dir/x.txt" "$dir/two.txt"
+expect 1 'x.tsv: ' build/svcd check --details "$dir/no folder/x.tsv" "$dir/two.txt"
+expect 2 'or metres' build/svcd check --first 1e9m "$dir/two.txt"
+expect 2 'or metres' build/svcd check --first m "$dir/two.txt"
 expect 2 'not a number in 0..1' build/svcd check --first 2 "$dir/two.txt"
 expect 2 'neither' build/svcd check --method network --first 0.1 "$dir/two.txt"
 
