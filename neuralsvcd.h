@@ -8473,8 +8473,8 @@ typedef struct nsvcd__block {
 typedef struct nsvcd__contact {
   double tick;      // when
   double distance;  // of the triangles
-  // the fixed body's frame; out of the fixed body; and against the moving triangle's own
-  nsvcd__d3 point, normal, other_normal;
+  // the fixed body's frame; out of the fixed body
+  nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
@@ -9668,10 +9668,6 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
-  nsvcd__d3 posed[3];
-  const nsvcd__placement at = nsvcd__placement_at(&p->arc, u);
-  nsvcd__place_triangle(&at, couple->moving, posed);
-  out.other_normal = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
@@ -10239,7 +10235,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -10259,9 +10255,9 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
 
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
 // face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
-                                             nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                             nsvcd__d3 normal, uint32_t number) {
+static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple *couple,
+                                           nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                           nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
@@ -10313,10 +10309,10 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
+      nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_id);
+      nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -10332,8 +10328,8 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
-                          nsvcd__d3_unit(across, faces[1]), number | 2);
+      nsvcd__keep_place(p, couple, nearest.on_a, nearest.on_b,
+                        nsvcd__d3_unit(across, faces[1]), number | 2);
     }
   }
 }
@@ -10354,8 +10350,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__choose_contacts(const nsvcd__manifold *m, int *chosen,
-                                               double *area) {
+static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                           double *area) {
   int kept[NSVCD__AROUND];
   int count = 0;
   // each place once, those with lower numbers first
@@ -10482,7 +10478,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
-static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -10500,7 +10496,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__is_undone_by(p, k, &touch)) return;
+    if (nsvcd__undone_by(p, k, &touch)) return;
   }
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
@@ -10930,6 +10926,7 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
   return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
                                                                     : NSVCD__SPENT;
 }
+
 // How far places on both patches of an item, the moving one posed, can at most be along each
 // direction of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
@@ -10956,7 +10953,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // The manifold of the items that were gathered: first of those that may be farthest along some
 // direction, then of what may still be farther. Where bodies are deep in each other there are many,
 // and few of their places are like a contact: so many are looked at, and no more.
-static NSVCD__APART void nsvcd__seek_supports(nsvcd__proof *p) {
+static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
@@ -11913,8 +11910,7 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
     p->normal_count++;
     size_t left = 0;
     for (size_t n = 0; n < p->touch_count; n++) {
-      if (!nsvcd__is_undone_by(p, k, &p->of.touches[n]))
-        p->of.touches[left++] = p->of.touches[n];
+      if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
     p->touch_count = left;
   }
@@ -11977,7 +11973,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
 }
 
 // The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__shortest_way(const nsvcd__proof *p, const nsvcd__touch *t) {
+static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
@@ -12004,7 +12000,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
     (void)nsvcd__prove_anew(p, search);
     // what no plane normal to a lift parts is out of the way after it all the same
     for (size_t n = 0; n < p->touch_count; n++)
-      nsvcd__note_depth(p, nsvcd__shortest_way(p, &p->of.touches[n]), &p->of.touches[n]);
+      nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     if (!(after > 1.002 * before)) break;
   }
@@ -13514,15 +13510,15 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__proof_restart(p);
 }
 
-// The contact that a proof has found: when, where, and of what. swapped: it is the fixed body that
-// counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
-                                             const nsvcd__contact *found, int swapped,
-                                             nsvcd_contact *out) {
-  const int rests = p->ask.motion->moving.count == 1 && !p->ask.motion->fixed_moves;
-  const double time = rests ? 0 : found->tick / (double)p->ask.motion->ticks;
-  const nsvcd__to_world world = nsvcd__to_world_at(p->ask.motion, time);
-  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->ask.motion->lift), swapped);
+// The contact that a proof has found: when, where, and of what. Where the two were swapped it is
+// the fixed body that counts as lifted, the other way.
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__task *task,
+                                             const nsvcd__contact *found, nsvcd_contact *out) {
+  const nsvcd__motion *motion = &task->motion;
+  const int rests = motion->moving.count == 1 && !motion->fixed_moves;
+  const double time = rests ? 0 : found->tick / (double)motion->ticks;
+  const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
+  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(motion->lift), task->swapped);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
@@ -13535,6 +13531,17 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
   out->triangle_b = found->fixed_triangle;
   out->patch_a = found->moving_patch;
   out->patch_b = found->fixed_patch;
+}
+
+static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 place) {
+  nsvcd_pose out;
+  float *q = out.rotation;
+  q[0] = (float)turn.x;
+  q[1] = (float)turn.y;
+  q[2] = (float)turn.z;
+  q[3] = (float)turn.w;
+  nsvcd__f3_store(nsvcd__f3_round(place), out.position);
+  return out;
 }
 
 // Where both bodies are at time t, the one that takes the lift displaced by so much, in the fixed
@@ -13550,16 +13557,11 @@ static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvc
   const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, lift);
   for (int n = 0; n < 2; n++) {
     const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
-    nsvcd_pose *out = n ? fixed : moving;
     nsvcd__d3 place;
     const nsvcd__dquat turn =
         nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &place);
     place = nsvcd__d3_add(place, nsvcd__d3_scale(seen, by));
-    nsvcd__f3_store(nsvcd__f3_round(place), out->position);
-    out->rotation[0] = (float)turn.x;
-    out->rotation[1] = (float)turn.y;
-    out->rotation[2] = (float)turn.z;
-    out->rotation[3] = (float)turn.w;
+    *(n ? fixed : moving) = nsvcd__pose_of(turn, place);
   }
 }
 
@@ -13574,8 +13576,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_lift(task);
-  const nsvcd__track moving_track = {moving, takes_it ? 2u : 1u, 0};
-  const nsvcd__track fixed_track = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__track moves = {moving, takes_it ? 2u : 1u, 0};
+  const nsvcd__track rests = {fixed, takes_it ? 1u : 2u, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
@@ -13585,7 +13587,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   if (!(nsvcd__d3_dot(by, lift) > 0) || !(way > kept)) return lift;
   nsvcd__poses_at(task, t, lift, &moving[0], &fixed[0]);
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
-  nsvcd__motion_set_tracks(&down, moving_track, fixed_track);
+  nsvcd__motion_set_tracks(&down, moves, rests);
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
   p->ask.share = kept / way;
@@ -13604,20 +13606,32 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
 // world's: places in its frame are as exact as if it were there.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__to_world world = nsvcd__to_world_at(&still, t);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(still.lift));
-  const nsvcd__track moving_track = {&poses[0], 1, 0};
-  const nsvcd__track fixed_track = {&poses[1], 1, 0};
-  nsvcd__d3 place;
-  nsvcd__poses_at(task, t, nsvcd__d3_of(0, 0, 0), &poses[0], &poses[1]);
-  (void)nsvcd__turn_at(&still, &still.moving, t, &place);
-  place = nsvcd__d3_sub(place, world.position);
-  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, world.unit));
-  nsvcd__f3_store(nsvcd__f3_round(place), poses[0].position);
-  memset(poses[1].position, 0, sizeof poses[1].position);
-  nsvcd__motion_set_tracks(&still, moving_track, fixed_track);
+  const nsvcd__track tracks[2] = {{&poses[0], 1, 0}, {&poses[1], 1, 0}};
+  const nsvcd__d3 here = {0, 0, 0};
+  nsvcd__d3 place, origin;
+  const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &place);
+  const nsvcd__dquat fixed_turn = nsvcd__turn_at(&still, &still.fixed, t, &origin);
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed_turn);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.lift));
+  place = nsvcd__d3_sub(place, origin);
+  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, (double)still.unit));
+  poses[0] = nsvcd__pose_of(turn, place);
+  poses[1] = nsvcd__pose_of(fixed_turn, here);
+  nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
   still.lift = nsvcd__f3_of(0, 0, 0);
   return still;
+}
+
+// Against the normal of a contact's moving triangle, as the bodies rest.
+static nsvcd__d3 nsvcd__against(nsvcd__proof *p, const nsvcd__contact *found) {
+  const size_t patch = found->moving_patch;
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  nsvcd__d3 corners[3], posed[3];
+  size_t n = p->moving.first_triangle[patch];
+  while (nsvcd__facet_number(&p->moving, patch, n) != found->moving_triangle) n++;
+  nsvcd__facet_triangle(&p->moving, patch, n, corners);
+  nsvcd__place_triangle(&at, corners, posed);
+  return nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
 }
 
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
@@ -13627,30 +13641,28 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__contact found = p->known.found;
-  const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
-  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  const nsvcd__asked asked = p->ask;
   const double hair = nsvcd__hair(p);
   const double same = hair + 1e-5 * (double)p->given.lengths;
-  const double extent =
-      (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
+  const float radius = task->motion.scale * task->moving->radius;
+  const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
   double widest = -1;
   nsvcd_pose poses[2];
-  nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
+  const nsvcd__d3 normals[2] = {found.normal, nsvcd__against(p, &found)};
+  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    p->ask.motion = &still;
-    nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
-    nsvcd__seek_supports(p);
-    p->ask.motion = whole;
-    const int count = nsvcd__choose_contacts(m, chosen, &area);
+    nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
+    nsvcd__seek_places(p);
+    const int count = nsvcd__choose_four(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
@@ -13658,13 +13670,12 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     for (int n = 0; n < count; n++) {
       nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
+      nsvcd__tell_contact(task, &support, &answer->contacts[n]);
       // which body a corner is of
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
+  p->ask = asked;
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
@@ -13719,8 +13730,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  if (names || is_within)
-    nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
+  if (names || is_within) nsvcd__tell_contact(task, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
   if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
@@ -14613,6 +14623,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__against NSVCD__AT(against)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
@@ -14627,6 +14638,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__at_origin NSVCD__AT(at_origin)
+#define nsvcd__begin_places NSVCD__AT(begin_places)
 #define nsvcd__bends NSVCD__AT(bends)
 #define nsvcd__best_lift NSVCD__AT(best_lift)
 #define nsvcd__block NSVCD__AT(block)
@@ -14661,7 +14673,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__certify_item NSVCD__AT(certify_item)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__check NSVCD__AT(check)
-#define nsvcd__choose_contacts NSVCD__AT(choose_contacts)
+#define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
 #define nsvcd__choose_segments NSVCD__AT(choose_segments)
 #define nsvcd__chords NSVCD__AT(chords)
@@ -14767,13 +14779,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
-#define nsvcd__is_undone_by NSVCD__AT(is_undone_by)
 #define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
 #define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
-#define nsvcd__keep_support NSVCD__AT(keep_support)
+#define nsvcd__keep_place NSVCD__AT(keep_place)
 #define nsvcd__knots NSVCD__AT(knots)
 #define nsvcd__knots_keep NSVCD__AT(knots_keep)
 #define nsvcd__knots_load NSVCD__AT(knots_load)
@@ -14801,7 +14812,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__manifold NSVCD__AT(manifold)
-#define nsvcd__manifold_begin NSVCD__AT(manifold_begin)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
@@ -14854,6 +14864,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__plane_parts NSVCD__AT(plane_parts)
 #define nsvcd__pose_count NSVCD__AT(pose_count)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
+#define nsvcd__pose_of NSVCD__AT(pose_of)
 #define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
@@ -14898,7 +14909,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__see_to_items NSVCD__AT(see_to_items)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
 #define nsvcd__seek_item NSVCD__AT(seek_item)
-#define nsvcd__seek_supports NSVCD__AT(seek_supports)
+#define nsvcd__seek_places NSVCD__AT(seek_places)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
 #define nsvcd__segments NSVCD__AT(segments)
@@ -14915,7 +14926,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
 #define nsvcd__share_of NSVCD__AT(share_of)
-#define nsvcd__shortest_way NSVCD__AT(shortest_way)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
@@ -14973,6 +14983,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone NSVCD__AT(undone)
+#define nsvcd__undone_by NSVCD__AT(undone_by)
 #define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
 #define nsvcd__v NSVCD__AT(v)
 #define nsvcd__v3 NSVCD__AT(v3)
@@ -15072,6 +15083,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__way_of NSVCD__AT(way_of)
 #define nsvcd__way_out NSVCD__AT(way_out)
 #define nsvcd__weights_at NSVCD__AT(weights_at)
 #define nsvcd__wigner NSVCD__AT(wigner)

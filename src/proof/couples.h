@@ -160,10 +160,6 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
   const double distance = sqrt(nearest->square);
   const int touches = distance <= couple->rounding;
   nsvcd__contact out;
-  nsvcd__d3 posed[3];
-  const nsvcd__placement at = nsvcd__placement_at(&p->arc, u);
-  nsvcd__place_triangle(&at, couple->moving, posed);
-  out.other_normal = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;

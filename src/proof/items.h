@@ -318,6 +318,7 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
   return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
                                                                     : NSVCD__SPENT;
 }
+
 // How far places on both patches of an item, the moving one posed, can at most be along each
 // direction of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
@@ -344,7 +345,7 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
 // The manifold of the items that were gathered: first of those that may be farthest along some
 // direction, then of what may still be farther. Where bodies are deep in each other there are many,
 // and few of their places are like a contact: so many are looked at, and no more.
-static NSVCD__APART void nsvcd__seek_supports(nsvcd__proof *p) {
+static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);

@@ -70,8 +70,7 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
     p->normal_count++;
     size_t left = 0;
     for (size_t n = 0; n < p->touch_count; n++) {
-      if (!nsvcd__is_undone_by(p, k, &p->of.touches[n]))
-        p->of.touches[left++] = p->of.touches[n];
+      if (!nsvcd__undone_by(p, k, &p->of.touches[n])) p->of.touches[left++] = p->of.touches[n];
     }
     p->touch_count = left;
   }
@@ -134,7 +133,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
 }
 
 // The normal along which a touch is undone first, by planes normal to it.
-static size_t nsvcd__shortest_way(const nsvcd__proof *p, const nsvcd__touch *t) {
+static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
@@ -161,7 +160,7 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
     (void)nsvcd__prove_anew(p, search);
     // what no plane normal to a lift parts is out of the way after it all the same
     for (size_t n = 0; n < p->touch_count; n++)
-      nsvcd__note_depth(p, nsvcd__shortest_way(p, &p->of.touches[n]), &p->of.touches[n]);
+      nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     if (!(after > 1.002 * before)) break;
   }

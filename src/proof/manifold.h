@@ -11,7 +11,7 @@
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit.
-static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
@@ -31,9 +31,9 @@ static void nsvcd__manifold_begin(nsvcd__proof *p, nsvcd__d3 n, double reach, do
 
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
 // face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_support(nsvcd__proof *p, const nsvcd__couple *couple,
-                                             nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                             nsvcd__d3 normal, uint32_t number) {
+static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple *couple,
+                                           nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                           nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
@@ -85,10 +85,10 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, posed[k], foot, faces[1], moving_id);
+      nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_support(p, couple, foot, fixed[k], faces[0], fixed_id);
+      nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -104,8 +104,8 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_support(p, couple, nearest.on_a, nearest.on_b,
-                          nsvcd__d3_unit(across, faces[1]), number | 2);
+      nsvcd__keep_place(p, couple, nearest.on_a, nearest.on_b,
+                        nsvcd__d3_unit(across, faces[1]), number | 2);
     }
   }
 }
@@ -126,8 +126,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__choose_contacts(const nsvcd__manifold *m, int *chosen,
-                                               double *area) {
+static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                           double *area) {
   int kept[NSVCD__AROUND];
   int count = 0;
   // each place once, those with lower numbers first

@@ -180,8 +180,8 @@ typedef struct nsvcd__block {
 typedef struct nsvcd__contact {
   double tick;      // when
   double distance;  // of the triangles
-  // the fixed body's frame; out of the fixed body; and against the moving triangle's own
-  nsvcd__d3 point, normal, other_normal;
+  // the fixed body's frame; out of the fixed body
+  nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;

@@ -91,7 +91,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
-static int nsvcd__is_undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
+static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   if (!nsvcd__undoes(p, p->normals[k], t)) return 0;
   nsvcd__note_depth(p, k, t);
   return 1;
@@ -109,7 +109,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
-    if (nsvcd__is_undone_by(p, k, &touch)) return;
+    if (nsvcd__undone_by(p, k, &touch)) return;
   }
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }

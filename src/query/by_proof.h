@@ -91,15 +91,15 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__proof_restart(p);
 }
 
-// The contact that a proof has found: when, where, and of what. swapped: it is the fixed body that
-// counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
-                                             const nsvcd__contact *found, int swapped,
-                                             nsvcd_contact *out) {
-  const int rests = p->ask.motion->moving.count == 1 && !p->ask.motion->fixed_moves;
-  const double time = rests ? 0 : found->tick / (double)p->ask.motion->ticks;
-  const nsvcd__to_world world = nsvcd__to_world_at(p->ask.motion, time);
-  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(p->ask.motion->lift), swapped);
+// The contact that a proof has found: when, where, and of what. Where the two were swapped it is
+// the fixed body that counts as lifted, the other way.
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__task *task,
+                                             const nsvcd__contact *found, nsvcd_contact *out) {
+  const nsvcd__motion *motion = &task->motion;
+  const int rests = motion->moving.count == 1 && !motion->fixed_moves;
+  const double time = rests ? 0 : found->tick / (double)motion->ticks;
+  const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
+  const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(motion->lift), task->swapped);
   const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
@@ -112,6 +112,17 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__proof *p,
   out->triangle_b = found->fixed_triangle;
   out->patch_a = found->moving_patch;
   out->patch_b = found->fixed_patch;
+}
+
+static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 place) {
+  nsvcd_pose out;
+  float *q = out.rotation;
+  q[0] = (float)turn.x;
+  q[1] = (float)turn.y;
+  q[2] = (float)turn.z;
+  q[3] = (float)turn.w;
+  nsvcd__f3_store(nsvcd__f3_round(place), out.position);
+  return out;
 }
 
 // Where both bodies are at time t, the one that takes the lift displaced by so much, in the fixed
@@ -127,16 +138,11 @@ static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvc
   const nsvcd__d3 seen = nsvcd__dmat3_apply(&world.rotation, lift);
   for (int n = 0; n < 2; n++) {
     const double by = n == moving_takes_it ? 0 : n ? -world.unit : world.unit;
-    nsvcd_pose *out = n ? fixed : moving;
     nsvcd__d3 place;
     const nsvcd__dquat turn =
         nsvcd__turn_at(motion, n ? &motion->fixed : &motion->moving, t, &place);
     place = nsvcd__d3_add(place, nsvcd__d3_scale(seen, by));
-    nsvcd__f3_store(nsvcd__f3_round(place), out->position);
-    out->rotation[0] = (float)turn.x;
-    out->rotation[1] = (float)turn.y;
-    out->rotation[2] = (float)turn.z;
-    out->rotation[3] = (float)turn.w;
+    *(n ? fixed : moving) = nsvcd__pose_of(turn, place);
   }
 }
 
@@ -151,8 +157,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_lift(task);
-  const nsvcd__track moving_track = {moving, takes_it ? 2u : 1u, 0};
-  const nsvcd__track fixed_track = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__track moves = {moving, takes_it ? 2u : 1u, 0};
+  const nsvcd__track rests = {fixed, takes_it ? 1u : 2u, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
@@ -162,7 +168,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   if (!(nsvcd__d3_dot(by, lift) > 0) || !(way > kept)) return lift;
   nsvcd__poses_at(task, t, lift, &moving[0], &fixed[0]);
   nsvcd__poses_at(task, t, least, &moving[1], &fixed[1]);
-  nsvcd__motion_set_tracks(&down, moving_track, fixed_track);
+  nsvcd__motion_set_tracks(&down, moves, rests);
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
   p->ask.share = kept / way;
@@ -181,20 +187,32 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
 // world's: places in its frame are as exact as if it were there.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__to_world world = nsvcd__to_world_at(&still, t);
-  const nsvcd__d3 lift = nsvcd__dmat3_apply(&world.rotation, nsvcd__d3_widen(still.lift));
-  const nsvcd__track moving_track = {&poses[0], 1, 0};
-  const nsvcd__track fixed_track = {&poses[1], 1, 0};
-  nsvcd__d3 place;
-  nsvcd__poses_at(task, t, nsvcd__d3_of(0, 0, 0), &poses[0], &poses[1]);
-  (void)nsvcd__turn_at(&still, &still.moving, t, &place);
-  place = nsvcd__d3_sub(place, world.position);
-  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, world.unit));
-  nsvcd__f3_store(nsvcd__f3_round(place), poses[0].position);
-  memset(poses[1].position, 0, sizeof poses[1].position);
-  nsvcd__motion_set_tracks(&still, moving_track, fixed_track);
+  const nsvcd__track tracks[2] = {{&poses[0], 1, 0}, {&poses[1], 1, 0}};
+  const nsvcd__d3 here = {0, 0, 0};
+  nsvcd__d3 place, origin;
+  const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &place);
+  const nsvcd__dquat fixed_turn = nsvcd__turn_at(&still, &still.fixed, t, &origin);
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(fixed_turn);
+  const nsvcd__d3 lift = nsvcd__dmat3_apply(&rotation, nsvcd__d3_widen(still.lift));
+  place = nsvcd__d3_sub(place, origin);
+  place = nsvcd__d3_add(place, nsvcd__d3_scale(lift, (double)still.unit));
+  poses[0] = nsvcd__pose_of(turn, place);
+  poses[1] = nsvcd__pose_of(fixed_turn, here);
+  nsvcd__motion_set_tracks(&still, tracks[0], tracks[1]);
   still.lift = nsvcd__f3_of(0, 0, 0);
   return still;
+}
+
+// Against the normal of a contact's moving triangle, as the bodies rest.
+static nsvcd__d3 nsvcd__against(nsvcd__proof *p, const nsvcd__contact *found) {
+  const size_t patch = found->moving_patch;
+  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  nsvcd__d3 corners[3], posed[3];
+  size_t n = p->moving.first_triangle[patch];
+  while (nsvcd__facet_number(&p->moving, patch, n) != found->moving_triangle) n++;
+  nsvcd__facet_triangle(&p->moving, patch, n, corners);
+  nsvcd__place_triangle(&at, corners, posed);
+  return nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
 }
 
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
@@ -204,30 +222,28 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__contact found = p->known.found;
-  const nsvcd__d3 normals[2] = {found.normal, found.other_normal};
-  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
+  const nsvcd__asked asked = p->ask;
   const double hair = nsvcd__hair(p);
   const double same = hair + 1e-5 * (double)p->given.lengths;
-  const double extent =
-      (double)fminf(task->motion.scale * task->moving->radius, task->fixed->radius);
+  const float radius = task->motion.scale * task->moving->radius;
+  const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
   double widest = -1;
   nsvcd_pose poses[2];
-  nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
+  const nsvcd__d3 normals[2] = {found.normal, nsvcd__against(p, &found)};
+  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    p->ask.motion = &still;
-    nsvcd__manifold_begin(p, normals[k], p->ask.clearance, same);
-    nsvcd__seek_supports(p);
-    p->ask.motion = whole;
-    const int count = nsvcd__choose_contacts(m, chosen, &area);
+    nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
+    nsvcd__seek_places(p);
+    const int count = nsvcd__choose_four(m, chosen, &area);
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
@@ -235,13 +251,12 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     for (int n = 0; n < count; n++) {
       nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(p, &support, task->swapped, &answer->contacts[n]);
+      nsvcd__tell_contact(task, &support, &answer->contacts[n]);
       // which body a corner is of
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
   }
-  p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.clearance = p->given.clearance;
+  p->ask = asked;
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
@@ -296,8 +311,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  if (names || is_within)
-    nsvcd__tell_contact(p, &p->known.found, task->swapped, &answer->nearest);
+  if (names || is_within) nsvcd__tell_contact(task, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
   if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
