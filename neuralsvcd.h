@@ -1370,7 +1370,7 @@ static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
 static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
   return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
 }
-static inline double nsvcd__d3_squared_distance(nsvcd__d3 a, nsvcd__d3 b) {
+static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }
@@ -2678,7 +2678,7 @@ static int nsvcd__patches_alloc(nsvcd__patches *p, size_t count, size_t samples,
 
 #ifndef NSVCD_NO_ENCODER
 // The squared distance of a point from a centre.
-static float nsvcd__squared_to_centre(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
+static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
   const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
   return nsvcd__f3_dot(offset, offset);
 }
@@ -2694,7 +2694,7 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
       quarters[k] = HUGE_VALF;
     }
     for (uint32_t j = 0; j < p->count; j++) {
-      const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
+      const float quarter = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
       if (j == i || quarter >= quarters[last]) continue;
       size_t k = last;
       for (; k > 0 && quarters[k - 1] > quarter; k--) {
@@ -2712,7 +2712,7 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
 // guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
   uint32_t best = guess;
-  float least = nsvcd__squared_to_centre(p, guess, at);
+  float least = nsvcd__to_centre2(p, guess, at);
   for (int all = 0;;) {
     const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
     const float *quarters = p->quarter_squares + (size_t)guess * NSVCD__NEIGHBOURS;
@@ -2721,7 +2721,7 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
     size_t k = 0;
     for (; k < most && (all || quarters[k] <= own); k++) {
       const uint32_t i = all ? (uint32_t)k : neighbours[k];
-      const float square = nsvcd__squared_to_centre(p, i, at);
+      const float square = nsvcd__to_centre2(p, i, at);
       if (square > least || (square >= least && i >= best)) continue;
       best = i;
       least = square;
@@ -2761,7 +2761,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
     if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
     nsvcd__forget_samples(p, 0);
     for (uint32_t s = 0; s < p->sample_count; s++)
-      nsvcd__give_sample(p, s, 0, nsvcd__squared_to_centre(p, 0, p->drawn[s]));
+      nsvcd__give_sample(p, s, 0, nsvcd__to_centre2(p, 0, p->drawn[s]));
   }
 
   uint32_t count = 1;
@@ -2775,14 +2775,14 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
       // inequality): most are passed over.
-      const float square = nsvcd__squared_to_centre(p, owner, p->centres[count]);
+      const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->squared_reach[owner]) continue;
       uint32_t s = p->first_sample[owner];
       nsvcd__forget_samples(p, owner);
       while (s != NSVCD__NO_SAMPLE) {
         const uint32_t next = p->next_sample[s];
         const float old = p->squares[s];
-        const float fresh = nsvcd__squared_to_centre(p, count, p->drawn[s]);
+        const float fresh = nsvcd__to_centre2(p, count, p->drawn[s]);
         const int nearer = fresh < old;
         nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
         s = next;
@@ -2820,7 +2820,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 // Makes a sum reach to a point.
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
-  const double square = nsvcd__d3_squared_distance(at, nsvcd__d3_widen(p->centres[patch]));
+  const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
   sum->squared_reach = fmax(sum->squared_reach, square);
 }
 
@@ -2868,9 +2868,9 @@ static inline size_t nsvcd__longest_of(const double *e) {
 // The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
 // the longest; of equal ones the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
-  e[0] = nsvcd__d3_squared_distance(t->at[0], t->at[1]);
-  e[1] = nsvcd__d3_squared_distance(t->at[1], t->at[2]);
-  e[2] = nsvcd__d3_squared_distance(t->at[2], t->at[0]);
+  e[0] = nsvcd__d3_distance2(t->at[0], t->at[1]);
+  e[1] = nsvcd__d3_distance2(t->at[1], t->at[2]);
+  e[2] = nsvcd__d3_distance2(t->at[2], t->at[0]);
   return nsvcd__longest_of(e);
 }
 
@@ -3638,7 +3638,7 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_squared_distance(at, from));
+    squared = fmax(squared, nsvcd__d3_distance2(at, from));
   }
   return sqrt(squared);
 }
@@ -3689,7 +3689,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
-    squared = fmax(squared, nsvcd__d3_squared_distance(a, b));
+    squared = fmax(squared, nsvcd__d3_distance2(a, b));
     pieces->waiting[0].points[k] = corners[k];
   }
   piece.parted = sqrt(squared) > pieces->longest_edge;
@@ -3843,7 +3843,7 @@ static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *b
     int holds = !best || trial.squared < ball->squared;
     const double most = trial.squared * (1 + 1e-9);
     for (size_t i = 0; i < border->count; i++)
-      holds &= nsvcd__d3_squared_distance(border->points[i], trial.centre) <= most;
+      holds &= nsvcd__d3_distance2(border->points[i], trial.centre) <= most;
     if (!holds) continue;
     best = set;
     *ball = trial;
@@ -3870,7 +3870,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     double most = -1;
     size_t farthest = 0;
     for (size_t i = 0; i < points.count; i++) {
-      const double square = nsvcd__d3_squared_distance(points.at[i], ball.centre);
+      const double square = nsvcd__d3_distance2(points.at[i], ball.centre);
       if (square > most) farthest = i;
       most = fmax(most, square);
     }
@@ -4711,7 +4711,8 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 //   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
 //                        padding has r = NSVCD__NOWHERE
 //   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
-//                        above
+//                        above. In a body of latents they are over the patches' spheres; in one
+//                        of triangles over the surface in them, which may be much less
 //   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
 //                        H as G
 //   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
@@ -4739,7 +4740,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
-#define NSVCD__BODY_VERSION 5u
+#define NSVCD__BODY_VERSION 6u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -5003,29 +5004,35 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
-// whose patches are in place.
+// Fills a level with spheres over 16 spheres each, of so many.
+static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
+                               size_t members) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, k);
+  float *out = (float *)(body + 1) + level.first;
+  for (size_t g = 0; g < level.slots; g++) {
+    nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
+    const size_t i = g * NSVCD__GROUP;
+    const size_t left = i >= members ? 0 : members - i;
+    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+    if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+    nsvcd__sphere_store(sphere, out, level.slots, g);
+  }
+}
+
+// Fills the spheres above the groups, the bounding sphere, the extent and the checksum of a blob
+// whose patches and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  nsvcd__spheres below = patches;
-  size_t members = body->patches;
-  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
-    const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    float *out = (float *)(body + 1) + level.first;
-    for (size_t g = 0; g < level.slots; g++) {
-      nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
-      const size_t i = g * NSVCD__GROUP;
-      const size_t left = i >= members ? 0 : members - i;
-      const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
-      if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-      nsvcd__sphere_store(sphere, out, level.slots, g);
-    }
-    below = nsvcd__level_spheres(body, level);
-    members = level.count;
+  const nsvcd__spheres groups = nsvcd__group_spheres(body);
+  for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
+    nsvcd__cover_level(body, k, nsvcd__level_spheres(body, below), below.count);
   }
   size_t farthest = 0;
   const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
-  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->patches);
+  const nsvcd__sphere over = nsvcd__cover_spheres(patches, body->patches);
+  const nsvcd__sphere above = nsvcd__cover_spheres(groups, nsvcd__body_groups(body));
+  const nsvcd__sphere sphere = above.radius < over.radius ? above : over;
   const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
@@ -5098,6 +5105,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
   sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
   if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), count);
   nsvcd__body_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
@@ -5195,6 +5203,7 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 //   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
 
 #ifndef NSVCD_NO_PROOF
+#define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
 #define NSVCD__FACET_COUNTS 8
 #define NSVCD__FACET_BOX 8  // with the greatest quantum
 
@@ -5456,11 +5465,54 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
 }
 
+// The surface in a group: spheres about the vertices of its patches' hulls. A patch without surface
+// is a point.
+typedef struct nsvcd__hulls {
+  size_t count;
+  float spheres[4][NSVCD__HULLS];  // x, y, z, r
+} nsvcd__hulls;
+
+static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
+  const size_t end = NSVCD__GROUP * (g + 1);
+  out->count = 0;
+  for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
+    const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
+    const nsvcd__d3 origin = nsvcd__facet_origin(f, i);
+    const double step = (double)f->steps[i];
+    const size_t count = f->hull_counts[i];
+    for (size_t k = 0; k < count + !count; k++) {
+      nsvcd__d3 v = {0, 0, 0};
+      if (count) v = nsvcd__vertex_at(&vertices, k);
+      v = nsvcd__d3_add_scaled(origin, step, v);
+      // as float rounds it
+      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
+      const double radius = (double)f->slacks[i] + rounding;
+      const size_t n = out->count++;
+      out->spheres[3][n] = nsvcd__round_outward(radius);
+      nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
+    }
+  }
+}
+
+static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
+  return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
+}
+
 // What is computed from the patches of a body of triangles, when these are in place: the spheres
 // above them, the box with the greatest of the quanta, and the groups' discs.
 static void nsvcd__facets_finish(nsvcd_body *b) {
-  nsvcd__body_finish(b);
   const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);  // and the padding
+  float *out = (float *)(b + 1) + groups.first;
+  for (size_t g = 0; g < groups.count; g++) {
+    nsvcd__hulls hulls;
+    nsvcd__gather_hulls(&f, g, &hulls);
+    const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
+    const nsvcd__sphere over = nsvcd__cover_spheres(all, hulls.count);
+    nsvcd__sphere_store(over, out, groups.slots, g);
+  }
+  nsvcd__body_finish(b);
   const nsvcd__d3 all = {1, 1, 1};
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -5637,9 +5689,19 @@ static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, fl
   return 1;
 }
 
+// Does each of a level's spheres cover its 16 of so many?
+static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_t members) {
+  for (size_t i = 0; i < members; i += NSVCD__GROUP) {
+    const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+    const nsvcd__sphere sphere = nsvcd__sphere_of(level, i / NSVCD__GROUP);
+    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+  }
+  return 1;
+}
+
 // Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
-// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
-// a lying sphere would hide collisions.
+// and does each one above the groups cover what is below? A checksum stops accidents; this stops a
+// blob made to harm: a lying sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
@@ -5648,22 +5710,21 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
-  nsvcd__spheres below = patches;
-  size_t members = b->patches;
+  const nsvcd__spheres groups = nsvcd__group_spheres(b);
+  nsvcd__spheres below = groups;
+  size_t members = 0;
   for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(b->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(b, level);
     if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    for (size_t i = 0; i < members; i += NSVCD__GROUP) {
-      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
-      const nsvcd__sphere sphere = nsvcd__sphere_of(above, i / NSVCD__GROUP);
-      if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
-    }
+    if (!nsvcd__level_covers(above, below, members)) return 0;
     below = above;
     members = level.count;
   }
-  return nsvcd__covers(nsvcd__body_sphere(b), patches, b->patches) &&
-         nsvcd__covers(about_origin, patches, b->patches);
+  const nsvcd__sphere whole = nsvcd__body_sphere(b);
+  if (!nsvcd__covers(about_origin, patches, b->patches)) return 0;
+  return nsvcd__covers(whole, patches, b->patches) ||
+         nsvcd__covers(whole, groups, nsvcd__body_groups(b));
 }
 
 // Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
@@ -5759,6 +5820,14 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
     return 0;
 
+  for (size_t g = 0; g < groups; g++) {
+    nsvcd__hulls hulls;
+    nsvcd__gather_hulls(&f, g, &hulls);
+    const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
+    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__group_spheres(b), g);
+    if (!nsvcd__covers(over, all, hulls.count)) return 0;
+  }
+
   const float most = NSVCD__MAX_LENGTH;
   if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
   if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
@@ -5792,6 +5861,8 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   }
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
+  if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
+    return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
@@ -5846,6 +5917,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
       areas[i] *= scale;
       areas[i] *= scale;
     }
+    nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
     nsvcd__body_finish(b);
     return;
   }
@@ -8046,6 +8118,10 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
 static int nsvcd__is_large(const nsvcd_body *body) {
   return nsvcd__body_groups(body) > NSVCD__TILE;
 }
+// Are there several tiles?
+static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
+  return nsvcd__is_large(a) || nsvcd__is_large(b);
+}
 
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
@@ -8141,7 +8217,7 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
 
 // Goes on to the next tile that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__search *search) {
-  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed)) return 0;
+  if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search);
     nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
@@ -8169,7 +8245,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   search->steps = 0;
   search->step = 0;
   search->waiting = 0;
-  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
+  if (!nsvcd__is_tiled(moving, fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
     if (wanted) nsvcd__search_tile(search, wanted);
@@ -8556,8 +8632,6 @@ typedef struct nsvcd__given {
   double share, width;
   // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
   double to;
-  // FIRST, with `to`: no point goes farther on the whole motion
-  double way;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken
@@ -9522,7 +9596,7 @@ static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
-    longest = fmax(longest, nsvcd__d3_squared_distance(t[k], t[(k + 1) % 3]));
+    longest = fmax(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
   const double length = nsvcd__d3_length(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
@@ -10308,10 +10382,10 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
     const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
+        nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
+        nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
@@ -10360,7 +10434,7 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
     int is_new = m->farthest[k] > -HUGE_VAL;
     for (int n = 0; n < count; n++) {
       const nsvcd__d3 other = m->supports[kept[n]].point;
-      is_new &= nsvcd__d3_squared_distance(m->supports[k].point, other) > m->same * m->same;
+      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
     }
     if (!is_new) continue;
     for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];
@@ -10584,7 +10658,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 
 // The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
 // is not after that time.
-static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
   const uint32_t past_a = tick % motion->moving.ticks;
@@ -10603,7 +10677,7 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
   double u;
   item->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, tick, &u);
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF
@@ -10705,7 +10779,7 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   double *ends = p->arc_ends;
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
-    const uint32_t first = nsvcd__arc_and_share(motion, (double)at, &u);
+    const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
     const uint32_t knot = nsvcd__next_knot(motion, first);
     at = last < knot ? last : knot;
     ends[0] = (double)(at - first) / (double)(knot - first);
@@ -10822,7 +10896,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, p->ask.end, &u);
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
@@ -11512,7 +11586,7 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const int has_tiles = nsvcd__is_large(moving) || nsvcd__is_large(fixed);
+  const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
   const size_t many = p->ask.by_time ? few : search->segments;
   nsvcd__outcome outcome = NSVCD__SETTLED;
@@ -11654,8 +11728,8 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  const int is_large = nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body);
-  if (p->known.lost && is_large && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
+  const int is_tiled = nsvcd__is_tiled(p->moving.body, p->fixed.body);
+  if (p->known.lost && is_tiled && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
@@ -11747,9 +11821,9 @@ static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
   memset(&nearest, 0, sizeof nearest);
   for (size_t s = 0; s <= search->segments; s++) {
     double u;
-    const uint32_t first = nsvcd__arc_and_share(p->ask.motion, (double)search->begin[s], &u);
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, (double)search->begin[s], &u);
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
+    const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
     if (square < least) nearest = at;
     least = fmin(least, square);
   }
@@ -13429,7 +13503,7 @@ static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__tra
   nsvcd__leg leg;
   nsvcd__d3 ends[2];
   double u;
-  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
+  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
   nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
   *position = nsvcd__d3_mix(ends[0], ends[1], u);
   return nsvcd__leg_at(&leg, u);
@@ -13459,22 +13533,25 @@ static double nsvcd__to_of(const nsvcd__task *task) {
   return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
 
+// How far points of the moving body go in an arc, at most.
+static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
+  return arc->speed + arc->turn * (double)(arc->scale * p->moving.body->extent);
+}
+
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
 // asked for, nor longer than `share`, if that is.
 static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = share > 0 ? share : 1;
-  const double extent = (double)(motion->scale * p->moving.body->extent);
   double fastest = 0;  // per tick
   // that of the question before
   p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
     const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-    fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);
+    fastest = fmax(fastest, nsvcd__way_in(p, arc) / (double)arc->ticks);
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  p->given.way = whole;
   return to < most * whole ? to / whole : most;
 }
 
@@ -13737,14 +13814,18 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
 
   // What is proven of times and distances.
   if (p->given.share > 0 && !is_free && !is_within) {
-    const double ticks = (double)p->ask.motion->ticks;
+    const nsvcd__motion *motion = p->ask.motion;
+    const double ticks = (double)motion->ticks;
     const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
     if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
     // nearer than this it is proven on the way, but who asks again from there would not be told so
+    double u;
+    const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+    const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
     const double hairs = 3 * nsvcd__hair(p);
-    const double back = p->given.way > hairs ? hairs / p->given.way : p->given.share;
+    const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
@@ -13872,7 +13953,7 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
-  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
+  needs.large = nsvcd__is_tiled(a, b);
   if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
   needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK
@@ -14631,9 +14712,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
 #define nsvcd__arc NSVCD__AT(arc)
-#define nsvcd__arc_and_share NSVCD__AT(arc_and_share)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
+#define nsvcd__arc_of NSVCD__AT(arc_of)
 #define nsvcd__are_opposed NSVCD__AT(are_opposed)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__asked NSVCD__AT(asked)
@@ -14779,6 +14860,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
+#define nsvcd__is_tiled NSVCD__AT(is_tiled)
 #define nsvcd__is_within NSVCD__AT(is_within)
 #define nsvcd__item NSVCD__AT(item)
 #define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
@@ -15083,6 +15165,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__vquat_set NSVCD__AT(vquat_set)
 #define nsvcd__vquat_store NSVCD__AT(vquat_store)
 #define nsvcd__vquat_unit NSVCD__AT(vquat_unit)
+#define nsvcd__way_in NSVCD__AT(way_in)
 #define nsvcd__way_of NSVCD__AT(way_of)
 #define nsvcd__way_out NSVCD__AT(way_out)
 #define nsvcd__weights_at NSVCD__AT(weights_at)

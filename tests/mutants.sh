@@ -36,6 +36,8 @@ disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_se
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
+groups' spheres without slack|const double radius = (double)f->slacks[i] + rounding;|const double radius = rounding;
+groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.slacks[j] * length - highest;|-highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair without quanta|couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;|couple.slack = 0 * moving_quantum + couple.rounding;
@@ -116,8 +118,8 @@ asks: a gap lost|p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, 
 asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; p->wide|for (p->ask.measure = p->high - p->low; 0 \&\& p->wide
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
-asks: metres without the way|(arc->speed + arc->turn * extent)|(arc->turn * extent)
-asks: metres without the turn|(arc->speed + arc->turn * extent)|(arc->speed)
+asks: metres without the way|return arc->speed + arc->turn|return arc->turn
+asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 0 * arc->turn
 asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
@@ -133,7 +135,7 @@ asks: one depth for all normals|const double along = least + (by_depth ? p->dept
 no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
 asks: a floor that is near by|fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
-asks: contacts out of reach|nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach|1
+asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
 asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*area > 0) continue;

@@ -116,6 +116,7 @@ static void proof_hull_distance(const double (*hull)[3], size_t count, const dou
 
 typedef struct proof_patch {
   double centre[3], radius;
+  double above[2][4];  // spheres over it, of its group and of the body: centre, radius
   double normal[3], low, high, across;
   double slack, quantum;
   double hull[PROOF_HULL][3];
@@ -159,6 +160,12 @@ static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out)
   for (size_t k = 0; k < 3; k++) out->centre[k] = (double)spheres[k * padded + i];
   for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->discs[k * padded + i];
   out->radius = (double)spheres[3 * padded + i];
+  const nsvcd__sphere above[2] = {nsvcd__sphere_of(nsvcd__group_spheres(f->body), i / 16),
+                                  nsvcd__body_sphere(f->body)};
+  for (size_t n = 0; n < 2; n++) {
+    const float *sphere = &above[n].centre.x;
+    for (size_t k = 0; k < 4; k++) out->above[n][k] = (double)sphere[k];
+  }
   out->low = (double)f->discs[3 * padded + i];
   out->high = (double)f->discs[4 * padded + i];
   out->across = (double)f->discs[5 * padded + i];
@@ -331,7 +338,15 @@ static void proof_read_body(proof_body *b) {
     }
   }
   proof_sort_listings(b);
-  for (size_t i = 0; i < b->count; i++) proof_fill_pool(b, i, &rng);
+  for (size_t i = 0; i < b->count; i++) {
+    const proof_patch *p = &b->patches[i];
+    proof_fill_pool(b, i, &rng);
+    for (size_t n = 0; n < 2 * p->pool_count; n++) {  // the balls over it hold what it holds
+      double d[3];
+      oracle_sub(p->pool[n / 2], p->above[n % 2], d);
+      CHECK_LE(oracle_length(d), p->above[n % 2][3]);
+    }
+  }
 }
 
 // Encodes a shape, multiplied by scale; what the encoder says goes to *result.

@@ -61,6 +61,31 @@ static void query_blobs_of_the_other_byte_order(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
+// What a corner is in: the sphere of a group, and that of the body.
+static void query_spheres_contain_the_mesh(void) {
+  const nsvcd_encode_options options = {.patches = 40, .no_latents = 1};
+  for (uint64_t seed = 1; seed <= 30; seed++) {
+    nsvcd_mesh mesh = query_solid(seed, 0.3);
+    const nsvcd_body *body = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
+    const nsvcd__sphere whole = nsvcd__body_sphere(body);
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+      const nsvcd__f3 at = nsvcd__f3_load(mesh.positions + 3 * i);
+      double nearest = HUGE_VAL;
+      for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
+        const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+        const nsvcd__d3 d = nsvcd__d3_widen(nsvcd__f3_sub(at, group.centre));
+        nearest = fmin(nearest, nsvcd__d3_length(d) - (double)group.radius);
+      }
+      CHECK_LE(nearest, 0);
+      const nsvcd__d3 d = nsvcd__d3_widen(nsvcd__f3_sub(at, whole.centre));
+      CHECK_LE(nsvcd__d3_length(d), (double)whole.radius);
+    }
+    nsvcd_body_free(body, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
 static void query_facts_contain_the_mesh(void) {
   for (uint64_t seed = 1; seed <= 10; seed++) {
     nsvcd_mesh mesh = query_solid(seed, 0.3);
@@ -374,6 +399,7 @@ static void proof_forged_blobs(void) {
 void test_facets(void) {
   RUN(query_a_blob_survives_a_file);
   RUN(query_blobs_of_the_other_byte_order);
+  RUN(query_spheres_contain_the_mesh);
   RUN(query_facts_contain_the_mesh);
   RUN(query_scaled_bodies_are_bodies_of_scaled_meshes);
   RUN(facets_are_scaled_outward);

@@ -152,7 +152,7 @@ static void math_vectors_in_double(void) {
     const double size = scale * scale;
     oracle_sub(a, b, want);
     math_check_d3(nsvcd__d3_sub(x, y), want, scale);
-    CHECK_NEAR(nsvcd__d3_squared_distance(x, y), oracle_dot(want, want), 1e-14 * size);
+    CHECK_NEAR(nsvcd__d3_distance2(x, y), oracle_dot(want, want), 1e-14 * size);
     for (int k = 0; k < 3; k++) want[k] = a[k] + s * b[k];
     math_check_d3(nsvcd__d3_add_scaled(x, s, y), want, 4 * scale);
     math_check_d3(nsvcd__d3_add(x, nsvcd__d3_scale(y, s)), want, 4 * scale);

@@ -120,14 +120,14 @@ static void mesh_farthest_points_are_farthest(void) {
       float farthest = 0;
       float centre = HUGE_VALF;
       for (uint32_t j = 0; i < p.count && j < i; ++j) {
-        centre = fminf(centre, nsvcd__squared_to_centre(&p, j, p.centres[i]));
+        centre = fminf(centre, nsvcd__to_centre2(&p, j, p.centres[i]));
       }
       for (size_t s = 0; s < p.sample_count; ++s) {
         float nearest = HUGE_VALF;
         for (uint32_t j = 0; j < i; ++j)
-          nearest = fminf(nearest, nsvcd__squared_to_centre(&p, j, p.drawn[s]));
+          nearest = fminf(nearest, nsvcd__to_centre2(&p, j, p.drawn[s]));
         farthest = fmaxf(farthest, nearest);
-        if (i == p.count) CHECK_EQ(nearest, nsvcd__squared_to_centre(&p, p.owners[s], p.drawn[s]));
+        if (i == p.count) CHECK_EQ(nearest, nsvcd__to_centre2(&p, p.owners[s], p.drawn[s]));
       }
       if (i < p.count) CHECK_EQ(centre, farthest);
     }
@@ -192,8 +192,7 @@ static void mesh_patches_are_round(void) {
 
 static int patches_cover(const nsvcd__patches *p, const double *x) {
   for (size_t i = 0; i < p->count; ++i) {
-    double d =
-        nsvcd__d3_squared_distance(nsvcd__d3_of(x[0], x[1], x[2]), nsvcd__d3_widen(p->centres[i]));
+    double d = nsvcd__d3_distance2(nsvcd__d3_of(x[0], x[1], x[2]), nsvcd__d3_widen(p->centres[i]));
     if (d <= (double)p->radii[i] * (double)p->radii[i]) return 1;
   }
   return 0;
@@ -259,7 +258,7 @@ static void mesh_patches_are_consistent(void) {
         const float *x = &p.samples[s].x;
         const nsvcd__d3 at = nsvcd__d3_load(x);
         for (int k = 0; k < 3; ++k) mean[k] += (double)x[k] / samples;
-        reach = fmax(reach, nsvcd__d3_squared_distance(at, nsvcd__d3_widen(p.centres[i])));
+        reach = fmax(reach, nsvcd__d3_distance2(at, nsvcd__d3_widen(p.centres[i])));
         CHECK_NEAR(nsvcd__f3_length(p.normals[s]), 1, 1e-6);
       }
       const float *centre = &p.centres[i].x;
@@ -305,8 +304,8 @@ static void mesh_nearest_centre_is_nearest(void) {
       uint32_t found = nsvcd__nearest_centre(&p, (uint32_t)mesh_below(p.count), at);
       uint32_t best = 0;
       for (uint32_t c = 1; c < p.count; ++c) {
-        float d = nsvcd__squared_to_centre(&p, c, at);
-        if (d < nsvcd__squared_to_centre(&p, best, at)) best = c;
+        float d = nsvcd__to_centre2(&p, c, at);
+        if (d < nsvcd__to_centre2(&p, best, at)) best = c;
       }
       tried++;
       wrong += found != best;

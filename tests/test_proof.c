@@ -370,19 +370,31 @@ static int proof_is_covered(const attack *a, const size_t *first, size_t i, size
   return proof_triangles_covered(a, i, j, records, count, t);
 }
 
+// Do two patches' balls overlap, and so do all that are over them? at: of the moving one.
+static int proof_balls_meet(const attack *a, const proof_place *at, const proof_patch *p,
+                            const proof_patch *q) {
+  for (int n = 0; n < 9; n++) {
+    const double *moving = n % 3 ? p->above[n % 3 - 1] : p->centre;
+    const double *fixed = n / 3 ? q->above[n / 3 - 1] : q->centre;
+    const double radius = n % 3 ? moving[3] : p->radius;
+    const double other = n / 3 ? fixed[3] : q->radius;
+    const double reach = (proof_ratio(a) * radius + other) * (1 - 1e-9);
+    double centre[3], d[3];
+    proof_apply(at, moving, centre);
+    oracle_sub(centre, fixed, d);
+    if (oracle_dot(d, d) >= reach * reach) return 0;
+  }
+  return 1;
+}
+
 // All pairs of patches whose balls overlap at t.
 static void proof_cover_at(const attack *a, const size_t *first, double t, replay *sum) {
   const proof_place at = proof_place_at(&a->motion, t);
   for (size_t i = 0; i < a->moving->count; i++) {
     const proof_patch *p = &a->moving->patches[i];
-    double centre[3];
-    proof_apply(&at, p->centre, centre);
     for (size_t j = 0; j < a->fixed->count && p->hull_count; j++) {
       const proof_patch *q = &a->fixed->patches[j];
-      const double reach = (proof_ratio(a) * p->radius + q->radius) * (1 - 1e-9);
-      double d[3];
-      oracle_sub(centre, q->centre, d);
-      if (!q->hull_count || oracle_dot(d, d) >= reach * reach) continue;
+      if (!q->hull_count || !proof_balls_meet(a, &at, p, q)) continue;
       sum->pairs++;
       sum->bare += !proof_is_covered(a, first, i, j, t);
     }
@@ -989,7 +1001,7 @@ static nsvcd__span proof_any_arc(shapes_rng *rng, nsvcd__motion *motion, float l
   proof.given.lengths = lengths;
   proof.arc.ticks = 0;
   const uint32_t first =
-      nsvcd__arc_and_share(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
+      nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &u);
   const double length = pow(2, -shapes_pick(rng, 12));
   const double start = shapes_uniform(rng, 0, 1 - length);
   return nsvcd__span_of_arc(&proof, first, start, start + length);

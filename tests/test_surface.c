@@ -577,15 +577,14 @@ static void surface_balls_are_minimal(void) {
     double radius = 0;
     double least = HUGE_VAL;
     for (size_t i = 0; i < count; i++)
-      radius = fmax(radius, nsvcd__d3_squared_distance(points[i], centre));
+      radius = fmax(radius, nsvcd__d3_distance2(points[i], centre));
     for (size_t step = 1; step < 5000; step++) {
       size_t farthest = 0;
       for (size_t i = 0; i < count; i++) {
-        if (nsvcd__d3_squared_distance(points[i], other) >
-            nsvcd__d3_squared_distance(points[farthest], other))
+        if (nsvcd__d3_distance2(points[i], other) > nsvcd__d3_distance2(points[farthest], other))
           farthest = i;
       }
-      least = fmin(least, nsvcd__d3_squared_distance(points[farthest], other));
+      least = fmin(least, nsvcd__d3_distance2(points[farthest], other));
       other = nsvcd__d3_mix(other, points[farthest], 1 / (double)(step + 1));
     }
     CHECK_LE(sqrt(radius), sqrt(least) * (1 + 1e-9) + 1e-12);

@@ -7,7 +7,8 @@
 //   x, y, z, r   (4, P)  float: spheres of the patches, body frame, metres; P = N rounded up to 16;
 //                        padding has r = NSVCD__NOWHERE
 //   x, y, z, r   (4, G)  float: spheres of the groups; G = P / 16 rounded up to 16, padding as
-//                        above
+//                        above. In a body of latents they are over the patches' spheres; in one
+//                        of triangles over the surface in them, which may be much less
 //   x, y, z, r   (4, H)  float: if there are more than 32 groups, spheres over 16 groups each;
 //                        H as G
 //   x, y, z, r   (4, I)  float: if these are more than 16, spheres over 16 of them each
@@ -41,7 +42,7 @@
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
-#define NSVCD__BODY_VERSION 5u
+#define NSVCD__BODY_VERSION 6u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -305,29 +306,35 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   return best;
 }
 
-// Fills the spheres above the patches, the bounding sphere, the extent and the checksum of a blob
-// whose patches are in place.
+// Fills a level with spheres over 16 spheres each, of so many.
+static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
+                               size_t members) {
+  const nsvcd__level level = nsvcd__level_of(body->padded, k);
+  float *out = (float *)(body + 1) + level.first;
+  for (size_t g = 0; g < level.slots; g++) {
+    nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
+    const size_t i = g * NSVCD__GROUP;
+    const size_t left = i >= members ? 0 : members - i;
+    const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
+    if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
+    nsvcd__sphere_store(sphere, out, level.slots, g);
+  }
+}
+
+// Fills the spheres above the groups, the bounding sphere, the extent and the checksum of a blob
+// whose patches and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  nsvcd__spheres below = patches;
-  size_t members = body->patches;
-  for (size_t k = 0; k < nsvcd__level_count(body->padded); k++) {
-    const nsvcd__level level = nsvcd__level_of(body->padded, k);
-    float *out = (float *)(body + 1) + level.first;
-    for (size_t g = 0; g < level.slots; g++) {
-      nsvcd__sphere sphere = {{0, 0, 0}, NSVCD__NOWHERE};
-      const size_t i = g * NSVCD__GROUP;
-      const size_t left = i >= members ? 0 : members - i;
-      const size_t count = left < NSVCD__GROUP ? left : NSVCD__GROUP;
-      if (count) sphere = nsvcd__cover_spheres(nsvcd__spheres_from(below, i), count);
-      nsvcd__sphere_store(sphere, out, level.slots, g);
-    }
-    below = nsvcd__level_spheres(body, level);
-    members = level.count;
+  const nsvcd__spheres groups = nsvcd__group_spheres(body);
+  for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
+    const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
+    nsvcd__cover_level(body, k, nsvcd__level_spheres(body, below), below.count);
   }
   size_t farthest = 0;
   const nsvcd__f3 origin = nsvcd__f3_of(0, 0, 0);
-  const nsvcd__sphere sphere = nsvcd__cover_spheres(patches, body->patches);
+  const nsvcd__sphere over = nsvcd__cover_spheres(patches, body->patches);
+  const nsvcd__sphere above = nsvcd__cover_spheres(groups, nsvcd__body_groups(body));
+  const nsvcd__sphere sphere = above.radius < over.radius ? above : over;
   const float extent = nsvcd__reach_of_spheres(patches, body->patches, origin, &farthest);
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
@@ -400,6 +407,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   int sound = nsvcd__within(spheres, 3 * padded, NSVCD_MAX_COORDINATE);
   sound = sound && nsvcd__within(nsvcd__body_r(b), count, 4 * NSVCD_MAX_COORDINATE);
   if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), count);
   nsvcd__body_finish(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }

@@ -32,6 +32,7 @@
 #include "walk.h"
 
 #ifndef NSVCD_NO_PROOF
+#define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
 #define NSVCD__FACET_COUNTS 8
 #define NSVCD__FACET_BOX 8  // with the greatest quantum
 
@@ -293,11 +294,54 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
 }
 
+// The surface in a group: spheres about the vertices of its patches' hulls. A patch without surface
+// is a point.
+typedef struct nsvcd__hulls {
+  size_t count;
+  float spheres[4][NSVCD__HULLS];  // x, y, z, r
+} nsvcd__hulls;
+
+static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
+  const size_t end = NSVCD__GROUP * (g + 1);
+  out->count = 0;
+  for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
+    const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
+    const nsvcd__d3 origin = nsvcd__facet_origin(f, i);
+    const double step = (double)f->steps[i];
+    const size_t count = f->hull_counts[i];
+    for (size_t k = 0; k < count + !count; k++) {
+      nsvcd__d3 v = {0, 0, 0};
+      if (count) v = nsvcd__vertex_at(&vertices, k);
+      v = nsvcd__d3_add_scaled(origin, step, v);
+      // as float rounds it
+      const double rounding = 1.1e-7 * nsvcd__d3_length(v);
+      const double radius = (double)f->slacks[i] + rounding;
+      const size_t n = out->count++;
+      out->spheres[3][n] = nsvcd__round_outward(radius);
+      nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
+    }
+  }
+}
+
+static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
+  return nsvcd__spheres_of(hulls->spheres[0], NSVCD__HULLS);
+}
+
 // What is computed from the patches of a body of triangles, when these are in place: the spheres
 // above them, the box with the greatest of the quanta, and the groups' discs.
 static void nsvcd__facets_finish(nsvcd_body *b) {
-  nsvcd__body_finish(b);
   const nsvcd__facets f = nsvcd__facets_of(b);
+  const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
+  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);  // and the padding
+  float *out = (float *)(b + 1) + groups.first;
+  for (size_t g = 0; g < groups.count; g++) {
+    nsvcd__hulls hulls;
+    nsvcd__gather_hulls(&f, g, &hulls);
+    const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
+    const nsvcd__sphere over = nsvcd__cover_spheres(all, hulls.count);
+    nsvcd__sphere_store(over, out, groups.slots, g);
+  }
+  nsvcd__body_finish(b);
   const nsvcd__d3 all = {1, 1, 1};
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};

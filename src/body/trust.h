@@ -27,9 +27,19 @@ static int nsvcd__are_spheres(nsvcd__spheres all, size_t count, size_t slots, fl
   return 1;
 }
 
+// Does each of a level's spheres cover its 16 of so many?
+static int nsvcd__level_covers(nsvcd__spheres level, nsvcd__spheres below, size_t members) {
+  for (size_t i = 0; i < members; i += NSVCD__GROUP) {
+    const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
+    const nsvcd__sphere sphere = nsvcd__sphere_of(level, i / NSVCD__GROUP);
+    if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
+  }
+  return 1;
+}
+
 // Are the spheres of a blob, whose layout is right, finite and bounded, their radii not negative,
-// and does each one above cover its 16? A checksum stops accidents; this stops a blob made to harm:
-// a lying sphere would hide collisions.
+// and does each one above the groups cover what is below? A checksum stops accidents; this stops a
+// blob made to harm: a lying sphere would hide collisions.
 static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   const nsvcd__spheres patches = nsvcd__body_patches(b);
   const nsvcd__sphere about_origin = {nsvcd__f3_of(0, 0, 0), b->extent};
@@ -38,22 +48,21 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
-  nsvcd__spheres below = patches;
-  size_t members = b->patches;
+  const nsvcd__spheres groups = nsvcd__group_spheres(b);
+  nsvcd__spheres below = groups;
+  size_t members = 0;
   for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
     const nsvcd__level level = nsvcd__level_of(b->padded, k);
     const nsvcd__spheres above = nsvcd__level_spheres(b, level);
     if (!nsvcd__are_spheres(above, level.count, level.slots, NSVCD__MAX_LENGTH)) return 0;
-    for (size_t i = 0; i < members; i += NSVCD__GROUP) {
-      const size_t count = members - i < NSVCD__GROUP ? members - i : NSVCD__GROUP;
-      const nsvcd__sphere sphere = nsvcd__sphere_of(above, i / NSVCD__GROUP);
-      if (!nsvcd__covers(sphere, nsvcd__spheres_from(below, i), count)) return 0;
-    }
+    if (!nsvcd__level_covers(above, below, members)) return 0;
     below = above;
     members = level.count;
   }
-  return nsvcd__covers(nsvcd__body_sphere(b), patches, b->patches) &&
-         nsvcd__covers(about_origin, patches, b->patches);
+  const nsvcd__sphere whole = nsvcd__body_sphere(b);
+  if (!nsvcd__covers(about_origin, patches, b->patches)) return 0;
+  return nsvcd__covers(whole, patches, b->patches) ||
+         nsvcd__covers(whole, groups, nsvcd__body_groups(b));
 }
 
 // Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
@@ -149,6 +158,14 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
     return 0;
 
+  for (size_t g = 0; g < groups; g++) {
+    nsvcd__hulls hulls;
+    nsvcd__gather_hulls(&f, g, &hulls);
+    const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
+    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__group_spheres(b), g);
+    if (!nsvcd__covers(over, all, hulls.count)) return 0;
+  }
+
   const float most = NSVCD__MAX_LENGTH;
   if (!nsvcd__within(f.box, NSVCD__FACET_BOX, most)) return 0;
   if (!nsvcd__within(f.discs, 3 * padded, 1.000001f)) return 0;
@@ -182,6 +199,8 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   }
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
+  if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
+    return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
@@ -236,6 +255,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
       areas[i] *= scale;
       areas[i] *= scale;
     }
+    nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
     nsvcd__body_finish(b);
     return;
   }

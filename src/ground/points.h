@@ -91,7 +91,7 @@ static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
 static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
   return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
 }
-static inline double nsvcd__d3_squared_distance(nsvcd__d3 a, nsvcd__d3 b) {
+static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
   const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
   return nsvcd__d3_dot(offset, offset);
 }

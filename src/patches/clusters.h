@@ -4,7 +4,7 @@
 
 #ifndef NSVCD_NO_ENCODER
 // The squared distance of a point from a centre.
-static float nsvcd__squared_to_centre(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
+static float nsvcd__to_centre2(const nsvcd__patches *p, uint32_t centre, nsvcd__f3 at) {
   const nsvcd__f3 offset = nsvcd__f3_sub(p->centres[centre], at);
   return nsvcd__f3_dot(offset, offset);
 }
@@ -20,7 +20,7 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
       quarters[k] = HUGE_VALF;
     }
     for (uint32_t j = 0; j < p->count; j++) {
-      const float quarter = 0.25f * nsvcd__squared_to_centre(p, j, p->centres[i]);
+      const float quarter = 0.25f * nsvcd__to_centre2(p, j, p->centres[i]);
       if (j == i || quarter >= quarters[last]) continue;
       size_t k = last;
       for (; k > 0 && quarters[k - 1] > quarter; k--) {
@@ -38,7 +38,7 @@ static void nsvcd__link_centres(nsvcd__patches *p) {
 // guess's neighbours usually decide; where they do not, they give a better guess, or all decide.
 static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, nsvcd__f3 at) {
   uint32_t best = guess;
-  float least = nsvcd__squared_to_centre(p, guess, at);
+  float least = nsvcd__to_centre2(p, guess, at);
   for (int all = 0;;) {
     const uint32_t *neighbours = p->neighbours + (size_t)guess * NSVCD__NEIGHBOURS;
     const float *quarters = p->quarter_squares + (size_t)guess * NSVCD__NEIGHBOURS;
@@ -47,7 +47,7 @@ static uint32_t nsvcd__nearest_centre(const nsvcd__patches *p, uint32_t guess, n
     size_t k = 0;
     for (; k < most && (all || quarters[k] <= own); k++) {
       const uint32_t i = all ? (uint32_t)k : neighbours[k];
-      const float square = nsvcd__squared_to_centre(p, i, at);
+      const float square = nsvcd__to_centre2(p, i, at);
       if (square > least || (square >= least && i >= best)) continue;
       best = i;
       least = square;
@@ -87,7 +87,7 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
     if (pass == 1) p->centres[0] = p->drawn[p->farthest_sample[0]];
     nsvcd__forget_samples(p, 0);
     for (uint32_t s = 0; s < p->sample_count; s++)
-      nsvcd__give_sample(p, s, 0, nsvcd__squared_to_centre(p, 0, p->drawn[s]));
+      nsvcd__give_sample(p, s, 0, nsvcd__to_centre2(p, 0, p->drawn[s]));
   }
 
   uint32_t count = 1;
@@ -101,14 +101,14 @@ static void nsvcd__farthest_points(nsvcd__patches *p) {
     for (uint32_t owner = 0; owner < count; owner++) {
       // An owner more than twice as far away as its farthest sample loses none (triangle
       // inequality): most are passed over.
-      const float square = nsvcd__squared_to_centre(p, owner, p->centres[count]);
+      const float square = nsvcd__to_centre2(p, owner, p->centres[count]);
       if (0.25f * square > p->squared_reach[owner]) continue;
       uint32_t s = p->first_sample[owner];
       nsvcd__forget_samples(p, owner);
       while (s != NSVCD__NO_SAMPLE) {
         const uint32_t next = p->next_sample[s];
         const float old = p->squares[s];
-        const float fresh = nsvcd__squared_to_centre(p, count, p->drawn[s]);
+        const float fresh = nsvcd__to_centre2(p, count, p->drawn[s]);
         const int nearer = fresh < old;
         nsvcd__give_sample(p, s, nearer ? count : owner, nearer ? fresh : old);
         s = next;
@@ -146,7 +146,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 // Makes a sum reach to a point.
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
-  const double square = nsvcd__d3_squared_distance(at, nsvcd__d3_widen(p->centres[patch]));
+  const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
   sum->squared_reach = fmax(sum->squared_reach, square);
 }
 

@@ -15,9 +15,9 @@ static inline size_t nsvcd__longest_of(const double *e) {
 // The squared lengths of a triangle's edges, each from a corner to the next one. Returns which is
 // the longest; of equal ones the first.
 static inline size_t nsvcd__edge_squares(const nsvcd__triangle *t, double *e) {
-  e[0] = nsvcd__d3_squared_distance(t->at[0], t->at[1]);
-  e[1] = nsvcd__d3_squared_distance(t->at[1], t->at[2]);
-  e[2] = nsvcd__d3_squared_distance(t->at[2], t->at[0]);
+  e[0] = nsvcd__d3_distance2(t->at[0], t->at[1]);
+  e[1] = nsvcd__d3_distance2(t->at[1], t->at[2]);
+  e[2] = nsvcd__d3_distance2(t->at[2], t->at[0]);
   return nsvcd__longest_of(e);
 }
 

@@ -14,7 +14,7 @@ static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
-    longest = fmax(longest, nsvcd__d3_squared_distance(t[k], t[(k + 1) % 3]));
+    longest = fmax(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
   const double length = nsvcd__d3_length(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }

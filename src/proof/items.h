@@ -97,7 +97,7 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   double *ends = p->arc_ends;
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
-    const uint32_t first = nsvcd__arc_and_share(motion, (double)at, &u);
+    const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
     const uint32_t knot = nsvcd__next_knot(motion, first);
     at = last < knot ? last : knot;
     ends[0] = (double)(at - first) / (double)(knot - first);
@@ -214,7 +214,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   if (s == search->segments || !((double)search->begin[s] < p->ask.end)) return;
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
-  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, p->ask.end, &u);
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);

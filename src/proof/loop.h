@@ -120,7 +120,7 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
-  const int has_tiles = nsvcd__is_large(moving) || nsvcd__is_large(fixed);
+  const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
   const size_t many = p->ask.by_time ? few : search->segments;
   nsvcd__outcome outcome = NSVCD__SETTLED;

@@ -84,10 +84,10 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
     const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
-        nsvcd__d3_squared_distance(posed[k], foot) <= m->reach * m->reach)
+        nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
-        nsvcd__d3_squared_distance(fixed[k], foot) <= m->reach * m->reach)
+        nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
@@ -136,7 +136,7 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
     int is_new = m->farthest[k] > -HUGE_VAL;
     for (int n = 0; n < count; n++) {
       const nsvcd__d3 other = m->supports[kept[n]].point;
-      is_new &= nsvcd__d3_squared_distance(m->supports[k].point, other) > m->same * m->same;
+      is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
     }
     if (!is_new) continue;
     for (; at > 0 && m->numbers[k] < m->numbers[kept[at - 1]]; at--) kept[at] = kept[at - 1];

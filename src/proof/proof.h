@@ -263,8 +263,6 @@ typedef struct nsvcd__given {
   double share, width;
   // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
   double to;
-  // FIRST, with `to`: no point goes farther on the whole motion
-  double way;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken

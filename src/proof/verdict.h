@@ -114,8 +114,8 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  const int is_large = nsvcd__is_large(p->moving.body) || nsvcd__is_large(p->fixed.body);
-  if (p->known.lost && is_large && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
+  const int is_tiled = nsvcd__is_tiled(p->moving.body, p->fixed.body);
+  if (p->known.lost && is_tiled && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
@@ -207,9 +207,9 @@ static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
   memset(&nearest, 0, sizeof nearest);
   for (size_t s = 0; s <= search->segments; s++) {
     double u;
-    const uint32_t first = nsvcd__arc_and_share(p->ask.motion, (double)search->begin[s], &u);
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, (double)search->begin[s], &u);
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_squared_distance(nsvcd__place_point(&at, moving), fixed);
+    const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
     if (square < least) nearest = at;
     least = fmin(least, square);
   }

@@ -197,7 +197,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 
 // The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
 // is not after that time.
-static uint32_t nsvcd__arc_and_share(const nsvcd__motion *motion, double at, double *share) {
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
   const uint32_t past_a = tick % motion->moving.ticks;
@@ -216,7 +216,7 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
   double u;
   item->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;
-  const uint32_t first = nsvcd__arc_and_share(p->ask.motion, tick, &u);
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
   return nsvcd__find_witness(p, item->moving, item->fixed, first, u);
 }
 #endif  // NSVCD_NO_PROOF

@@ -10,7 +10,7 @@ static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__tra
   nsvcd__leg leg;
   nsvcd__d3 ends[2];
   double u;
-  const uint32_t first = nsvcd__arc_and_share(motion, t * (double)motion->ticks, &u);
+  const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
   nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
   *position = nsvcd__d3_mix(ends[0], ends[1], u);
   return nsvcd__leg_at(&leg, u);
@@ -40,22 +40,25 @@ static double nsvcd__to_of(const nsvcd__task *task) {
   return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
 
+// How far points of the moving body go in an arc, at most.
+static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
+  return arc->speed + arc->turn * (double)(arc->scale * p->moving.body->extent);
+}
+
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
 // asked for, nor longer than `share`, if that is.
 static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = share > 0 ? share : 1;
-  const double extent = (double)(motion->scale * p->moving.body->extent);
   double fastest = 0;  // per tick
   // that of the question before
   p->arc.ticks = 0;
   for (uint32_t first = 0; to > 0 && first < motion->ticks;) {
     const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-    fastest = fmax(fastest, (arc->speed + arc->turn * extent) / (double)arc->ticks);
+    fastest = fmax(fastest, nsvcd__way_in(p, arc) / (double)arc->ticks);
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  p->given.way = whole;
   return to < most * whole ? to / whole : most;
 }
 
@@ -318,14 +321,18 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
 
   // What is proven of times and distances.
   if (p->given.share > 0 && !is_free && !is_within) {
-    const double ticks = (double)p->ask.motion->ticks;
+    const nsvcd__motion *motion = p->ask.motion;
+    const double ticks = (double)motion->ticks;
     const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
     if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
     // nearer than this it is proven on the way, but who asks again from there would not be told so
+    double u;
+    const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
+    const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
     const double hairs = 3 * nsvcd__hair(p);
-    const double back = p->given.way > hairs ? hairs / p->given.way : p->given.share;
+    const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }
   const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;

@@ -100,7 +100,7 @@ static nsvcd__needs nsvcd__needs_of(const nsvcd_question *question) {
   const size_t fixed_groups = nsvcd__body_groups(swapped ? a : b);
   if (moving_groups < NSVCD__TILE_SLOTS) needs.moving_groups = moving_groups;
   if (fixed_groups < NSVCD__TILE_SLOTS) needs.fixed_groups = fixed_groups;
-  needs.large = nsvcd__is_large(a) || nsvcd__is_large(b);
+  needs.large = nsvcd__is_tiled(a, b);
   if (question->segments) needs.segments = nsvcd__round_up(question->segments, NSVCD__LANES);
   needs.proof = nsvcd__method_of(a, b, question->method) == NSVCD_METHOD_PROOF;
 #ifndef NSVCD_NO_NETWORK

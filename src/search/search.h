@@ -121,6 +121,10 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
 static int nsvcd__is_large(const nsvcd_body *body) {
   return nsvcd__body_groups(body) > NSVCD__TILE;
 }
+// Are there several tiles?
+static int nsvcd__is_tiled(const nsvcd_body *a, const nsvcd_body *b) {
+  return nsvcd__is_large(a) || nsvcd__is_large(b);
+}
 
 // Fills a tile with the next groups that a walk finds.
 static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
@@ -216,7 +220,7 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
 
 // Goes on to the next tile that has a step. 0 if there is none.
 static int nsvcd__search_next_tile(nsvcd__search *search) {
-  if (!nsvcd__is_large(search->moving) && !nsvcd__is_large(search->fixed)) return 0;
+  if (!nsvcd__is_tiled(search->moving, search->fixed)) return 0;
   while (search->moving_tile.count > 0) {
     nsvcd__chords_of_tile(search);
     nsvcd__tile_fill(&search->fixed_tile, &search->fixed_walk);
@@ -244,7 +248,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
   search->steps = 0;
   search->step = 0;
   search->waiting = 0;
-  if (!nsvcd__is_large(moving) && !nsvcd__is_large(fixed)) {
+  if (!nsvcd__is_tiled(moving, fixed)) {
     nsvcd__tile_fill_all(&search->moving_tile, moving);
     nsvcd__tile_fill_all(&search->fixed_tile, fixed);
     if (wanted) nsvcd__search_tile(search, wanted);

@@ -88,7 +88,7 @@ static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *b
     int holds = !best || trial.squared < ball->squared;
     const double most = trial.squared * (1 + 1e-9);
     for (size_t i = 0; i < border->count; i++)
-      holds &= nsvcd__d3_squared_distance(border->points[i], trial.centre) <= most;
+      holds &= nsvcd__d3_distance2(border->points[i], trial.centre) <= most;
     if (!holds) continue;
     best = set;
     *ball = trial;
@@ -115,7 +115,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     double most = -1;
     size_t farthest = 0;
     for (size_t i = 0; i < points.count; i++) {
-      const double square = nsvcd__d3_squared_distance(points.at[i], ball.centre);
+      const double square = nsvcd__d3_distance2(points.at[i], ball.centre);
       if (square > most) farthest = i;
       most = fmax(most, square);
     }

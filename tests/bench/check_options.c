@@ -880,7 +880,13 @@ static const char *broken(const scene *s, const ask *k) {
   if (w->contact_count != (status_of(w) == STATUS_WITNESS) ||
       (w->contact_count && memcmp(&w->contacts[0], &w->nearest, sizeof w->nearest) != 0))
     return "contacts";
-  if (w->safe.time < w->time.low || w->safe.time > w->time.low) return "safe place";
+  if (w->safe.time > w->time.low) return "safe place after time.low";
+  if (!(first_of(o) > 0) && w->safe.time < w->time.low) return "safe place before time.low";
+  // where both move, they may hardly move against each other
+  const int one_rests = s->parts[0].count == 1 || s->parts[1].count == 1;
+  const double hairs = 12 * s->quanta / fmax(s->speed, 1e-9);
+  if (one_rests && (double)w->safe.time < fmax((double)w->time.low - hairs - 1e-6, 0))
+    return "safe place hairs before time.low";
   if (w->verdict == NSVCD_HIT && (w->time.high < w->nearest.time || w->time.high > w->nearest.time))
     return "time.high";
   if (w->verdict == NSVCD_UNDECIDED && !w->why) return "UNDECIDED, but not why";
