@@ -8471,7 +8471,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__GLANCE 200
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
-#define NSVCD__TOUCHES 32  // contacts at the start, looked at together, where there is a skin
+#define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
@@ -8558,8 +8558,9 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
-  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
-  nsvcd__d3 apart;
+  // directions that may undo it, unit: against the normal of the moving one; the normal of the fixed
+  // one; and from its nearest point to that of the moving one, 0 if they meet
+  nsvcd__d3 ways[3];
 } nsvcd__touch;
 
 // Places where the bodies touch when a contact is: proof/manifold.
@@ -8716,6 +8717,8 @@ typedef struct nsvcd__proof {
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
+  // and one has been found that nothing undoes
+  int too_deep;
   nsvcd__d3 normals[NSVCD__LIFTS];
   // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
   double depths[NSVCD__LIFTS];
@@ -10477,27 +10480,40 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
   return highest - lowest;
 }
 
-// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the
-// fixed one; and, if they are apart, that from point to point. All point to where the moving body
-// is.
-static NSVCD__APART void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
-  out[0] = nsvcd__d3_scale(nsvcd__face_direction(t->moving), -1);
-  out[1] = nsvcd__face_direction(t->fixed);
-  out[2] = t->apart;
+// The direction across an edge of each triangle of a touch, unit: the k-th of 9. 0 if they are
+// parallel.
+static nsvcd__d3 nsvcd__across_edges(const nsvcd__touch *t, size_t k) {
+  const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
+  const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
+  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+}
+
+// Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
+// normal of one, or across an edge of each (the separating axes).
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
+  const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
+  const double most = p->ask.skin - p->given.clearance;
+  for (size_t k = 0; k < 12; k++) {
+    const nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
+    const nsvcd__d3 back = nsvcd__d3_scale(n, -1);
+    const double lifted = nsvcd__d3_dot(lift, n);
+    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    if (nsvcd__lift_along(n, t->moving, t->fixed) + lifted <= most) return 0;
+    if (nsvcd__lift_along(back, t->moving, t->fixed) - lifted <= most) return 0;
+  }
+  return 1;
 }
 
 // Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
 // push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
   if (lift < 0) return 1;
-  nsvcd__touch_normals(t, normals);
-  return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
+  return nsvcd__d3_dot(n, t->ways[0]) > -0.3 || nsvcd__d3_dot(n, t->ways[1]) > -0.3;
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
@@ -10568,10 +10584,13 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
+  touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  touch.ways[1] = nsvcd__face_direction(couple->fixed);
+  touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undone_by(p, k, &touch)) return;
   }
+  p->too_deep = p->too_deep || nsvcd__is_deep(p, &touch);
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
 
@@ -10982,10 +11001,15 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
+// Is there room for touches, and a way out of those that were gathered?
+static int nsvcd__gathers_on(const nsvcd__proof *p) {
+  return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
+}
+
 // Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
 // much as can be looked at together, or as was allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
+  for (size_t n = 0; n < p->fresh_count && nsvcd__gathers_on(p); n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
@@ -10997,8 +11021,7 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     }
   }
   p->fresh_count = 0;
-  return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
-                                                                    : NSVCD__SPENT;
+  return nsvcd__gathers_on(p) && p->work <= p->ask.limit ? NSVCD__SETTLED : NSVCD__SPENT;
 }
 
 // How far places on both patches of an item, the moving one posed, can at most be along each
@@ -11640,7 +11663,8 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.doubts_end = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = 0;
+  p->count = p->fresh_count = p->misses = p->touch_count = 0;
+  p->too_deep = 0;
   nsvcd__forget(&p->memo);
 }
 
@@ -11926,48 +11950,43 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
 
 #ifndef NSVCD_NO_PROOF
 // How good a lift along n is: the more touches it undoes the better; of equals, the more of
-// these have a face that says so. 0 if it undoes none.
-static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
-  double count = 0;
-  double faces = 0;
+// these have a face that says so. 0 if it undoes none, or cannot be better than `most`.
+static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
+  const size_t each = NSVCD__TOUCHES + 2;
+  size_t good = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
-    nsvcd__d3 normals[3];
+    if (good + (p->touch_count - k) * (each + 1) <= most) return 0;
     if (!nsvcd__undoes(p, n, t)) continue;
-    nsvcd__touch_normals(t, normals);
-    count++;
-    faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
+    good += each;
+    good += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
   }
-  return count * (NSVCD__TOUCHES + 2) + faces;
+  return good;
 }
 
 // Takes a direction that is better than the best so far.
-static NSVCD__APART void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, double *most,
-                                         nsvcd__d3 *best) {
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
+                            nsvcd__d3 *best) {
   const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
-  const double good = known ? 0 : nsvcd__undone(p, n);
-  if (good > *most) *best = n;
-  *most = fmax(*most, good);
+  const size_t good = known ? 0 : nsvcd__undone(p, n, *most);
+  if (!(good > *most)) return;
+  *best = n;
+  *most = good;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
 // the most touches: *best, as it was if none undoes any: then 0 is returned.
 static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  double most = 0;
+  size_t most = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
-    nsvcd__d3 normals[3];
-    nsvcd__touch_normals(&p->of.touches[k], normals);
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, normals[i], &most, best);
+    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &most, best);
   }
   // an edge on an edge
   for (size_t k = 0; k < 9 && !(most > 0); k++) {
     const nsvcd__touch *t = &p->of.touches[0];
-    const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
-    const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
-    const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
-    nsvcd__d3 normals[3];
-    nsvcd__touch_normals(t, normals);
-    const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
+    const nsvcd__d3 n = nsvcd__across_edges(t, k);
+    const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
+    const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
     nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &most, best);
   }
   return most > 0;
@@ -11975,6 +11994,7 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
+  if (p->too_deep) return 0;
   while (p->touch_count > 0) {
     const size_t k = p->normal_count;
     nsvcd__d3 best = {0, 0, 0};
@@ -12029,7 +12049,6 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   // touch afterwards
   double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
-    p->touch_count = 0;
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
@@ -12070,7 +12089,6 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
     still->lift = nsvcd__f3_round(least);
-    p->touch_count = 0;
     (void)nsvcd__prove_anew(p, search);
     // what no plane normal to a lift parts is out of the way after it all the same
     for (size_t n = 0; n < p->touch_count; n++)
@@ -13535,7 +13553,7 @@ static double nsvcd__to_of(const nsvcd__task *task) {
 
 // How far points of the moving body go in an arc, at most.
 static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
-  return arc->speed + arc->turn * (double)(arc->scale * p->moving.body->extent);
+  return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
@@ -13572,7 +13590,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
-  p->touch_count = p->normal_count = 0;
+  p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
@@ -14702,6 +14720,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
 #define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
 #define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
+#define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__against NSVCD__AT(against)
@@ -14827,6 +14846,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gather_items NSVCD__AT(gather_items)
 #define nsvcd__gather_places NSVCD__AT(gather_places)
 #define nsvcd__gathering NSVCD__AT(gathering)
+#define nsvcd__gathers_on NSVCD__AT(gathers_on)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
@@ -14851,6 +14871,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
+#define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_inside NSVCD__AT(is_inside)
@@ -15050,7 +15071,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
 #define nsvcd__touch NSVCD__AT(touch)
-#define nsvcd__touch_normals NSVCD__AT(touch_normals)
 #define nsvcd__track NSVCD__AT(track)
 #define nsvcd__track_box NSVCD__AT(track_box)
 #define nsvcd__track_of NSVCD__AT(track_of)

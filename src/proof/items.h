@@ -300,10 +300,15 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
   return NSVCD__SETTLED;
 }
 
+// Is there room for touches, and a way out of those that were gathered?
+static int nsvcd__gathers_on(const nsvcd__proof *p) {
+  return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
+}
+
 // Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
 // much as can be looked at together, or as was allowed.
 static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  for (size_t n = 0; n < p->fresh_count && p->touch_count < NSVCD__TOUCHES; n++) {
+  for (size_t n = 0; n < p->fresh_count && nsvcd__gathers_on(p); n++) {
     const nsvcd__item *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
@@ -315,8 +320,7 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     }
   }
   p->fresh_count = 0;
-  return p->touch_count < NSVCD__TOUCHES && p->work <= p->ask.limit ? NSVCD__SETTLED
-                                                                    : NSVCD__SPENT;
+  return nsvcd__gathers_on(p) && p->work <= p->ask.limit ? NSVCD__SETTLED : NSVCD__SPENT;
 }
 
 // How far places on both patches of an item, the moving one posed, can at most be along each

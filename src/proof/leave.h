@@ -12,48 +12,43 @@
 
 #ifndef NSVCD_NO_PROOF
 // How good a lift along n is: the more touches it undoes the better; of equals, the more of
-// these have a face that says so. 0 if it undoes none.
-static double nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n) {
-  double count = 0;
-  double faces = 0;
+// these have a face that says so. 0 if it undoes none, or cannot be better than `most`.
+static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
+  const size_t each = NSVCD__TOUCHES + 2;
+  size_t good = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
-    nsvcd__d3 normals[3];
+    if (good + (p->touch_count - k) * (each + 1) <= most) return 0;
     if (!nsvcd__undoes(p, n, t)) continue;
-    nsvcd__touch_normals(t, normals);
-    count++;
-    faces += nsvcd__d3_dot(n, normals[0]) > 0.9 || nsvcd__d3_dot(n, normals[1]) > 0.9;
+    good += each;
+    good += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
   }
-  return count * (NSVCD__TOUCHES + 2) + faces;
+  return good;
 }
 
 // Takes a direction that is better than the best so far.
-static NSVCD__APART void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, double *most,
-                                         nsvcd__d3 *best) {
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
+                            nsvcd__d3 *best) {
   const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
-  const double good = known ? 0 : nsvcd__undone(p, n);
-  if (good > *most) *best = n;
-  *most = fmax(*most, good);
+  const size_t good = known ? 0 : nsvcd__undone(p, n, *most);
+  if (!(good > *most)) return;
+  *best = n;
+  *most = good;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
 // the most touches: *best, as it was if none undoes any: then 0 is returned.
 static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  double most = 0;
+  size_t most = 0;
   for (size_t k = 0; k < p->touch_count; k++) {
-    nsvcd__d3 normals[3];
-    nsvcd__touch_normals(&p->of.touches[k], normals);
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, normals[i], &most, best);
+    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &most, best);
   }
   // an edge on an edge
   for (size_t k = 0; k < 9 && !(most > 0); k++) {
     const nsvcd__touch *t = &p->of.touches[0];
-    const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
-    const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
-    const nsvcd__d3 n = nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
-    nsvcd__d3 normals[3];
-    nsvcd__touch_normals(t, normals);
-    const double side = nsvcd__d3_dot(n, nsvcd__d3_add(normals[0], normals[1])) < 0 ? -1 : 1;
+    const nsvcd__d3 n = nsvcd__across_edges(t, k);
+    const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
+    const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
     nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &most, best);
   }
   return most > 0;
@@ -61,6 +56,7 @@ static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
 static int nsvcd__choose_lifts(nsvcd__proof *p) {
+  if (p->too_deep) return 0;
   while (p->touch_count > 0) {
     const size_t k = p->normal_count;
     nsvcd__d3 best = {0, 0, 0};
@@ -115,7 +111,6 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   // touch afterwards
   double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
-    p->touch_count = 0;
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
@@ -156,7 +151,6 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
     still->lift = nsvcd__f3_round(least);
-    p->touch_count = 0;
     (void)nsvcd__prove_anew(p, search);
     // what no plane normal to a lift parts is out of the way after it all the same
     for (size_t n = 0; n < p->touch_count; n++)

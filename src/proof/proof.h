@@ -102,7 +102,7 @@
 #define NSVCD__GLANCE 200
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
-#define NSVCD__TOUCHES 32  // contacts at the start, looked at together, where there is a skin
+#define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
@@ -189,8 +189,9 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
-  // unit, from the fixed one's nearest point to the moving one's; 0: they meet
-  nsvcd__d3 apart;
+  // directions that may undo it, unit: against the normal of the moving one; the normal of the fixed
+  // one; and from its nearest point to that of the moving one, 0 if they meet
+  nsvcd__d3 ways[3];
 } nsvcd__touch;
 
 // Places where the bodies touch when a contact is: proof/manifold.
@@ -347,6 +348,8 @@ typedef struct nsvcd__proof {
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
+  // and one has been found that nothing undoes
+  int too_deep;
   nsvcd__d3 normals[NSVCD__LIFTS];
   // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
   double depths[NSVCD__LIFTS];

@@ -26,7 +26,8 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   p->ask.doubts_end = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
-  p->count = p->fresh_count = p->misses = 0;
+  p->count = p->fresh_count = p->misses = p->touch_count = 0;
+  p->too_deep = 0;
   nsvcd__forget(&p->memo);
 }
 

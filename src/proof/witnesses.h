@@ -16,27 +16,40 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvc
   return highest - lowest;
 }
 
-// Directions that may undo a touch: the normals of the moving triangle, turned about, and of the
-// fixed one; and, if they are apart, that from point to point. All point to where the moving body
-// is.
-static NSVCD__APART void nsvcd__touch_normals(const nsvcd__touch *t, nsvcd__d3 *out) {
-  out[0] = nsvcd__d3_scale(nsvcd__face_direction(t->moving), -1);
-  out[1] = nsvcd__face_direction(t->fixed);
-  out[2] = t->apart;
+// The direction across an edge of each triangle of a touch, unit: the k-th of 9. 0 if they are
+// parallel.
+static nsvcd__d3 nsvcd__across_edges(const nsvcd__touch *t, size_t k) {
+  const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
+  const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
+  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+}
+
+// Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
+// normal of one, or across an edge of each (the separating axes).
+static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
+  const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
+  const double most = p->ask.skin - p->given.clearance;
+  for (size_t k = 0; k < 12; k++) {
+    const nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
+    const nsvcd__d3 back = nsvcd__d3_scale(n, -1);
+    const double lifted = nsvcd__d3_dot(lift, n);
+    if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    if (nsvcd__lift_along(n, t->moving, t->fixed) + lifted <= most) return 0;
+    if (nsvcd__lift_along(back, t->moving, t->fixed) - lifted <= most) return 0;
+  }
+  return 1;
 }
 
 // Does a lift along n, by what is left of the skin in that direction, undo a touch? If it has to
 // push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  nsvcd__d3 normals[3];
   const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
   if (lift < 0) return 1;
-  nsvcd__touch_normals(t, normals);
-  return nsvcd__d3_dot(n, normals[0]) > -0.3 || nsvcd__d3_dot(n, normals[1]) > -0.3;
+  return nsvcd__d3_dot(n, t->ways[0]) > -0.3 || nsvcd__d3_dot(n, t->ways[1]) > -0.3;
 }
 
 // The square of the distance of two triangles, the moving one gone so far along n.
@@ -107,10 +120,13 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
   const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-  touch.apart = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
+  touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  touch.ways[1] = nsvcd__face_direction(couple->fixed);
+  touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undone_by(p, k, &touch)) return;
   }
+  p->too_deep = p->too_deep || nsvcd__is_deep(p, &touch);
   if (p->touch_count < NSVCD__TOUCHES) p->of.touches[p->touch_count++] = touch;
 }
 

@@ -42,7 +42,7 @@ static double nsvcd__to_of(const nsvcd__task *task) {
 
 // How far points of the moving body go in an arc, at most.
 static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
-  return arc->speed + arc->turn * (double)(arc->scale * p->moving.body->extent);
+  return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
@@ -79,7 +79,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
-  p->touch_count = p->normal_count = 0;
+  p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
