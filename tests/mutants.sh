@@ -109,7 +109,7 @@ level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->laten
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 asks: faces without area|length > 1e-9 * longest|length > 0
-asks: pushed through one face only|n, normals[0]) > -0.3 \|\| nsvcd__d3_dot(n, normals[1]) > -0.3|n, normals[0]) > -0.3 \&\& nsvcd__d3_dot(n, normals[1]) > -0.3
+asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
 asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
@@ -120,6 +120,9 @@ asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
 asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 0 * arc->turn
+asks: too deep for the manifold too|  p->too_deep = 0;|
+asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    const nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__d3 n = k < 3
+asks: deep in one direction|if (nsvcd__lift_along(back, t->moving, t->fixed) - lifted <= most) return 0;|
 asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit

@@ -228,6 +228,40 @@ static void asks_skin_under_a_ceiling(void) {
   nsvcd_body_free(gap, NULL);
 }
 
+// A bar on its edge rests across the edge of another: what parts them is across both edges, and of
+// all their faces none.
+static void asks_skin_of_edge_on_edge(void) {
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 1, 0.1, 0.1, 1);
+  const nsvcd_body *bar = asks_body(&shape, 0);
+  const double down = 0.05 * sqrt(2);  // the edge, from the middle
+  const float half[2] = {(float)sin(SHAPES_PI / 8), (float)cos(SHAPES_PI / 8)};
+  const nsvcd_pose lies = {{0, 0, 0}, {half[0], 0, 0, half[1]}};
+  for (int k = 0; k < 64; k++) {
+    // turned by 45 degrees about itself, and by more than that about z
+    const double turn = 0.3 + 0.08 * (k % 32) + (k % 2 ? SHAPES_PI : 0);
+    const float c = (float)cos(turn / 2);
+    const float s = (float)sin(turn / 2);
+    const double depth = 2.5e-5 * (k % 40);
+    nsvcd_pose path[2] = {lies, lies};
+    for (int n = 0; n < 2; n++) {
+      const float q[4] = {c * half[0], s * half[0], s * half[1], c * half[1]};
+      memcpy(path[n].rotation, q, sizeof q);
+      path[n].position[0] = 0.02f * (float)n;
+      path[n].position[2] = (float)(2 * down - depth);
+    }
+    nsvcd_question question = question_of(bar, path, k < 32 ? 1 : 2, bar, &lies, NULL);
+    question.skin = 1e-3f;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_FREE);
+    CHECK_NEAR(answer.lift[2], 1e-3, 5e-6);
+    CHECK_NEAR(answer.depth, depth, 0.01 * depth + 5e-5);
+    asks_check_safe(&question, &answer);
+  }
+  nsvcd_body_free(bar, NULL);
+}
+
 // What has no area has no direction, however its corners are rounded.
 static void asks_faces_without_area(void) {
   shapes_rng rng = {26};
@@ -567,6 +601,30 @@ static void asks_manifold_has_no_ghosts(void) {
   nsvcd_body_free(post, NULL);
 }
 
+// Deeper in a table than the skin is a contact as it is without one, with all its places.
+static void asks_manifold_too_deep_for_a_skin(void) {
+  shapes_rng rng = {2715};
+  const nsvcd_body *table = asks_table(0, 16);
+  for (int n = 0; n < STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n, &rng);
+    const nsvcd_pose path[2] = {asks_pose(0.03, 0.01, -2e-3, 0.3),
+                                asks_pose(0.03, 0.01, -0.02, 0.3)};
+    nsvcd_question question = question_of(body, path, 2, table, NULL, NULL);
+    question.ask = NSVCD_ASK_FIRST;
+    question.manifold = 1;
+    question.to = 5e-4f;
+    const nsvcd_answer bare = asks(&question);
+    question.skin = 1e-3f;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_EQ(answer.lift[2], 0);
+    CHECK_EQ(answer.contact_count, bare.contact_count);
+    CHECK_EQ(memcmp(answer.contacts, bare.contacts, sizeof bare.contacts), 0);
+    nsvcd_body_free(body, NULL);
+  }
+  nsvcd_body_free(table, NULL);
+}
+
 // Pressed into a table and sinking, with a skin for that: how near it comes is asked as well.
 static void asks_safe_with_a_distance(void) {
   const nsvcd_body *tables[2] = {asks_table(0, 1), asks_table(0, 16)};
@@ -701,11 +759,13 @@ void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_manifold_holds);
   RUN(asks_manifold_has_no_ghosts);
+  RUN(asks_manifold_too_deep_for_a_skin);
   RUN(asks_safe_with_a_distance);
   RUN(asks_goes_on_for_frames);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
   RUN(asks_skin_under_a_ceiling);
+  RUN(asks_skin_of_edge_on_edge);
   RUN(asks_faces_without_area);
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);
