@@ -8558,8 +8558,8 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
-  // directions that may undo it, unit: against the normal of the moving one; the normal of the fixed
-  // one; and from its nearest point to that of the moving one, 0 if they meet
+  // directions that may undo it, unit: against the normal of the moving one; the normal of the
+  // fixed one; and from its nearest point to that of the moving one, 0 if they meet
   nsvcd__d3 ways[3];
 } nsvcd__touch;
 
@@ -10469,13 +10469,14 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
 // within the clearance; with a skin, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
-// How far a triangle must go along n until it is beyond the other; negative if it is already.
-static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+// How far the moving triangle of a touch must go along n until it is beyond the other; negative if
+// it is already.
+static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(n, moving[k]));
-    highest = fmax(highest, nsvcd__d3_dot(n, fixed[k]));
+    lowest = fmin(lowest, nsvcd__d3_dot(n, t->moving[k]));
+    highest = fmax(highest, nsvcd__d3_dot(n, t->fixed[k]));
   }
   return highest - lowest;
 }
@@ -10498,8 +10499,8 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
     const nsvcd__d3 back = nsvcd__d3_scale(n, -1);
     const double lifted = nsvcd__d3_dot(lift, n);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    if (nsvcd__lift_along(n, t->moving, t->fixed) + lifted <= most) return 0;
-    if (nsvcd__lift_along(back, t->moving, t->fixed) - lifted <= most) return 0;
+    if (nsvcd__lift_along(n, t) + lifted <= most) return 0;
+    if (nsvcd__lift_along(back, t) - lifted <= most) return 0;
   }
   return 1;
 }
@@ -10508,7 +10509,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
 // push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
+  const double lift = nsvcd__lift_along(n, t);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
@@ -10560,7 +10561,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
+  const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = fmax(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
   const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
@@ -11967,9 +11968,9 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
 // Takes a direction that is better than the best so far.
 static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
                             nsvcd__d3 *best) {
-  const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
-  const size_t good = known ? 0 : nsvcd__undone(p, n, *most);
-  if (!(good > *most)) return;
+  if (*most > 0 && nsvcd__d3_dot(n, *best) > 0.99999) return;
+  const size_t good = nsvcd__undone(p, n, *most);
+  if (good == 0) return;
   *best = n;
   *most = good;
 }
@@ -12070,7 +12071,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
-    const double way = nsvcd__lift_along(p->normals[k], t->moving, t->fixed);
+    const double way = nsvcd__lift_along(p->normals[k], t);
     if (way < least) best = k;
     least = fmin(least, way);
   }

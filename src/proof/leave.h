@@ -29,9 +29,9 @@ static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
 // Takes a direction that is better than the best so far.
 static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
                             nsvcd__d3 *best) {
-  const int known = *most > 0 && nsvcd__d3_dot(n, *best) > 0.99999;
-  const size_t good = known ? 0 : nsvcd__undone(p, n, *most);
-  if (!(good > *most)) return;
+  if (*most > 0 && nsvcd__d3_dot(n, *best) > 0.99999) return;
+  const size_t good = nsvcd__undone(p, n, *most);
+  if (good == 0) return;
   *best = n;
   *most = good;
 }
@@ -132,7 +132,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   size_t best = 0;
   double least = HUGE_VAL;
   for (size_t k = 0; k < p->normal_count; k++) {
-    const double way = nsvcd__lift_along(p->normals[k], t->moving, t->fixed);
+    const double way = nsvcd__lift_along(p->normals[k], t);
     if (way < least) best = k;
     least = fmin(least, way);
   }

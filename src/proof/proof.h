@@ -189,8 +189,8 @@ typedef struct nsvcd__contact {
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
   nsvcd__d3 moving[3], fixed[3];
-  // directions that may undo it, unit: against the normal of the moving one; the normal of the fixed
-  // one; and from its nearest point to that of the moving one, 0 if they meet
+  // directions that may undo it, unit: against the normal of the moving one; the normal of the
+  // fixed one; and from its nearest point to that of the moving one, 0 if they meet
   nsvcd__d3 ways[3];
 } nsvcd__touch;
 

@@ -5,13 +5,14 @@
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
-// How far a triangle must go along n until it is beyond the other; negative if it is already.
-static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__d3 *moving, const nsvcd__d3 *fixed) {
+// How far the moving triangle of a touch must go along n until it is beyond the other; negative if
+// it is already.
+static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(n, moving[k]));
-    highest = fmax(highest, nsvcd__d3_dot(n, fixed[k]));
+    lowest = fmin(lowest, nsvcd__d3_dot(n, t->moving[k]));
+    highest = fmax(highest, nsvcd__d3_dot(n, t->fixed[k]));
   }
   return highest - lowest;
 }
@@ -34,8 +35,8 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
     const nsvcd__d3 back = nsvcd__d3_scale(n, -1);
     const double lifted = nsvcd__d3_dot(lift, n);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    if (nsvcd__lift_along(n, t->moving, t->fixed) + lifted <= most) return 0;
-    if (nsvcd__lift_along(back, t->moving, t->fixed) - lifted <= most) return 0;
+    if (nsvcd__lift_along(n, t) + lifted <= most) return 0;
+    if (nsvcd__lift_along(back, t) - lifted <= most) return 0;
   }
   return 1;
 }
@@ -44,7 +45,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
 // push anything, then not through both faces. Through one of them is no harm: a side that rises
 // from the rim on which a cone stands looks up, and the floor under it looks up too.
 static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch *t) {
-  const double lift = nsvcd__lift_along(n, t->moving, t->fixed);
+  const double lift = nsvcd__lift_along(n, t);
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   if (!(nsvcd__d3_dot(n, n) > 0.5) || lifted + lift + p->given.clearance > p->ask.skin)
     return 0;
@@ -96,7 +97,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
 static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
-  const double most = nsvcd__lift_along(n, t->moving, t->fixed) + p->given.clearance;
+  const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = fmax(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
   const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
