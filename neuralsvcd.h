@@ -10495,12 +10495,13 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
   const double most = p->ask.skin - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
-    const nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
-    const nsvcd__d3 back = nsvcd__d3_scale(n, -1);
-    const double lifted = nsvcd__d3_dot(lift, n);
+    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
-    if (nsvcd__lift_along(n, t) + lifted <= most) return 0;
-    if (nsvcd__lift_along(back, t) - lifted <= most) return 0;
+    for (int side = 0; side < 2; side++) {
+      const double lifted = nsvcd__d3_dot(lift, n);
+      if (lifted + nsvcd__lift_along(n, t) <= most) return 0;
+      n = nsvcd__d3_scale(n, -1);
+    }
   }
   return 1;
 }

@@ -121,8 +121,8 @@ asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__mee
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
 asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 0 * arc->turn
 asks: too deep for the manifold too|  p->too_deep = 0;|
-asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    const nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    const nsvcd__d3 n = k < 3
-asks: deep in one direction|if (nsvcd__lift_along(back, t) - lifted <= most) return 0;|
+asks: depth across edges forgotten|for (size_t k = 0; k < 12; k++) {\n    nsvcd__d3 n = k < 3|for (size_t k = 0; k < 3; k++) {\n    nsvcd__d3 n = k < 3
+asks: deep in one direction|for (int side = 0; side < 2; side++) {\n      const double lifted|for (int side = 0; side < 1; side++) {\n      const double lifted
 asks: metres of the arc before|  // that of the question before\n  p->arc.ticks = 0;|
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
