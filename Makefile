@@ -127,13 +127,13 @@ uninstall:  ## takes it away again
 HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS)
 PEERS = $(wildcard tests/bench/*.h)
 TEST_OBJECTS = build/main.o $(patsubst tests/%.c,build/%.o,$(wildcard tests/test_*.c))
-# Each test file holds the rooms of src/ that it is about, test_asks.c and test_processor.c the header as users have it, and uses
-# only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
+# Each test file holds the rooms of src/ that it is about, test_asks.c, test_round.c and test_processor.c the header as users have it, and
+# uses only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
 # whatever the flags.
 TEST_WARNINGS = -I. -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPATCH
 build/test_processor.o: CFLAGS := $(filter-out -m%,$(CFLAGS))
 # -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not.
-build/test_asks.o: CFLAGS := $(filter-out -m%,$(CFLAGS)) -ffp-contract=fast
+build/test_asks.o build/test_round.o: CFLAGS := $(filter-out -m%,$(CFLAGS)) -ffp-contract=fast
 
 $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<

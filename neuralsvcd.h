@@ -154,6 +154,7 @@
 //     regions         a large mesh in regions, each with its own patches
 //   surface: each patch described from outside
 //     pieces          triangles cut by the cells of the centres
+//     runs            points, segments and triangles, in runs of neighbours
 //     balls           the least ball that holds all points
 //     discs           a direction in which the points are thin
 //     hulls           16 vertices about a patch
@@ -167,6 +168,7 @@
 //     facets          the blob of the proof: discs, hulls, triangles
 //     trust           is a blob sound? load it, scale it, describe it
 //     encode          nsvcd_encode
+//     shapes          spheres, capsules, boxes, clouds
 //   lanes: 16 numbers at a time
 //     lanes           AVX-512, AVX2, SSE2, NEON, SIMD128 or plain C
 //     turns           rotations, lane by lane
@@ -465,6 +467,10 @@ typedef struct nsvcd_encode_options {
   // metres; if > 0 and patches is 0: as many patches as have about this radius. For a level about
   // half the size of the bodies that move in it
   float patch_radius;
+  // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
+  // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
+  // no latents
+  float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
   // 1: for the network alone, in fewer bytes; then there is no proof
@@ -505,6 +511,32 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
+#ifndef NSVCD_NO_PROOF
+// Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
+// of a point, a segment, a box or points and options.round. Where time matters they are better than
+// meshes of many triangles: a capsule is one segment.
+//   radius, round   metres, > 0; that of a box may be 0
+//   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
+//   half            half of what the box measures, round edges and all, not NULL, metres; none is
+//                   less than round
+//   points          (count, 3) metres, not NULL, not kept
+//   allocator       NULL: malloc and free
+//   body            not NULL; set to the body, about the origin or where its ends and points are;
+//                   left as it was on failure; nsvcd_body_free gives it back
+//   allocates       the body, and working memory, which is given back
+//   errors          ARGUMENT, NUMBER, EMPTY, TOO_LARGE, MEMORY
+NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
+                                           float radius, const nsvcd_allocator *allocator,
+                                           const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+                                       const nsvcd_allocator *allocator,
+                                       const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
+                                         const nsvcd_allocator *allocator,
+                                         const nsvcd_body **body);
+#endif
 // Gives back a body that nsvcd_encode allocated.
 //   body       may be NULL
 //   allocator  the one that it came from
@@ -556,6 +588,8 @@ typedef struct nsvcd_body_facts {
   size_t listings;
   // metres: stored triangles are within this of the mesh's
   float quantum;
+  // metres that the body goes beyond its mesh
+  float round;
   // 1: the network can answer
   int latents;
 } nsvcd_body_facts;
@@ -726,14 +760,14 @@ typedef struct nsvcd_range {
 
 // Two triangles, and where they meet or are nearest.
 typedef struct nsvcd_contact {
-  // metres, world. Where they meet, or on one of them where they are nearest; of a large triangle,
-  // which is stored in parts, the part that was looked at last
+  // metres, world. Where they meet, or on b where they are nearest: on its surface, if it is round.
+  // Of a large triangle, which is stored in parts, on the part that was looked at last
   float point[3];
   // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
   // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
   // where that triangle has no area
   float normal[3];
-  // metres between the stored triangles; 0: they meet
+  // metres between the stored triangles, less what is round; 0: they meet
   float gap;
   // in [0,1]: when
   float time;
@@ -1282,8 +1316,9 @@ static inline int nsvcd__is_finite(float x) {
 // In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
 
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
-// on. _load and _row are from floats, of which a row has three; _add_scaled is a + s b. Of floats a
-// difference, and all that is built of a few of them, is as good as exact in double.
+// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
+// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
+// double.
 #define NSVCD__VECTORS(t, scalar, sqrt) \
   typedef struct t { \
     scalar x, y, z; \
@@ -1307,7 +1342,7 @@ static inline int nsvcd__is_finite(float x) {
   static inline t t##_scale(t a, scalar s) { \
     return t##_of(s * a.x, s * a.y, s * a.z); \
   } \
-  static inline t t##_add_scaled(t a, scalar s, t b) { \
+  static inline t t##_fma(scalar s, t b, t a) { \
     return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
   } \
   static inline t t##_min(t a, t b) { \
@@ -1403,7 +1438,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
 // its rows. A transform is a rotation and a place.
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _add_scaled is a + s b; _axis is that of a unit
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
 // quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
 // _apply_transpose is the transpose of m, times a.
 #define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
@@ -1420,7 +1455,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
     const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
     return out; \
   } \
-  static inline quat quat##_add_scaled(quat a, scalar s, quat b) { \
+  static inline quat quat##_fma(scalar s, quat b, quat a) { \
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
@@ -1516,7 +1551,7 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
 // where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
 // left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
-  const nsvcd__quat chord = nsvcd__quat_add_scaled(a, -1, b);
+  const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
   return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
@@ -1556,15 +1591,15 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
   }
-  return nsvcd__quat_unit(nsvcd__quat_add_scaled(nsvcd__quat_scale(start, wa), wb, end));
+  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
 }
 
 // s (a + t b).
 static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
                                           const nsvcd__mat3 *b) {
-  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s),
-                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s),
-                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s)};
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
   return out;
 }
 static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
@@ -2635,8 +2670,8 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
     }
     const nsvcd__d3 ab = nsvcd__d3_sub(triangle.at[1], triangle.at[0]);
     const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
-    const nsvcd__d3 along = nsvcd__d3_add_scaled(triangle.at[0], u, ab);
-    samples[k] = nsvcd__d3_narrow(nsvcd__d3_add_scaled(along, v, ac));
+    const nsvcd__d3 along = nsvcd__d3_fma(u, ab, triangle.at[0]);
+    samples[k] = nsvcd__d3_narrow(nsvcd__d3_fma(v, ac, along));
     normals[k] = nsvcd__f3_of(0, 0, 0);
     if (area > 0)
       normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));
@@ -3754,6 +3789,119 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
 }
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
+// ------------------------------------------------------------------------------------ surface/runs
+// In: a mesh of points, segments and triangles, which may all be without area. Out: its pieces, as
+// of a region of its own: all triangles whole, in runs of neighbours, each of which is a patch.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// triangles of a run, where there are many: no more points than a hull may have
+#define NSVCD__RUN_LENGTH 16
+
+// Is some triangle of a mesh a point or a segment?
+static int nsvcd__has_points(const nsvcd_mesh *mesh) {
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *v = mesh->indices + 3 * t;
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return 1;
+  }
+  return 0;
+}
+
+// How many runs there are to be, where the options do not say.
+static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
+  const size_t triangles = mesh->triangle_count;
+  const size_t runs = (triangles + NSVCD__RUN_LENGTH - 1) / NSVCD__RUN_LENGTH;
+  if (triangles <= NSVCD_VERY_FEW_TRIANGLES) return triangles;
+  return runs < NSVCD_MAX_PATCHES ? runs : NSVCD_MAX_PATCHES;
+}
+
+static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
+  const uint32_t *v = mesh->indices + 3 * t;
+  nsvcd__f3 sum = nsvcd__f3_row(mesh->positions, v[0]);
+  sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[1]));
+  sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[2]));
+  return nsvcd__f3_scale(sum, 1.0f / 3);
+}
+
+// The bits of the whole part, up to 10, three places apart.
+static uint64_t nsvcd__spread_bits(float from) {
+  uint32_t x = (uint32_t)from;
+  x = (x | x << 16) & 0x030000ffu;
+  x = (x | x << 8) & 0x0300f00fu;
+  x = (x | x << 4) & 0x030c30c3u;
+  return (x | x << 2) & 0x09249249u;
+}
+
+// Sorts numbers by their upper half, 8 bits at a time; equal ones keep their order. spare:
+// (count).
+static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
+  for (unsigned shift = 32; shift < 64; shift += 8) {
+    size_t first[257] = {0};
+    for (size_t i = 0; i < count; i++) first[1 + (keys[i] >> shift & 0xff)]++;
+    for (size_t n = 0; n < 256; n++) first[n + 1] += first[n];
+    for (size_t i = 0; i < count; i++) spare[first[keys[i] >> shift & 0xff]++] = keys[i];
+    memcpy(keys, spare, count * sizeof *keys);
+  }
+}
+
+// The pieces of a mesh, in so many runs, of which each is a patch; region and patches are what they
+// are of. The triangles are sorted along a curve that fills space (Morton 1966). Every vertex may
+// be a component of its own. 0 without memory.
+static int nsvcd__runs_build(const nsvcd_mesh *mesh, size_t runs, nsvcd__arena *arena,
+                             nsvcd__region *region, nsvcd__patches *patches,
+                             nsvcd__pieces *pieces) {
+  const size_t count = mesh->triangle_count;
+  nsvcd__f3 low = nsvcd__middle_of(mesh, 0);
+  nsvcd__f3 high = low;
+  memset(region, 0, sizeof *region);
+  memset(patches, 0, sizeof *patches);
+  memset(pieces, 0, sizeof *pieces);
+  uint64_t *keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
+  region->mesh = *mesh;
+  region->ids = NSVCD__TAKE(arena, uint32_t, count);
+  region->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
+  patches->count = runs;
+  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, runs);
+  pieces->arena = arena;
+  pieces->region = region;
+  pieces->patches = patches;
+  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
+  if (arena->failed) return 0;
+  memset(region->seeds, 1, mesh->vertex_count);
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+    region->greatest = fmax(region->greatest, fabs((double)mesh->positions[i]));
+  for (size_t t = 0; t < count; t++) {
+    const nsvcd__f3 middle = nsvcd__middle_of(mesh, t);
+    region->ids[t] = (uint32_t)t;
+    low = nsvcd__f3_min(low, middle);
+    high = nsvcd__f3_max(high, middle);
+  }
+
+  const nsvcd__f3 size = nsvcd__f3_sub(high, low);
+  const float longest = fmaxf(fmaxf(size.x, size.y), size.z);
+  const float cells = longest > 0 ? 1023 / longest : 0;
+  for (size_t t = 0; t < count; t++) {
+    const nsvcd__f3 at = nsvcd__f3_sub(nsvcd__middle_of(mesh, t), low);
+    const uint64_t x = nsvcd__spread_bits(cells * at.x);
+    const uint64_t y = nsvcd__spread_bits(cells * at.y);
+    const uint64_t z = nsvcd__spread_bits(cells * at.z);
+    keys[t] = (x | y << 1 | z << 2) << 32 | t;
+  }
+  nsvcd__sort_by_code(keys, keys + count, count);
+
+  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
+  nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
+  pieces->list.count = count;
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t triangle = (uint32_t)keys[k];
+    const size_t patch = (size_t)((uint64_t)k * runs / count);
+    const nsvcd__piece piece = {NSVCD__WHOLE, triangle, (uint16_t)patch, 3, 0};
+    patches->centres[patch] = nsvcd__middle_of(mesh, triangle);
+    out[k] = piece;
+  }
+  return 1;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+
 // ----------------------------------------------------------------------------------- surface/balls
 // In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
 // to round outwards.
@@ -3813,8 +3961,7 @@ static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__bal
   double shares[3];
   if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i + 1 < count; i++)
-    offset = nsvcd__d3_add_scaled(offset, shares[i], edges[i]);
+  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(shares[i], edges[i], offset);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
   return 1;
@@ -3942,9 +4089,9 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
-    c.x = nsvcd__d3_add_scaled(c.x, d.x, d);
-    c.y = nsvcd__d3_add_scaled(c.y, d.y, d);
-    c.z = nsvcd__d3_add_scaled(c.z, d.z, d);
+    c.x = nsvcd__d3_fma(d.x, d, c.x);
+    c.y = nsvcd__d3_fma(d.y, d, c.y);
+    c.z = nsvcd__d3_fma(d.z, d, c.z);
   }
   const nsvcd__d3 z = nsvcd__d3_of(0, 0, 1);
   const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest_row(&c), z);
@@ -4077,7 +4224,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     const int settled = nsvcd__simplex_settle(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
-      nearest = nsvcd__d3_add_scaled(nearest, s.weights[i], s.points[i]);
+      nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
     if (!settled || squared >= best) break;
     best = squared;
@@ -4365,21 +4512,18 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   return !arena->failed;
 }
 
-// Adds a region's patches, of which the surface has room for all: describes each, counts its
-// vertices and triangles, makes room for these, and writes them. spare: of what is only needed
-// meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or all have
-// too many: then the surface is of no use any more.
-static nsvcd_result nsvcd__surface_add(const nsvcd__region *region,
-                                       const nsvcd__patches *patches, nsvcd__arena *spare,
+// Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
+// counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
+// needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
+// all have too many: then the surface is of no use any more.
+static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena *spare,
                                        nsvcd__surface *s) {
-  nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(region, patches, spare, &pieces)) return NSVCD_ERROR_MEMORY;
-  if (!nsvcd__sorted_build(&pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__sorted_build(pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
   size_t triangles = s->listed;
-  s->count = done + patches->count;
+  s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
     nsvcd__describe_patch(&sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
@@ -4577,9 +4721,9 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
   for (size_t i = 0; i < patch->count; i++) {
     const nsvcd__feature f = nsvcd__feature_of(patch, i);
     m1[0] = nsvcd__f3_add(m1[0], f.n);
-    m1[1] = nsvcd__f3_add_scaled(m1[1], f.uu, f.n);
-    m1[2] = nsvcd__f3_add_scaled(m1[2], f.un, f.u);
-    m1[3] = nsvcd__f3_add_scaled(m1[3], f.uu, f.u);
+    m1[1] = nsvcd__f3_fma(f.uu, f.n, m1[1]);
+    m1[2] = nsvcd__f3_fma(f.un, f.u, m1[2]);
+    m1[3] = nsvcd__f3_fma(f.uu, f.u, m1[3]);
     m2[0] = nsvcd__f5_add(m2[0], f.quu);
     m2[1] = nsvcd__f5_add(m2[1], f.qun);
     m2[2] = nsvcd__f5_add(m2[2], f.qnn);
@@ -4592,7 +4736,7 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     for (size_t m = 0; m < 4; m++) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
-      c1 = nsvcd__f3_add_scaled(c1, share, nsvcd__f3_scale(m1[m], w1));
+      c1 = nsvcd__f3_fma(share, nsvcd__f3_scale(m1[m], w1), c1);
       c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
@@ -4688,7 +4832,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
-      all.degree1[c] = nsvcd__f3_add_scaled(all.degree1[c], share, a1);
+      all.degree1[c] = nsvcd__f3_fma(share, a1, all.degree1[c]);
       all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
@@ -5177,8 +5321,10 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
-//   counts          (8)      uint32: triangles listed L, vertices V, components C, bytes of
-//                            listings B, and zeros
+//   counts          (4)      uint32: triangles listed L, vertices V, components C, bytes of
+//                            listings B
+//   round           (1)      float: metres that the body goes beyond its triangles
+//   zeros           (3)      uint32
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of the quanta, and zero
 //   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
@@ -5204,12 +5350,12 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 
 #ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__FACET_COUNTS 8
-#define NSVCD__FACET_BOX 8  // with the greatest quantum
+#define NSVCD__FACET_BOX 8                         // with the greatest quantum
 
 typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
-  uint32_t zeros[NSVCD__FACET_COUNTS - 4];
+  float round;
+  uint32_t zeros[3];
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
@@ -5222,6 +5368,7 @@ typedef struct nsvcd__facets {
   const unsigned char *listings;
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
+  float round;
 } nsvcd__facets;
 
 // The body of triangles in a body, or NULL.
@@ -5230,7 +5377,7 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-static const nsvcd__facet_counts *nsvcd__facet_counts_of(const nsvcd_body *body) {
+static const nsvcd__facet_counts *nsvcd__counts_of(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
   return (const nsvcd__facet_counts *)(const void *)at;
 }
@@ -5256,6 +5403,7 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->vertex_count = counts->vertices;
   f->components = counts->components;
   f->listings_size = counts->listings_size;
+  f->round = counts->round;
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -5276,7 +5424,7 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
 
 static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   nsvcd__facets f;
-  (void)nsvcd__facets_lay(body, body->patches, nsvcd__facet_counts_of(body), &f);
+  (void)nsvcd__facets_lay(body, body->patches, nsvcd__counts_of(body), &f);
   return f;
 }
 
@@ -5389,7 +5537,7 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
     const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-    corners[k] = nsvcd__d3_add_scaled(origin, step, vertex);
+    corners[k] = nsvcd__d3_fma(step, vertex, origin);
   }
 }
 
@@ -5418,7 +5566,7 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
     const double slack = (double)f->slacks[i];
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 v = nsvcd__d3_add_scaled(own, step, vertex);
+      const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
       slab.low = fmin(slab.low, height - slack);
@@ -5439,7 +5587,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, b->padded));
     normals[1 + k] = normal;
     const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
-    normals[0] = nsvcd__d3_add_scaled(normals[0], sign, normal);
+    normals[0] = nsvcd__d3_fma(sign, normal, normals[0]);
   }
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__slab thinnest = {0, HUGE_VAL, 0};
@@ -5483,7 +5631,7 @@ static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *
     for (size_t k = 0; k < count + !count; k++) {
       nsvcd__d3 v = {0, 0, 0};
       if (count) v = nsvcd__vertex_at(&vertices, k);
-      v = nsvcd__d3_add_scaled(origin, step, v);
+      v = nsvcd__d3_fma(step, v, origin);
       // as float rounds it
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const double radius = (double)f->slacks[i] + rounding;
@@ -5523,17 +5671,17 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
     const double quantum = (double)f.quanta[i];
     for (size_t k = 0; k < vertices.count; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 at = nsvcd__d3_add_scaled(origin, (double)f.steps[i], vertex);
-      low = nsvcd__d3_min(low, nsvcd__d3_add_scaled(at, -quantum, all));
-      high = nsvcd__d3_max(high, nsvcd__d3_add_scaled(at, quantum, all));
+      const nsvcd__d3 at = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, at));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, at));
     }
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
   // float rounding
   const double margin = 1e-6 * (double)b->extent;
   float *box = (float *)nsvcd__writable(b, f.box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(low, -margin, all)), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(high, margin, all)), box + 3);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
   box[6] = widest;
   box[7] = 0;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
@@ -5650,16 +5798,25 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
                                         size_t size) {
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
   b->triangles = (uint32_t)triangles;
-  memcpy(nsvcd__writable(b, nsvcd__facet_counts_of(b)), counts, sizeof *counts);
+  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, i);
   if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 #endif  // NSVCD_NO_PROOF
+
+// Of a sphere about a body, with what it goes beyond its triangles.
+static float nsvcd__whole_radius(const nsvcd_body *body) {
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles) return body->radius + nsvcd__counts_of(triangles)->round;
+#endif
+  return body->radius;
+}
 
 // -------------------------------------------------------------------------------------- body/trust
 // In: bytes that somebody hands over. Out: a body, if all in it is as nsvcd_encode would have it,
@@ -5709,7 +5866,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (b->radius < NSVCD_MIN_RADIUS) return 0;
+  if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__group_spheres(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
@@ -5729,10 +5886,10 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
 
 // Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
 // products may overflow a float.
-static int nsvcd__spheres_fit(const nsvcd_body *b, float scale) {
+static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  if ((double)b->radius < least) return 0;
+  if ((double)radius < least) return 0;
   for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
     if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
   }
@@ -5799,10 +5956,12 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(b);
+  const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   const uint32_t *zeros = counts->zeros;
-  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || b->triangles == 0) return 0;
+  if (zeros[0] || zeros[1] || zeros[2] || b->triangles == 0) return 0;
+  if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
+  if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
   if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
 
@@ -5861,6 +6020,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   }
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
+  if (b->radius < NSVCD_MIN_RADIUS) return 0;
   if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
     return 0;
 #ifndef NSVCD_NO_NETWORK
@@ -5943,6 +6103,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  void *counts = nsvcd__writable(b, nsvcd__counts_of(b));
+  ((nsvcd__facet_counts *)counts)->round *= scale;
   nsvcd__facets_finish(b);
 #endif
 }
@@ -5957,7 +6119,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (body->triangles) return NSVCD_ERROR_BODY;
 #endif
   // Would it still be within the limits of nsvcd_body_load?
-  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+  const float radius = nsvcd__whole_radius(body);
+  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_ARGUMENT;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
   for (size_t i = 0; i < numbers; i++) {
@@ -5965,7 +6128,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   }
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_ARGUMENT;
 #endif
   // in place is allowed
   memmove(memory, body, body->size);
@@ -5984,7 +6147,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   facts.size = body->size;
   facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
-  facts.radius = body->radius;
+  facts.radius = nsvcd__whole_radius(body);
   facts.latents = body->weights_id != 0;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
@@ -5995,6 +6158,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     facts.triangles = triangles->triangles;
     facts.listings = f.listed;
     facts.quantum = nsvcd__widest_quantum(&f);
+    facts.round = f.round;
   }
 #endif
   return facts;
@@ -6005,7 +6169,7 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
   if (!body || patch >= body->patches) return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
-  *radius = sphere.radius;
+  *radius = sphere.radius + nsvcd__whole_radius(body) - body->radius;
   return 1;
 }
 
@@ -6023,6 +6187,7 @@ typedef struct nsvcd__parts {
   nsvcd__arena arena;
   size_t count;        // N
   nsvcd__f3 *centres;  // (N)
+  int in_runs;         // then they are in order
   // bytes; 0: without
   size_t latents_size, facets_size;
 #ifndef NSVCD_NO_NETWORK
@@ -6076,8 +6241,12 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&region, &patches, &spare, &parts->surface);
+  nsvcd__pieces pieces;
+  if (!result && !parts->options->no_triangles) {
+    result = NSVCD_ERROR_MEMORY;
+    if (nsvcd__pieces_build(&region, &patches, &spare, &pieces))
+      result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
+  }
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -6085,21 +6254,33 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   return result;
 }
 
-// Everything but the blob, region by region. On success release with nsvcd__arena_free. MEMORY,
-// CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
-                                       const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  const size_t patches = options->patches;
-  nsvcd__arena spare = nsvcd__arena_of(allocator);
+#ifndef NSVCD_NO_PROOF
+// All of a mesh that has points or segments, in runs. Without latents.
+static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
+  nsvcd__region region;
+  nsvcd__patches patches;
+  nsvcd__pieces pieces;
+  const nsvcd_mesh *mesh = parts->mesh;
+  const size_t triangles = mesh->triangle_count;
+  const size_t wanted = parts->options->patches;
   nsvcd__arena *arena = &parts->arena;
+  parts->count = wanted < triangles ? wanted : triangles;
+  (void)nsvcd__surface_begin(parts->count, mesh->vertex_count, arena, &parts->surface);
+  if (!nsvcd__runs_build(mesh, parts->count, arena, &region, &patches, &pieces))
+    return NSVCD_ERROR_MEMORY;
+  parts->centres = patches.centres;
+  return nsvcd__surface_add(&pieces, arena, &parts->surface);
+}
+#endif
+
+// All of it, region by region.
+static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
+  const nsvcd_encode_options *options = parts->options;
+  const size_t patches = options->patches;
+  nsvcd__arena *arena = &parts->arena;
+  nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
-  memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->options = options;
-  parts->arena = spare;
-  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(mesh, patches, &spare, &regions)) {
+  if (!nsvcd__regions_build(parts->mesh, patches, &spare, &regions)) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
@@ -6123,6 +6304,24 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
     result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__parts_add(parts, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
+  return result;
+}
+
+// Everything but the blob. On success release with nsvcd__arena_free. MEMORY, CANCELLED, TOO_LARGE.
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
+                                       const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  memset(parts, 0, sizeof *parts);
+  parts->mesh = mesh;
+  parts->options = options;
+  parts->arena = nsvcd__arena_of(allocator);
+  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
+  nsvcd_result result = NSVCD_OK;
+#ifndef NSVCD_NO_PROOF
+  parts->in_runs = options->round > 0 && nsvcd__has_points(mesh);
+  if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
+#endif
+  if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
 #ifndef NSVCD_NO_NETWORK
   if (!result && options->latents) parts->latents_size = nsvcd_body_size(parts->count);
 #endif
@@ -6130,11 +6329,12 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
   if (!result && !options->no_triangles) {
     nsvcd__facets none;
     parts->counts = nsvcd__facets_count(&parts->surface);
+    parts->counts.round = options->round;
     parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->counts, &none);
     if (!parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
-  if (result) nsvcd__arena_free(arena);
+  if (result) nsvcd__arena_free(&parts->arena);
   return result;
 }
 
@@ -6149,7 +6349,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
   const nsvcd__ordering all = {parts->centres, order, order + count, count};
-  nsvcd__body_order(all);
+  if (!parts->in_runs) nsvcd__body_order(all);
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
   if (parts->latents_size) {
@@ -6211,11 +6411,19 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
   // nothing would be left
   if (o->no_triangles && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (o->round > 0 && (o->latents || o->no_triangles)) return NSVCD_ERROR_ARGUMENT;
+  if (o->round > 0) o->no_latents = 1;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
+#ifndef NSVCD_NO_PROOF
+  if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
+    o->patches = nsvcd__runs_for(mesh);
+#endif
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   const int any = o->no_triangles || o->patches <= NSVCD_SMALL_PATCHES || o->latents;
@@ -6261,6 +6469,77 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
   nsvcd__free(allocator, memory);
 }
 #endif  // NSVCD_NO_ENCODER
+
+// ------------------------------------------------------------------------------------- body/shapes
+// In: a shape in numbers. Out: its body: a skeleton of points, segments or a box, and how round it
+// is.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
+                                        const nsvcd_allocator *allocator,
+                                        const nsvcd_body **body) {
+  nsvcd_encode_options options;
+  memset(&options, 0, sizeof options);
+  options.round = round;
+  options.no_latents = 1;
+  return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body) {
+  float centre[3] = {0, 0, 0};
+  uint32_t point[3] = {0, 0, 0};
+  const nsvcd_mesh mesh = {centre, point, 1, 1};
+  if (!(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
+                                           float radius, const nsvcd_allocator *allocator,
+                                           const nsvcd_body **body) {
+  float ends[6];
+  uint32_t segment[3] = {0, 1, 1};
+  const nsvcd_mesh mesh = {ends, segment, 2, 1};
+  if (!from || !to || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  memcpy(ends, from, 3 * sizeof *from);
+  memcpy(ends + 3, to, 3 * sizeof *to);
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+                                       const nsvcd_allocator *allocator,
+                                       const nsvcd_body **body) {
+  // corner n is on the far side of axis k if bit k of n is set
+  uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  float corners[24];
+  const nsvcd_mesh mesh = {corners, faces, 8, 12};
+  if (!half || !(round >= 0)) return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_ARGUMENT;
+    for (size_t n = 0; n < 8; n++)
+      corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
+  }
+  return nsvcd__encode_round(&mesh, round, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
+                                         const nsvcd_allocator *allocator,
+                                         const nsvcd_body **body) {
+  nsvcd_mesh mesh = {NULL, NULL, count, count};
+  if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  const size_t bytes = 3 * count * sizeof *mesh.indices;
+  // a cast would take away a const; nothing is written
+  memcpy(&mesh.positions, &points, sizeof points);
+  mesh.indices = (uint32_t *)nsvcd__alloc(allocator, bytes);
+  if (!mesh.indices) return count ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_EMPTY;
+  for (size_t i = 0; i < 3 * count; i++) mesh.indices[i] = (uint32_t)(i / 3);
+  const nsvcd_result result = nsvcd__encode_round(&mesh, radius, allocator, body);
+  nsvcd__free(allocator, mesh.indices);
+  return result;
+}
+#endif
 
 #endif  // NSVCD__ISA
 
@@ -6798,7 +7077,8 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
     if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
+    const float radius = nsvcd__whole_radius(mover->body);
+    if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
@@ -8628,6 +8908,8 @@ typedef struct nsvcd__given {
   // beyond the quanta
   double tolerance;
   double clearance, skin;
+  // how far both bodies together go beyond their triangles: the clearance has that in it
+  double round;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double share, width;
@@ -8857,7 +9139,7 @@ static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
     after = sin(way * leg->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_add_scaled(start, after, leg->end));
+  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
@@ -8889,9 +9171,9 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   leg->start = nsvcd__unit_rotation(a);
   leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_add_scaled(leg->start, -1, leg->end);
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, leg->end, leg->start);
   const double apart = nsvcd__dquat_dot(difference, difference);
-  const nsvcd__dquat sum = nsvcd__dquat_add_scaled(leg->start, 1, leg->end);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
   const double together = nsvcd__dquat_dot(sum, sum);
   leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 }
@@ -9686,7 +9968,7 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
-static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
   if (nsvcd__triangles_meet(a, b, &point)) {
@@ -9787,7 +10069,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
     p->ask.limit = p->work + left;
   if (!(tick < p->known.unsure)) return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
   if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
@@ -9936,7 +10218,7 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
                                             double u) {
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
-  return nsvcd__triangles_nearest(posed, couple->fixed);
+  return nsvcd__nearest_of(posed, couple->fixed);
 }
 
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by
@@ -10522,7 +10804,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
 static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
-  return nsvcd__triangles_nearest(moved, t->fixed).square;
+  return nsvcd__nearest_of(moved, t->fixed).square;
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
@@ -10583,7 +10865,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
   memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
@@ -10624,7 +10906,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest.on_a = nearest.on_b;
       } else {
         if (!(clearance > 0)) continue;
-        nearest = nsvcd__triangles_nearest(posed, couple.fixed);
+        nearest = nsvcd__nearest_of(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
       if (p->ask.gathers == NSVCD__TOUCHING) {
@@ -11298,7 +11580,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
           nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
-          if (nsvcd__triangles_nearest(point, corners).square <= limit * limit) return 1;
+          if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
     }
@@ -13547,8 +13829,8 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
 // To how many of the fixed body's units an answer is asked for, or is by default.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
-  const float moving = task->motion.scale * task->moving->radius;
-  const float fixed = task->fixed->radius;
+  const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
+  const float fixed = nsvcd__whole_radius(task->fixed);
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
   return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
@@ -13587,7 +13869,10 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->given.tolerance = (double)(q->tolerance / unit);
-  p->given.clearance = p->ask.clearance = (double)(q->clearance / unit);
+  const double moving_round = (double)p->moving.round * (double)task->motion.scale;
+  p->given.round = moving_round + (double)p->fixed.round;
+  p->given.clearance = (double)(q->clearance / unit) + p->given.round;
+  p->ask.clearance = p->given.clearance;
   p->given.skin = (double)(q->skin / unit);
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
@@ -13609,20 +13894,24 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
 // the fixed body that counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__task *task,
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
                                              const nsvcd__contact *found, nsvcd_contact *out) {
+  const nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
   const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(motion->lift), task->swapped);
-  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
+  const double beyond = fmin((double)p->fixed.round, found->distance);
+  const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, lift), world.unit);
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
-  out->gap = (float)(found->distance * world.unit);
+  out->gap = (float)(fmax(found->distance - p->given.round, 0) * world.unit);
   out->time = (float)time;
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
@@ -13767,7 +14056,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     for (int n = 0; n < count; n++) {
       nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(task, &support, &answer->contacts[n]);
+      nsvcd__tell_contact(query, &support, &answer->contacts[n]);
       // which body a corner is of
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
@@ -13827,7 +14116,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  if (names || is_within) nsvcd__tell_contact(task, &p->known.found, &answer->nearest);
+  if (names || is_within) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
   if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
@@ -13848,13 +14137,15 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }
-  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
+  double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
   if (names) {
     const nsvcd__contact *found = &p->known.found;
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
-    high = found->distance + (double)quanta;
+    high = fmax(found->distance, p->given.round) + (double)quanta;
   }
+  low = fmax(low - p->given.round, 0);
+  high -= p->given.round;
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
@@ -14037,7 +14328,11 @@ static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
 static void nsvcd__swap_contact(nsvcd_contact *contact) {
   nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
   nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
-  for (size_t k = 0; k < 3; k++) contact->normal[k] = 0 - contact->normal[k];
+  const float gap = contact->gap < HUGE_VALF ? contact->gap : 0;
+  for (size_t k = 0; k < 3; k++) {
+    contact->point[k] += gap * contact->normal[k];
+    contact->normal[k] = 0 - contact->normal[k];
+  }
 }
 static void nsvcd__swap_answer(nsvcd_answer *answer) {
   const nsvcd_pose moving = answer->safe.a;
@@ -14150,9 +14445,9 @@ static nsvcd_result nsvcd__self_test(void) {
   const double lift = 4 * (double)half;
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  right &= !(nsvcd__triangles_nearest(a, b).square > 0);
+  right &= !(nsvcd__nearest_of(a, b).square > 0);
   for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
-  right &= fabs(nsvcd__triangles_nearest(a, b).square - lift * lift) < 1e-9;
+  right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
 #endif
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }
@@ -14207,8 +14502,8 @@ static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float acro
   const float c = across * cosf(angle);
   const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
   nsvcd__f3 sum = {0, 0, 0};
-  sum = nsvcd__f3_add_scaled(sum, c, a);
-  sum = nsvcd__f3_add_scaled(sum, (along - c) * nsvcd__f3_dot(n, a), n);
+  sum = nsvcd__f3_fma(c, a, sum);
+  sum = nsvcd__f3_fma((along - c) * nsvcd__f3_dot(n, a), n, sum);
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
 
@@ -14325,9 +14620,9 @@ typedef struct nsvcd__by_view {
 
 // sum + the rows of m, times the components of a.
 static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
-  sum = nsvcd__f3_add_scaled(sum, a.x, m->x);
-  sum = nsvcd__f3_add_scaled(sum, a.y, m->y);
-  return nsvcd__f3_add_scaled(sum, a.z, m->z);
+  sum = nsvcd__f3_fma(a.x, m->x, sum);
+  sum = nsvcd__f3_fma(a.y, m->y, sum);
+  return nsvcd__f3_fma(a.z, m->z, sum);
 }
 
 // The adjoint of the facts: by (FACTS), added to `out`.
@@ -14340,14 +14635,14 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[NSVCD__FACT_CLOSEST]);
   out->d = nsvcd__f3_add(out->d, by_distance);
   out->d = nsvcd__f3_add(out->d, by_closest);
-  out->v = nsvcd__f3_add_scaled(out->v, -tau, by_closest);
+  out->v = nsvcd__f3_fma(-tau, by_closest, out->v);
   // else it is clamped
   if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
-    out->d = nsvcd__f3_add_scaled(out->d, by_tau, view->v);
-    out->v = nsvcd__f3_add_scaled(out->v, by_tau, view->d);
-    out->v = nsvcd__f3_add_scaled(out->v, -2 * by_tau * tau, view->v);
+    out->d = nsvcd__f3_fma(by_tau, view->v, out->d);
+    out->v = nsvcd__f3_fma(by_tau, view->d, out->v);
+    out->v = nsvcd__f3_fma(-2 * by_tau * tau, view->v, out->v);
   }
 
   const nsvcd__f3 velocity = nsvcd__f3_load(facts + NSVCD__FACT_VELOCITY);
@@ -14387,17 +14682,17 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
-    by->v = nsvcd__f3_add_scaled(by->v, -about, e3);
-    by->lean = nsvcd__f3_add_scaled(by->lean, -about * NSVCD__LEAN, e3);
+    by->v = nsvcd__f3_fma(-about, e3, by->v);
+    by->lean = nsvcd__f3_fma(-about * NSVCD__LEAN, e3, by->lean);
   }
 
   // Axis 1: of the line, or of what stands for it.
   nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
-  by_e1 = nsvcd__f3_add_scaled(by_e1, -by->torque.z, e2);
+  by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
   if (length > 1e-5f)
-    by->d = nsvcd__f3_add_scaled(by->d, 1 / length, by_e1);
+    by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
   else if (nsvcd__f3_length(line) > 1e-9f)
-    by->lean = nsvcd__f3_add_scaled(by->lean, 1 / nsvcd__f3_length(line), by_e1);
+    by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
@@ -14578,7 +14873,7 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const float tau = (at->t[l] - at->t[s]) / length;
   const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
-  const nsvcd__f3 y = nsvcd__f3_add_scaled(from, tau, chord);
+  const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
@@ -14614,7 +14909,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
   const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
-  const nsvcd__f3 p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
   const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
   // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
   // nsvcd__by_poses says.
@@ -14943,6 +15238,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
+#define nsvcd__nearest_of NSVCD__AT(nearest_of)
 #define nsvcd__nearest_placement NSVCD__AT(nearest_placement)
 #define nsvcd__needs NSVCD__AT(needs)
 #define nsvcd__needs_of NSVCD__AT(needs_of)
@@ -15081,7 +15377,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
-#define nsvcd__triangles_nearest NSVCD__AT(triangles_nearest)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turned NSVCD__AT(turned)
@@ -15928,8 +16223,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
     const float by = k < 2 ? scale : -scale;
     float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
     const nsvcd__f3 moment = k < 2 ? torque : back;
-    nsvcd__f3_store(nsvcd__f3_add_scaled(nsvcd__f3_load(row), by, k % 2 ? moment : force),
-                    row);
+    nsvcd__f3_store(nsvcd__f3_fma(by, k % 2 ? moment : force, nsvcd__f3_load(row)), row);
   }
 }
 

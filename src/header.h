@@ -210,6 +210,7 @@ extern "C" {
 
 // ====================================================== surface: each patch described from outside
 #include "surface/pieces.h"   // triangles cut by the cells of the centres
+#include "surface/runs.h"     // points, segments and triangles, in runs of neighbours
 #include "surface/balls.h"    // the least ball that holds all points
 #include "surface/discs.h"    // a direction in which the points are thin
 #include "surface/hulls.h"    // 16 vertices about a patch
@@ -225,6 +226,7 @@ extern "C" {
 #include "body/facets.h"  // the blob of the proof: discs, hulls, triangles
 #include "body/trust.h"   // is a blob sound? load it, scale it, describe it
 #include "body/encode.h"  // nsvcd_encode
+#include "body/shapes.h"  // spheres, capsules, boxes, clouds
 
 #endif  // NSVCD__ISA
 

@@ -5,6 +5,7 @@
 check_state check;
 
 void test_results(void);
+void test_round(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -62,6 +63,7 @@ static const test_file files[] = {
     OF(broad_phase),
     OF(proof),
     OF(asks),
+    OF(round),
     OF(winding_number),
     OF(decoder),
     OF(query),

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:` or `asks:`, tests/test_level.c or test_asks.c. Prints a line for each, and exits with 1 if one
+# fail on it, or, where its name begins with `level:`, `asks:` or `round:`, tests/test_level.c, test_asks.c or test_round.c. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -108,6 +108,15 @@ level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD_
 level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->latents[NSVCD__LATENT * i + k]
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
+round: the fixed one is not|p->given.round = moving_round + (double)p->fixed.round;|p->given.round = moving_round;
+round: without the scale|(double)p->moving.round * (double)task->motion.scale;|(double)p->moving.round;
+round: distances of the skeletons|  high -= p->given.round;|
+round: as near as the skeletons|  low = fmax(low - p->given.round, 0);|
+round: points on the skeleton|fmin((double)p->fixed.round, found->distance);|0;
+round: gaps of the skeletons|(float)(fmax(found->distance - p->given.round, 0) * world.unit);|(float)(found->distance * world.unit);
+round: a point on either|    contact->point[k] += gap * contact->normal[k];|
+round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    const uint32_t triangle = (uint32_t)keys[k];|for (size_t k = 0; k + 1 < count; k++) {\n    const uint32_t triangle = (uint32_t)keys[k];
+round: not scaled|((nsvcd__facet_counts *)counts)->round *= scale;|(void)counts;
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
@@ -171,6 +180,7 @@ PYTHON
     tile:*) tile=-DNSVCD__TILE=2 ;;
     level:*) file=test_level.c ;;
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
+    round:*) file=test_round.c fused=-ffp-contract=fast ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1

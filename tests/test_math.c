@@ -121,7 +121,7 @@ static void math_vectors(void) {
     for (int k = 0; k < 3; k++) want[k] = (double)s * b[k];
     math_check(nsvcd__f3_scale(y, s), want, size * other);
     for (int k = 0; k < 3; k++) want[k] += a[k];
-    math_check(nsvcd__f3_add_scaled(x, s, y), want, size + size * other);
+    math_check(nsvcd__f3_fma(s, y, x), want, size + size * other);
     oracle_cross(a, b, want);
     math_check(nsvcd__f3_cross(x, y), want, 2 * size * other);
     CHECK_NEAR(nsvcd__f3_dot(x, y), oracle_dot(a, b), MATH_ROUNDING * 3 * size * other);
@@ -154,7 +154,7 @@ static void math_vectors_in_double(void) {
     math_check_d3(nsvcd__d3_sub(x, y), want, scale);
     CHECK_NEAR(nsvcd__d3_distance2(x, y), oracle_dot(want, want), 1e-14 * size);
     for (int k = 0; k < 3; k++) want[k] = a[k] + s * b[k];
-    math_check_d3(nsvcd__d3_add_scaled(x, s, y), want, 4 * scale);
+    math_check_d3(nsvcd__d3_fma(s, y, x), want, 4 * scale);
     math_check_d3(nsvcd__d3_add(x, nsvcd__d3_scale(y, s)), want, 4 * scale);
     for (int k = 0; k < 3; k++) want[k] = (1 - s) * a[k] + s * b[k];
     math_check_d3(nsvcd__d3_mix(x, y, s), want, 10 * scale);
@@ -271,7 +271,7 @@ static void math_rotations_in_double(void) {
     const nsvcd__dquat turn = nsvcd__dquat_inverse_mul(p, q);
     math_check_d3(nsvcd__dquat_axis(turn), ab, 4);
     CHECK_NEAR(turn.w, ab[3], 4e-15);
-    const nsvcd__dquat sum = nsvcd__dquat_add_scaled(p, length, q);
+    const nsvcd__dquat sum = nsvcd__dquat_fma(length, q, p);
     math_check_d3(nsvcd__d3_of(sum.x, sum.y, sum.z),
                   (double[3]){a[0] + length * b[0], a[1] + length * b[1], a[2] + length * b[2]},
                   1 + length);

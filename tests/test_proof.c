@@ -1978,10 +1978,10 @@ static nsvcd__ray proof_ray_at_edge(shapes_rng *rng, const nsvcd__facets *f, dou
   const nsvcd__d3 aim = nsvcd__d3_mix(t[0], t[1], shapes_uniform(rng, 0, 1));
   const double sign = shapes_pick(rng, 2) ? 1 : -1;
   const double off = sign * pow(10, shapes_uniform(rng, -6, -1));
-  const nsvcd__d3 to = nsvcd__d3_add_scaled(aim, off, nsvcd__d3_sub(t[2], aim));
+  const nsvcd__d3 to = nsvcd__d3_fma(off, nsvcd__d3_sub(t[2], aim), aim);
   const nsvcd__d3 away = nsvcd__d3_of(shapes_uniform(rng, -1, 1), shapes_uniform(rng, -1, 1),
                                       shapes_uniform(rng, -1, 1));
-  ray.from = nsvcd__d3_add_scaled(nsvcd__d3_load(f->body->centre), radius, away);
+  ray.from = nsvcd__d3_fma(radius, away, nsvcd__d3_load(f->body->centre));
   ray.direction = nsvcd__d3_unit(nsvcd__d3_sub(to, ray.from), nsvcd__d3_of(0, 0, 1));
   ray.margin = margin;
   ray.rounding = (float)margin + 4 * NSVCD__ROUNDING * f->body->extent;
@@ -2125,6 +2125,12 @@ static void proof_sides_do_not_matter(void) {
       CHECK_EQ(a.answer.lift[k], 0 - other.lift[k]);
       other.nearest.normal[k] = 0 - other.nearest.normal[k] + 0.0f;
       a.answer.nearest.normal[k] += 0.0f;  // no zero with a sign
+      // the place is on b, whichever that is
+      const nsvcd_contact *c = &a.answer.nearest;
+      const float gap = c->gap < HUGE_VALF ? c->gap : 0;
+      const float on_a = c->point[k] + gap * c->normal[k];
+      CHECK_NEAR(other.nearest.point[k], on_a, 1e-6 * (fabs((double)on_a) + 1));
+      other.nearest.point[k] = c->point[k];
     }
     CHECK(proof_same_answer(&a.answer, &other));
     CHECK_EQ(a.answer.time.low, other.time.low);

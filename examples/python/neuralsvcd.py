@@ -158,11 +158,11 @@ def _struct(name: str, /, **kinds: Any) -> Any:
 
 _Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
 _EncodeOptions = _struct(
-    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, open=c_int, no_triangles=c_int, no_latents=c_int,
-    latents=c_int, progress=_PROGRESS, user=c_void_p)
+    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, no_triangles=c_int,
+    no_latents=c_int, latents=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
-    triangles=c_size_t, listings=c_size_t, quantum=c_float, latents=c_int)
+    triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, scale=c_float)
@@ -443,6 +443,7 @@ class Facts(NamedTuple):
     triangles          of the mesh; 0: none are stored
     listings           triangles and parts of them that are stored
     quantum            stored triangles are within this of the mesh's, metres
+    round              how far it goes beyond its mesh, metres
     latents            the network can answer
     """
     size: int
@@ -453,6 +454,7 @@ class Facts(NamedTuple):
     triangles: int
     listings: int
     quantum: float
+    round: float
     latents: bool
 
 
@@ -463,6 +465,8 @@ class Body:
     triangles     (m, 3) integers
     patches       1 to 65536; 0: by the number of triangles
     patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
+    round         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
+                  vertex thrice) and segments, and there are no latents
     open          the mesh is not closed: nothing counts as inside it
     no_triangles  for the network alone
     no_latents    for the proof alone
@@ -476,10 +480,10 @@ class Body:
     _address: int
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, patches: int = 0, patch_radius: float = 0,
-                 open: bool = False, no_triangles: bool = False, no_latents: bool = False, latents: bool = False,
+                 round: float = 0, open: bool = False, no_triangles: bool = False, no_latents: bool = False, latents: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         mesh = _c_mesh(vertices, triangles)
-        options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, open=open,
+        options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
                           no_triangles=no_triangles, no_latents=no_latents, latents=latents)
         caught: list[BaseException] = []
         if progress:
@@ -496,6 +500,19 @@ class Body:
         finally:
             _library.nsvcd_body_free(body, None)
         self._keep(memory)
+
+    @classmethod
+    def sphere(cls, radius: float) -> Body:
+        return cls([[0, 0, 0]], [[0, 0, 0]], round=radius)
+
+    @classmethod
+    def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
+        return cls([start, end], [[0, 1, 1]], round=radius)
+
+    @classmethod
+    def cloud(cls, points: ArrayLike, radius: float) -> Body:
+        """All that is within a radius of (n, 3) points, metres."""
+        return cls(points, np.repeat(np.arange(len(np.asarray(points))), 3).reshape(-1, 3), round=radius)
 
     def _keep(self, memory: NDArray[np.uint8]) -> None:
         self._address = _address(memory)
@@ -546,7 +563,8 @@ class Body:
     def facts(self) -> Facts:
         facts = _library.nsvcd_body_describe(self._address)
         return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.mean_patch_radius,
-                     facts.triangles, facts.listings, facts.quantum, bool(facts.latents))
+                     facts.triangles, facts.listings, facts.quantum, facts.round,
+                     bool(facts.latents))
 
     def patch(self, index: int) -> tuple[Vector, float]:
         """Centre and radius of the sphere about a patch, metres, body frame."""

@@ -551,6 +551,19 @@ class Bodies(unittest.TestCase):
         self.assertFalse(nsvcd.sweep(Body(CUBE, FACES, open=True), BOX, scale_b=0.1))
         self.assertIn(f"{facts.patches} patches", repr(BOX))
 
+    def test_round(self) -> None:
+        ball = Body.sphere(0.25)
+        pole = Body.capsule((0, 0, -1), (0, 0, 1), 0.5)
+        cloud = Body.cloud(np.array([[x, 0, 0] for x in range(100)]), 0.125)
+        self.assertEqual((ball.facts.round, pole.facts.round, cloud.facts.triangles), (0.25, 0.5, 100))
+        self.assertFalse(cloud.facts.latents)
+        for body, reach in ((pole, 0.5), (cloud, 0.125)):
+            for gap in (1e-4, -1e-4):
+                answer = nsvcd.sweep(ball, body, [[0, 3, 0, 0, 0, 0, 1], [0, 0.25 + reach + gap, 0, 0, 0, 0, 1]])
+                self.assertEqual(answer.verdict, nsvcd.Verdict.FREE if gap > 0 else nsvcd.Verdict.HIT)
+        self.assertEqual(raised(Body, CUBE, FACES, round=-1).code, Code.ARGUMENT)
+        self.assertEqual(raised(Body.sphere, 0).code, Code.EMPTY)
+
     def test_patches(self) -> None:
         centre, radius = BOX.patch(0)
         self.assertAlmostEqual(max(map(abs, centre)), 1, delta=radius)

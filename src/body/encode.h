@@ -15,6 +15,7 @@ typedef struct nsvcd__parts {
   nsvcd__arena arena;
   size_t count;        // N
   nsvcd__f3 *centres;  // (N)
+  int in_runs;         // then they are in order
   // bytes; 0: without
   size_t latents_size, facets_size;
 #ifndef NSVCD_NO_NETWORK
@@ -68,8 +69,12 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&region, &patches, &spare, &parts->surface);
+  nsvcd__pieces pieces;
+  if (!result && !parts->options->no_triangles) {
+    result = NSVCD_ERROR_MEMORY;
+    if (nsvcd__pieces_build(&region, &patches, &spare, &pieces))
+      result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
+  }
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -77,21 +82,33 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   return result;
 }
 
-// Everything but the blob, region by region. On success release with nsvcd__arena_free. MEMORY,
-// CANCELLED, TOO_LARGE.
-static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
-                                       const nsvcd_encode_options *options,
-                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
-  const size_t patches = options->patches;
-  nsvcd__arena spare = nsvcd__arena_of(allocator);
+#ifndef NSVCD_NO_PROOF
+// All of a mesh that has points or segments, in runs. Without latents.
+static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
+  nsvcd__region region;
+  nsvcd__patches patches;
+  nsvcd__pieces pieces;
+  const nsvcd_mesh *mesh = parts->mesh;
+  const size_t triangles = mesh->triangle_count;
+  const size_t wanted = parts->options->patches;
   nsvcd__arena *arena = &parts->arena;
+  parts->count = wanted < triangles ? wanted : triangles;
+  (void)nsvcd__surface_begin(parts->count, mesh->vertex_count, arena, &parts->surface);
+  if (!nsvcd__runs_build(mesh, parts->count, arena, &region, &patches, &pieces))
+    return NSVCD_ERROR_MEMORY;
+  parts->centres = patches.centres;
+  return nsvcd__surface_add(&pieces, arena, &parts->surface);
+}
+#endif
+
+// All of it, region by region.
+static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
+  const nsvcd_encode_options *options = parts->options;
+  const size_t patches = options->patches;
+  nsvcd__arena *arena = &parts->arena;
+  nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
   nsvcd__regions regions;
-  memset(parts, 0, sizeof *parts);
-  parts->mesh = mesh;
-  parts->options = options;
-  parts->arena = spare;
-  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
-  if (!nsvcd__regions_build(mesh, patches, &spare, &regions)) {
+  if (!nsvcd__regions_build(parts->mesh, patches, &spare, &regions)) {
     nsvcd__arena_free(&spare);
     return NSVCD_ERROR_MEMORY;
   }
@@ -115,6 +132,24 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
     result = stop ? NSVCD_ERROR_CANCELLED : nsvcd__parts_add(parts, &regions, n, most);
   }
   nsvcd__arena_free(&spare);
+  return result;
+}
+
+// Everything but the blob. On success release with nsvcd__arena_free. MEMORY, CANCELLED, TOO_LARGE.
+static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
+                                       const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd__parts *parts) {
+  memset(parts, 0, sizeof *parts);
+  parts->mesh = mesh;
+  parts->options = options;
+  parts->arena = nsvcd__arena_of(allocator);
+  if (nsvcd__is_cancelled(options, 0)) return NSVCD_ERROR_CANCELLED;
+  nsvcd_result result = NSVCD_OK;
+#ifndef NSVCD_NO_PROOF
+  parts->in_runs = options->round > 0 && nsvcd__has_points(mesh);
+  if (parts->in_runs) result = nsvcd__parts_of_runs(parts);
+#endif
+  if (!parts->in_runs) result = nsvcd__parts_of_regions(parts);
 #ifndef NSVCD_NO_NETWORK
   if (!result && options->latents) parts->latents_size = nsvcd_body_size(parts->count);
 #endif
@@ -122,11 +157,12 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
   if (!result && !options->no_triangles) {
     nsvcd__facets none;
     parts->counts = nsvcd__facets_count(&parts->surface);
+    parts->counts.round = options->round;
     parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->counts, &none);
     if (!parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
-  if (result) nsvcd__arena_free(arena);
+  if (result) nsvcd__arena_free(&parts->arena);
   return result;
 }
 
@@ -141,7 +177,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
   if (!order) return NSVCD_ERROR_MEMORY;
   for (size_t i = 0; i < count; i++) order[i] = (uint16_t)i;
   const nsvcd__ordering all = {parts->centres, order, order + count, count};
-  nsvcd__body_order(all);
+  if (!parts->in_runs) nsvcd__body_order(all);
   nsvcd_result result = NSVCD_OK;
 #ifndef NSVCD_NO_NETWORK
   if (parts->latents_size) {
@@ -203,11 +239,19 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
   // nothing would be left
   if (o->no_triangles && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (o->round > 0 && (o->latents || o->no_triangles)) return NSVCD_ERROR_ARGUMENT;
+  if (o->round > 0) o->no_latents = 1;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
   const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0)) return NSVCD_ERROR_EMPTY;
+  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
+#ifndef NSVCD_NO_PROOF
+  if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
+    o->patches = nsvcd__runs_for(mesh);
+#endif
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   const int any = o->no_triangles || o->patches <= NSVCD_SMALL_PATCHES || o->latents;

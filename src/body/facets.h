@@ -3,8 +3,10 @@
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
-//   counts          (8)      uint32: triangles listed L, vertices V, components C, bytes of
-//                            listings B, and zeros
+//   counts          (4)      uint32: triangles listed L, vertices V, components C, bytes of
+//                            listings B
+//   round           (1)      float: metres that the body goes beyond its triangles
+//   zeros           (3)      uint32
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of the quanta, and zero
 //   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
@@ -33,12 +35,12 @@
 
 #ifndef NSVCD_NO_PROOF
 #define NSVCD__HULLS (NSVCD__GROUP * NSVCD__HULL)  // vertices of a group, at most
-#define NSVCD__FACET_COUNTS 8
-#define NSVCD__FACET_BOX 8  // with the greatest quantum
+#define NSVCD__FACET_BOX 8                         // with the greatest quantum
 
 typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
-  uint32_t zeros[NSVCD__FACET_COUNTS - 4];
+  float round;
+  uint32_t zeros[3];
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
@@ -51,6 +53,7 @@ typedef struct nsvcd__facets {
   const unsigned char *listings;
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
+  float round;
 } nsvcd__facets;
 
 // The body of triangles in a body, or NULL.
@@ -59,7 +62,7 @@ static const nsvcd_body *nsvcd__triangles_of(const nsvcd_body *body) {
   return (const nsvcd_body *)(const void *)((const char *)body + body->inner);
 }
 
-static const nsvcd__facet_counts *nsvcd__facet_counts_of(const nsvcd_body *body) {
+static const nsvcd__facet_counts *nsvcd__counts_of(const nsvcd_body *body) {
   const char *at = (const char *)body + nsvcd__spheres_size(body->padded);
   return (const nsvcd__facet_counts *)(const void *)at;
 }
@@ -85,6 +88,7 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->vertex_count = counts->vertices;
   f->components = counts->components;
   f->listings_size = counts->listings_size;
+  f->round = counts->round;
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -105,7 +109,7 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
 
 static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
   nsvcd__facets f;
-  (void)nsvcd__facets_lay(body, body->patches, nsvcd__facet_counts_of(body), &f);
+  (void)nsvcd__facets_lay(body, body->patches, nsvcd__counts_of(body), &f);
   return f;
 }
 
@@ -218,7 +222,7 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
     const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-    corners[k] = nsvcd__d3_add_scaled(origin, step, vertex);
+    corners[k] = nsvcd__d3_fma(step, vertex, origin);
   }
 }
 
@@ -247,7 +251,7 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
     const double slack = (double)f->slacks[i];
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 v = nsvcd__d3_add_scaled(own, step, vertex);
+      const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
       slab.low = fmin(slab.low, height - slack);
@@ -268,7 +272,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     const nsvcd__d3 normal = nsvcd__d3_widen(nsvcd__f3_get(n, b->padded));
     normals[1 + k] = normal;
     const double sign = nsvcd__d3_dot(normal, normals[1]) < 0 ? -1 : 1;
-    normals[0] = nsvcd__d3_add_scaled(normals[0], sign, normal);
+    normals[0] = nsvcd__d3_fma(sign, normal, normals[0]);
   }
   nsvcd__d3 best = {0, 0, 1};
   nsvcd__slab thinnest = {0, HUGE_VAL, 0};
@@ -312,7 +316,7 @@ static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *
     for (size_t k = 0; k < count + !count; k++) {
       nsvcd__d3 v = {0, 0, 0};
       if (count) v = nsvcd__vertex_at(&vertices, k);
-      v = nsvcd__d3_add_scaled(origin, step, v);
+      v = nsvcd__d3_fma(step, v, origin);
       // as float rounds it
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const double radius = (double)f->slacks[i] + rounding;
@@ -352,17 +356,17 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
     const double quantum = (double)f.quanta[i];
     for (size_t k = 0; k < vertices.count; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 at = nsvcd__d3_add_scaled(origin, (double)f.steps[i], vertex);
-      low = nsvcd__d3_min(low, nsvcd__d3_add_scaled(at, -quantum, all));
-      high = nsvcd__d3_max(high, nsvcd__d3_add_scaled(at, quantum, all));
+      const nsvcd__d3 at = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, at));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, at));
     }
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
   // float rounding
   const double margin = 1e-6 * (double)b->extent;
   float *box = (float *)nsvcd__writable(b, f.box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(low, -margin, all)), box);
-  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_add_scaled(high, margin, all)), box + 3);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
+  nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
   box[6] = widest;
   box[7] = 0;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
@@ -479,13 +483,22 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
                                         size_t size) {
   nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
   b->triangles = (uint32_t)triangles;
-  memcpy(nsvcd__writable(b, nsvcd__facet_counts_of(b)), counts, sizeof *counts);
+  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
   for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, i);
   if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
-  return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
 #endif  // NSVCD_NO_PROOF
+
+// Of a sphere about a body, with what it goes beyond its triangles.
+static float nsvcd__whole_radius(const nsvcd_body *body) {
+#ifndef NSVCD_NO_PROOF
+  const nsvcd_body *triangles = nsvcd__triangles_of(body);
+  if (triangles) return body->radius + nsvcd__counts_of(triangles)->round;
+#endif
+  return body->radius;
+}

@@ -47,7 +47,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(b->centre, 3, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
-  if (b->radius < NSVCD_MIN_RADIUS) return 0;
+  if (b->radius < 0) return 0;
   const nsvcd__spheres groups = nsvcd__group_spheres(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
@@ -67,10 +67,10 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
 
 // Would the spheres, multiplied, still be within the limits of nsvcd_body_load? In double, for the
 // products may overflow a float.
-static int nsvcd__spheres_fit(const nsvcd_body *b, float scale) {
+static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   const double least = (double)NSVCD_MIN_RADIUS / (double)scale;
   const double most = (double)NSVCD_MAX_COORDINATE / (double)scale;
-  if ((double)b->radius < least) return 0;
+  if ((double)radius < least) return 0;
   for (size_t i = 0; i < 3 * (size_t)b->padded; i++) {
     if (fabs((double)nsvcd__body_patches(b).x[i]) > most) return 0;
   }
@@ -137,10 +137,12 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t padded = b->padded;
   const size_t groups = nsvcd__body_groups(b);
   const size_t slots = nsvcd__group_slots(padded);
-  const nsvcd__facet_counts *counts = nsvcd__facet_counts_of(b);
+  const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   const uint32_t *zeros = counts->zeros;
-  if (zeros[0] || zeros[1] || zeros[2] || zeros[3] || b->triangles == 0) return 0;
+  if (zeros[0] || zeros[1] || zeros[2] || b->triangles == 0) return 0;
+  if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
+  if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
   if (b->size != nsvcd__facets_lay(NULL, patches, counts, &f) || b->size > size) return 0;
 
@@ -199,6 +201,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   }
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
+  if (b->radius < NSVCD_MIN_RADIUS) return 0;
   if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
     return 0;
 #ifndef NSVCD_NO_NETWORK
@@ -281,6 +284,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
+  void *counts = nsvcd__writable(b, nsvcd__counts_of(b));
+  ((nsvcd__facet_counts *)counts)->round *= scale;
   nsvcd__facets_finish(b);
 #endif
 }
@@ -295,7 +300,8 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   if (body->triangles) return NSVCD_ERROR_BODY;
 #endif
   // Would it still be within the limits of nsvcd_body_load?
-  if (!nsvcd__spheres_fit(body, scale)) return NSVCD_ERROR_ARGUMENT;
+  const float radius = nsvcd__whole_radius(body);
+  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_ARGUMENT;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
   for (size_t i = 0; i < numbers; i++) {
@@ -303,7 +309,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
   }
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_ARGUMENT;
 #endif
   // in place is allowed
   memmove(memory, body, body->size);
@@ -322,7 +328,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   facts.size = body->size;
   facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
-  facts.radius = body->radius;
+  facts.radius = nsvcd__whole_radius(body);
   facts.latents = body->weights_id != 0;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
@@ -333,6 +339,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     facts.triangles = triangles->triangles;
     facts.listings = f.listed;
     facts.quantum = nsvcd__widest_quantum(&f);
+    facts.round = f.round;
   }
 #endif
   return facts;
@@ -343,6 +350,6 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
   if (!body || patch >= body->patches) return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
-  *radius = sphere.radius;
+  *radius = sphere.radius + nsvcd__whole_radius(body) - body->radius;
   return 1;
 }

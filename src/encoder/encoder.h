@@ -139,9 +139,9 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
   for (size_t i = 0; i < patch->count; i++) {
     const nsvcd__feature f = nsvcd__feature_of(patch, i);
     m1[0] = nsvcd__f3_add(m1[0], f.n);
-    m1[1] = nsvcd__f3_add_scaled(m1[1], f.uu, f.n);
-    m1[2] = nsvcd__f3_add_scaled(m1[2], f.un, f.u);
-    m1[3] = nsvcd__f3_add_scaled(m1[3], f.uu, f.u);
+    m1[1] = nsvcd__f3_fma(f.uu, f.n, m1[1]);
+    m1[2] = nsvcd__f3_fma(f.un, f.u, m1[2]);
+    m1[3] = nsvcd__f3_fma(f.uu, f.u, m1[3]);
     m2[0] = nsvcd__f5_add(m2[0], f.quu);
     m2[1] = nsvcd__f5_add(m2[1], f.qun);
     m2[2] = nsvcd__f5_add(m2[2], f.qnn);
@@ -154,7 +154,7 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     for (size_t m = 0; m < 4; m++) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
-      c1 = nsvcd__f3_add_scaled(c1, share, nsvcd__f3_scale(m1[m], w1));
+      c1 = nsvcd__f3_fma(share, nsvcd__f3_scale(m1[m], w1), c1);
       c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
@@ -250,7 +250,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
-      all.degree1[c] = nsvcd__f3_add_scaled(all.degree1[c], share, a1);
+      all.degree1[c] = nsvcd__f3_fma(share, a1, all.degree1[c]);
       all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)

@@ -47,8 +47,8 @@ static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float acro
   const float c = across * cosf(angle);
   const nsvcd__f3 side = nsvcd__f3_scale(n, across * sinf(angle));
   nsvcd__f3 sum = {0, 0, 0};
-  sum = nsvcd__f3_add_scaled(sum, c, a);
-  sum = nsvcd__f3_add_scaled(sum, (along - c) * nsvcd__f3_dot(n, a), n);
+  sum = nsvcd__f3_fma(c, a, sum);
+  sum = nsvcd__f3_fma((along - c) * nsvcd__f3_dot(n, a), n, sum);
   return nsvcd__f3_add(sum, nsvcd__f3_cross(side, a));
 }
 
@@ -165,9 +165,9 @@ typedef struct nsvcd__by_view {
 
 // sum + the rows of m, times the components of a.
 static nsvcd__f3 nsvcd__add_along_rows(nsvcd__f3 sum, const nsvcd__mat3 *m, nsvcd__f3 a) {
-  sum = nsvcd__f3_add_scaled(sum, a.x, m->x);
-  sum = nsvcd__f3_add_scaled(sum, a.y, m->y);
-  return nsvcd__f3_add_scaled(sum, a.z, m->z);
+  sum = nsvcd__f3_fma(a.x, m->x, sum);
+  sum = nsvcd__f3_fma(a.y, m->y, sum);
+  return nsvcd__f3_fma(a.z, m->z, sum);
 }
 
 // The adjoint of the facts: by (FACTS), added to `out`.
@@ -180,14 +180,14 @@ static void nsvcd__by_facts(const nsvcd__view *view, const float *facts, const f
   const nsvcd__f3 by_closest = nsvcd__by_length(closest, by[NSVCD__FACT_CLOSEST]);
   out->d = nsvcd__f3_add(out->d, by_distance);
   out->d = nsvcd__f3_add(out->d, by_closest);
-  out->v = nsvcd__f3_add_scaled(out->v, -tau, by_closest);
+  out->v = nsvcd__f3_fma(-tau, by_closest, out->v);
   // else it is clamped
   if (fabsf(tau) < 1) {
     const float direct = by[NSVCD__FACT_TAU];
     const float by_tau = scale * (direct - nsvcd__f3_dot(by_closest, view->v));
-    out->d = nsvcd__f3_add_scaled(out->d, by_tau, view->v);
-    out->v = nsvcd__f3_add_scaled(out->v, by_tau, view->d);
-    out->v = nsvcd__f3_add_scaled(out->v, -2 * by_tau * tau, view->v);
+    out->d = nsvcd__f3_fma(by_tau, view->v, out->d);
+    out->v = nsvcd__f3_fma(by_tau, view->d, out->v);
+    out->v = nsvcd__f3_fma(-2 * by_tau * tau, view->v, out->v);
   }
 
   const nsvcd__f3 velocity = nsvcd__f3_load(facts + NSVCD__FACT_VELOCITY);
@@ -227,17 +227,17 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   }
   const float about = by->torque.x / nsvcd__f3_length(across);
   if (!vanishes) {
-    by->v = nsvcd__f3_add_scaled(by->v, -about, e3);
-    by->lean = nsvcd__f3_add_scaled(by->lean, -about * NSVCD__LEAN, e3);
+    by->v = nsvcd__f3_fma(-about, e3, by->v);
+    by->lean = nsvcd__f3_fma(-about * NSVCD__LEAN, e3, by->lean);
   }
 
   // Axis 1: of the line, or of what stands for it.
   nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
-  by_e1 = nsvcd__f3_add_scaled(by_e1, -by->torque.z, e2);
+  by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
   if (length > 1e-5f)
-    by->d = nsvcd__f3_add_scaled(by->d, 1 / length, by_e1);
+    by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
   else if (nsvcd__f3_length(line) > 1e-9f)
-    by->lean = nsvcd__f3_add_scaled(by->lean, 1 / nsvcd__f3_length(line), by_e1);
+    by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length

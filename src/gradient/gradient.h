@@ -137,7 +137,7 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   const float tau = (at->t[l] - at->t[s]) / length;
   const nsvcd__f3 chord = nsvcd__f3_sub(nsvcd__lane_of(at->place, s + 1), start);
   const nsvcd__f3 from = nsvcd__f3_sub(start, centre);
-  const nsvcd__f3 y = nsvcd__f3_add_scaled(from, tau, chord);
+  const nsvcd__f3 y = nsvcd__f3_fma(tau, chord, from);
   const float least = 1e-3f * nsvcd__f3_length(y) * nsvcd__f3_length(chord);
   const float dot = fabsf(nsvcd__f3_dot(y, chord));
   if (!(least > 0)) return;
@@ -173,7 +173,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   const nsvcd__f3 centre = nsvcd__first_f3(pairs.p2);
   const nsvcd__f3 line = nsvcd__f3_sub(centre, nsvcd__lane_of(at.place, NSVCD__AT_MIDDLE));
   const nsvcd__f3 arm = nsvcd__f3_scale(line, 0.5f);
-  const nsvcd__f3 p1 = nsvcd__f3_add_scaled(by.p1, -0.5f, nsvcd__f3_cross(by.v, w));
+  const nsvcd__f3 p1 = nsvcd__f3_fma(-0.5f, nsvcd__f3_cross(by.v, w), by.p1);
   const nsvcd__f3 turn = nsvcd__f3_add(by.w, nsvcd__f3_cross(arm, by.v));
   // w is half the rotation vector of R1 R0^-1: small rotations of R0 and R1 turn it as
   // nsvcd__by_poses says.

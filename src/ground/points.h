@@ -3,8 +3,9 @@
 #include "bits.h"
 
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
-// on. _load and _row are from floats, of which a row has three; _add_scaled is a + s b. Of floats a
-// difference, and all that is built of a few of them, is as good as exact in double.
+// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
+// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
+// double.
 #define NSVCD__VECTORS(t, scalar, sqrt) \
   typedef struct t { \
     scalar x, y, z; \
@@ -28,7 +29,7 @@
   static inline t t##_scale(t a, scalar s) { \
     return t##_of(s * a.x, s * a.y, s * a.z); \
   } \
-  static inline t t##_add_scaled(t a, scalar s, t b) { \
+  static inline t t##_fma(scalar s, t b, t a) { \
     return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
   } \
   static inline t t##_min(t a, t b) { \

@@ -4,7 +4,7 @@
 #include "points.h"
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
-// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _add_scaled is a + s b; _axis is that of a unit
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
 // quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
 // _apply_transpose is the transpose of m, times a.
 #define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
@@ -21,7 +21,7 @@
     const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
     return out; \
   } \
-  static inline quat quat##_add_scaled(quat a, scalar s, quat b) { \
+  static inline quat quat##_fma(scalar s, quat b, quat a) { \
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
@@ -117,7 +117,7 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
 // where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
 // left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
-  const nsvcd__quat chord = nsvcd__quat_add_scaled(a, -1, b);
+  const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
   return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
@@ -157,15 +157,15 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
     wa = sinf((1 - u) * angle);
     wb = sinf(u * angle);
   }
-  return nsvcd__quat_unit(nsvcd__quat_add_scaled(nsvcd__quat_scale(start, wa), wb, end));
+  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
 }
 
 // s (a + t b).
 static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
                                           const nsvcd__mat3 *b) {
-  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_add_scaled(a->x, t, b->x), s),
-                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->y, t, b->y), s),
-                           nsvcd__f3_scale(nsvcd__f3_add_scaled(a->z, t, b->z), s)};
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
   return out;
 }
 static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {

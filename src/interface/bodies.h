@@ -47,6 +47,10 @@ typedef struct nsvcd_encode_options {
   // metres; if > 0 and patches is 0: as many patches as have about this radius. For a level about
   // half the size of the bodies that move in it
   float patch_radius;
+  // metres: the body is all that is no farther from the mesh than this. If > 0, triangles need no
+  // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
+  // no latents
+  float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
   // 1: for the network alone, in fewer bytes; then there is no proof
@@ -87,6 +91,32 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body);
+#ifndef NSVCD_NO_PROOF
+// Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
+// of a point, a segment, a box or points and options.round. Where time matters they are better than
+// meshes of many triangles: a capsule is one segment.
+//   radius, round   metres, > 0; that of a box may be 0
+//   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
+//   half            half of what the box measures, round edges and all, not NULL, metres; none is
+//                   less than round
+//   points          (count, 3) metres, not NULL, not kept
+//   allocator       NULL: malloc and free
+//   body            not NULL; set to the body, about the origin or where its ends and points are;
+//                   left as it was on failure; nsvcd_body_free gives it back
+//   allocates       the body, and working memory, which is given back
+//   errors          ARGUMENT, NUMBER, EMPTY, TOO_LARGE, MEMORY
+NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
+                                           float radius, const nsvcd_allocator *allocator,
+                                           const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+                                       const nsvcd_allocator *allocator,
+                                       const nsvcd_body **body);
+NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
+                                         const nsvcd_allocator *allocator,
+                                         const nsvcd_body **body);
+#endif
 // Gives back a body that nsvcd_encode allocated.
 //   body       may be NULL
 //   allocator  the one that it came from
@@ -138,6 +168,8 @@ typedef struct nsvcd_body_facts {
   size_t listings;
   // metres: stored triangles are within this of the mesh's
   float quantum;
+  // metres that the body goes beyond its mesh
+  float round;
   // 1: the network can answer
   int latents;
 } nsvcd_body_facts;

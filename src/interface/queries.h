@@ -153,14 +153,14 @@ typedef struct nsvcd_range {
 
 // Two triangles, and where they meet or are nearest.
 typedef struct nsvcd_contact {
-  // metres, world. Where they meet, or on one of them where they are nearest; of a large triangle,
-  // which is stored in parts, the part that was looked at last
+  // metres, world. Where they meet, or on b where they are nearest: on its surface, if it is round.
+  // Of a large triangle, which is stored in parts, on the part that was looked at last
   float point[3];
   // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
   // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
   // where that triangle has no area
   float normal[3];
-  // metres between the stored triangles; 0: they meet
+  // metres between the stored triangles, less what is round; 0: they meet
   float gap;
   // in [0,1]: when
   float time;

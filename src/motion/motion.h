@@ -11,7 +11,7 @@
 // Between two knots both motions are smooth.
 #pragma once
 #include "../interface/queries.h"
-#include "../body/body.h"
+#include "../body/facets.h"
 #include "../lanes/turns.h"
 
 // The poses of one body.
@@ -83,7 +83,8 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
     if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-    if (scale * mover->body->radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
+    const float radius = nsvcd__whole_radius(mover->body);
+    if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;

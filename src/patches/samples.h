@@ -128,8 +128,8 @@ static void nsvcd__sample_surface(const nsvcd_mesh *mesh, size_t count, nsvcd__f
     }
     const nsvcd__d3 ab = nsvcd__d3_sub(triangle.at[1], triangle.at[0]);
     const nsvcd__d3 ac = nsvcd__d3_sub(triangle.at[2], triangle.at[0]);
-    const nsvcd__d3 along = nsvcd__d3_add_scaled(triangle.at[0], u, ab);
-    samples[k] = nsvcd__d3_narrow(nsvcd__d3_add_scaled(along, v, ac));
+    const nsvcd__d3 along = nsvcd__d3_fma(u, ab, triangle.at[0]);
+    samples[k] = nsvcd__d3_narrow(nsvcd__d3_fma(v, ac, along));
     normals[k] = nsvcd__f3_of(0, 0, 0);
     if (area > 0)
       normals[k] = nsvcd__d3_narrow(nsvcd__d3_over(nsvcd__area_vector(&triangle), area));

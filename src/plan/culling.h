@@ -147,8 +147,7 @@ static void nsvcd__add_wrench(const nsvcd_body_pair *pair, const nsvcd_pose *pos
     const float by = k < 2 ? scale : -scale;
     float *row = wrenches + 6 * (k < 2 ? pair->a : pair->b) + 3 * (k % 2);
     const nsvcd__f3 moment = k < 2 ? torque : back;
-    nsvcd__f3_store(nsvcd__f3_add_scaled(nsvcd__f3_load(row), by, k % 2 ? moment : force),
-                    row);
+    nsvcd__f3_store(nsvcd__f3_fma(by, k % 2 ? moment : force, nsvcd__f3_load(row)), row);
   }
 }
 

@@ -211,7 +211,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
           nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
-          if (nsvcd__triangles_nearest(point, corners).square <= limit * limit) return 1;
+          if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
     }

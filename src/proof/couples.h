@@ -101,7 +101,7 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
-static nsvcd__nearest nsvcd__triangles_nearest(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
   if (nsvcd__triangles_meet(a, b, &point)) {
@@ -202,7 +202,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
     p->ask.limit = p->work + left;
   if (!(tick < p->known.unsure)) return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
   if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
@@ -351,7 +351,7 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
                                             double u) {
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
-  return nsvcd__triangles_nearest(posed, couple->fixed);
+  return nsvcd__nearest_of(posed, couple->fixed);
 }
 
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by

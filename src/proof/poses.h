@@ -25,7 +25,7 @@ static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
     after = sin(way * leg->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_add_scaled(start, after, leg->end));
+  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
@@ -57,9 +57,9 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
   leg->start = nsvcd__unit_rotation(a);
   leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_add_scaled(leg->start, -1, leg->end);
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, leg->end, leg->start);
   const double apart = nsvcd__dquat_dot(difference, difference);
-  const nsvcd__dquat sum = nsvcd__dquat_add_scaled(leg->start, 1, leg->end);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
   const double together = nsvcd__dquat_dot(sum, sum);
   leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
 }

@@ -259,6 +259,8 @@ typedef struct nsvcd__given {
   // beyond the quanta
   double tolerance;
   double clearance, skin;
+  // how far both bodies together go beyond their triangles: the clearance has that in it
+  double round;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
   double share, width;

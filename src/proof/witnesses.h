@@ -58,7 +58,7 @@ static int nsvcd__undoes(const nsvcd__proof *p, nsvcd__d3 n, const nsvcd__touch 
 static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
   nsvcd__d3 moved[3];
   for (int k = 0; k < 3; k++) moved[k] = nsvcd__d3_add(t->moving[k], nsvcd__d3_scale(n, way));
-  return nsvcd__triangles_nearest(moved, t->fixed).square;
+  return nsvcd__nearest_of(moved, t->fixed).square;
 }
 
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
@@ -119,7 +119,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
   memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, couple->fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
@@ -160,7 +160,7 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
         nearest.on_a = nearest.on_b;
       } else {
         if (!(clearance > 0)) continue;
-        nearest = nsvcd__triangles_nearest(posed, couple.fixed);
+        nearest = nsvcd__nearest_of(posed, couple.fixed);
         if (!(nearest.square <= clearance * clearance)) continue;
       }
       if (p->ask.gathers == NSVCD__TOUCHING) {

@@ -34,8 +34,8 @@ static nsvcd__to_world nsvcd__to_world_at(const nsvcd__motion *motion, double t)
 // To how many of the fixed body's units an answer is asked for, or is by default.
 static double nsvcd__to_of(const nsvcd__task *task) {
   const nsvcd_question *q = task->question;
-  const float moving = task->motion.scale * task->moving->radius;
-  const float fixed = task->fixed->radius;
+  const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
+  const float fixed = nsvcd__whole_radius(task->fixed);
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
   return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
 }
@@ -74,7 +74,10 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
   p->given.tolerance = (double)(q->tolerance / unit);
-  p->given.clearance = p->ask.clearance = (double)(q->clearance / unit);
+  const double moving_round = (double)p->moving.round * (double)task->motion.scale;
+  p->given.round = moving_round + (double)p->fixed.round;
+  p->given.clearance = (double)(q->clearance / unit) + p->given.round;
+  p->ask.clearance = p->given.clearance;
   p->given.skin = (double)(q->skin / unit);
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
   p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
@@ -96,20 +99,24 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
 // the fixed body that counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__task *task,
+static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
                                              const nsvcd__contact *found, nsvcd_contact *out) {
+  const nsvcd__proof *p = query->proof;
+  const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
   const int rests = motion->moving.count == 1 && !motion->fixed_moves;
   const double time = rests ? 0 : found->tick / (double)motion->ticks;
   const nsvcd__to_world world = nsvcd__to_world_at(motion, time);
   const nsvcd__d3 lift = nsvcd__d3_scale(nsvcd__d3_widen(motion->lift), task->swapped);
-  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(found->point, lift), world.unit);
+  const double beyond = fmin((double)p->fixed.round, found->distance);
+  const nsvcd__d3 on = nsvcd__d3_fma(beyond, found->normal, found->point);
+  const nsvcd__d3 seen = nsvcd__d3_scale(nsvcd__d3_sub(on, lift), world.unit);
   const nsvcd__d3 point =
       nsvcd__d3_add(nsvcd__dmat3_apply(&world.rotation, seen), world.position);
   const nsvcd__d3 normal = nsvcd__dmat3_apply(&world.rotation, found->normal);
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
-  out->gap = (float)(found->distance * world.unit);
+  out->gap = (float)(fmax(found->distance - p->given.round, 0) * world.unit);
   out->time = (float)time;
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
@@ -254,7 +261,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     for (int n = 0; n < count; n++) {
       nsvcd__contact support = m->supports[chosen[n]];
       support.tick = found.tick;
-      nsvcd__tell_contact(task, &support, &answer->contacts[n]);
+      nsvcd__tell_contact(query, &support, &answer->contacts[n]);
       // which body a corner is of
       answer->contacts[n].id = m->numbers[chosen[n]] ^ (uint32_t)task->swapped;
     }
@@ -314,7 +321,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
                                : NSVCD_UNDECIDED,
                       answer);
   answer->inside = is_within;
-  if (names || is_within) nsvcd__tell_contact(task, &p->known.found, &answer->nearest);
+  if (names || is_within) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
   if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
@@ -335,13 +342,15 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }
-  const double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
+  double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
   if (names) {
     const nsvcd__contact *found = &p->known.found;
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
-    high = found->distance + (double)quanta;
+    high = fmax(found->distance, p->given.round) + (double)quanta;
   }
+  low = fmax(low - p->given.round, 0);
+  high -= p->given.round;
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;

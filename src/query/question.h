@@ -164,7 +164,11 @@ static void nsvcd__swap_patches(uint32_t *a, uint32_t *b) {
 static void nsvcd__swap_contact(nsvcd_contact *contact) {
   nsvcd__swap_patches(&contact->patch_a, &contact->patch_b);
   nsvcd__swap_patches(&contact->triangle_a, &contact->triangle_b);
-  for (size_t k = 0; k < 3; k++) contact->normal[k] = 0 - contact->normal[k];
+  const float gap = contact->gap < HUGE_VALF ? contact->gap : 0;
+  for (size_t k = 0; k < 3; k++) {
+    contact->point[k] += gap * contact->normal[k];
+    contact->normal[k] = 0 - contact->normal[k];
+  }
 }
 static void nsvcd__swap_answer(nsvcd_answer *answer) {
   const nsvcd_pose moving = answer->safe.a;

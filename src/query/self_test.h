@@ -53,9 +53,9 @@ static nsvcd_result nsvcd__self_test(void) {
   const double lift = 4 * (double)half;
   const nsvcd__d3 a[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   nsvcd__d3 b[3] = {{0.25, 0.25, -1}, {0.25, 0.25, 1}, {2, 2, 1}};
-  right &= !(nsvcd__triangles_nearest(a, b).square > 0);
+  right &= !(nsvcd__nearest_of(a, b).square > 0);
   for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
-  right &= fabs(nsvcd__triangles_nearest(a, b).square - lift * lift) < 1e-9;
+  right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
 #endif
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }

@@ -58,8 +58,7 @@ static int nsvcd__ball_through(const nsvcd__d3 *points, size_t count, nsvcd__bal
   double shares[3];
   if (!nsvcd__solve_shares(points, count, 1, edges, shares)) return 0;
   nsvcd__d3 offset = nsvcd__d3_of(0, 0, 0);
-  for (size_t i = 0; i + 1 < count; i++)
-    offset = nsvcd__d3_add_scaled(offset, shares[i], edges[i]);
+  for (size_t i = 0; i + 1 < count; i++) offset = nsvcd__d3_fma(shares[i], edges[i], offset);
   ball->centre = nsvcd__d3_add(points[0], offset);
   ball->squared = nsvcd__d3_dot(offset, offset);
   return 1;

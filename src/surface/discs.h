@@ -58,9 +58,9 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   mean = nsvcd__d3_scale(mean, 1 / (double)points.count);
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 d = nsvcd__d3_sub(points.at[i], mean);
-    c.x = nsvcd__d3_add_scaled(c.x, d.x, d);
-    c.y = nsvcd__d3_add_scaled(c.y, d.y, d);
-    c.z = nsvcd__d3_add_scaled(c.z, d.z, d);
+    c.x = nsvcd__d3_fma(d.x, d, c.x);
+    c.y = nsvcd__d3_fma(d.y, d, c.y);
+    c.z = nsvcd__d3_fma(d.z, d, c.z);
   }
   const nsvcd__d3 z = nsvcd__d3_of(0, 0, 1);
   const nsvcd__d3 along = nsvcd__d3_unit(nsvcd__longest_row(&c), z);

@@ -65,7 +65,7 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     const int settled = nsvcd__simplex_settle(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
-      nearest = nsvcd__d3_add_scaled(nearest, s.weights[i], s.points[i]);
+      nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
     if (!settled || squared >= best) break;
     best = squared;

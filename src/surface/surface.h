@@ -2,7 +2,7 @@
 // triangles, all rounded outwards.
 #pragma once
 #include "../mesh/mesh.h"
-#include "pieces.h"
+#include "runs.h"
 #include "discs.h"
 #include "hulls.h"
 
@@ -243,21 +243,18 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   return !arena->failed;
 }
 
-// Adds a region's patches, of which the surface has room for all: describes each, counts its
-// vertices and triangles, makes room for these, and writes them. spare: of what is only needed
-// meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or all have
-// too many: then the surface is of no use any more.
-static nsvcd_result nsvcd__surface_add(const nsvcd__region *region,
-                                       const nsvcd__patches *patches, nsvcd__arena *spare,
+// Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
+// counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
+// needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
+// all have too many: then the surface is of no use any more.
+static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena *spare,
                                        nsvcd__surface *s) {
-  nsvcd__pieces pieces;
   nsvcd__sorted sorted;
-  if (!nsvcd__pieces_build(region, patches, spare, &pieces)) return NSVCD_ERROR_MEMORY;
-  if (!nsvcd__sorted_build(&pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+  if (!nsvcd__sorted_build(pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
   size_t triangles = s->listed;
-  s->count = done + patches->count;
+  s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
     nsvcd__describe_patch(&sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;

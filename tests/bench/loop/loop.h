@@ -485,7 +485,7 @@ static int plane_parts_leaves(loop *p, const span *s, leaf_pair *t) {
       const float share = square > 0 ? -nsvcd__f3_dot(v, d) / square : 0;
       if (!(share > 0))
         return 0;
-      v = nsvcd__f3_add_scaled(v, share < 1 ? share : 1, d);
+      v = nsvcd__f3_fma(share < 1 ? share : 1, d, v);
     } else {
       v = w;
     }

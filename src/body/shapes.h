@@ -1,0 +1,71 @@
+// In: a shape in numbers. Out: its body: a skeleton of points, segments or a box, and how round it
+// is.
+#pragma once
+#include "encode.h"
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
+                                        const nsvcd_allocator *allocator,
+                                        const nsvcd_body **body) {
+  nsvcd_encode_options options;
+  memset(&options, 0, sizeof options);
+  options.round = round;
+  options.no_latents = 1;
+  return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
+                                          const nsvcd_body **body) {
+  float centre[3] = {0, 0, 0};
+  uint32_t point[3] = {0, 0, 0};
+  const nsvcd_mesh mesh = {centre, point, 1, 1};
+  if (!(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
+                                           float radius, const nsvcd_allocator *allocator,
+                                           const nsvcd_body **body) {
+  float ends[6];
+  uint32_t segment[3] = {0, 1, 1};
+  const nsvcd_mesh mesh = {ends, segment, 2, 1};
+  if (!from || !to || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  memcpy(ends, from, 3 * sizeof *from);
+  memcpy(ends + 3, to, 3 * sizeof *to);
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
+                                       const nsvcd_allocator *allocator,
+                                       const nsvcd_body **body) {
+  // corner n is on the far side of axis k if bit k of n is set
+  uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  float corners[24];
+  const nsvcd_mesh mesh = {corners, faces, 8, 12};
+  if (!half || !(round >= 0)) return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_ARGUMENT;
+    for (size_t n = 0; n < 8; n++)
+      corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
+  }
+  return nsvcd__encode_round(&mesh, round, allocator, body);
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, float radius,
+                                         const nsvcd_allocator *allocator,
+                                         const nsvcd_body **body) {
+  nsvcd_mesh mesh = {NULL, NULL, count, count};
+  if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  const size_t bytes = 3 * count * sizeof *mesh.indices;
+  // a cast would take away a const; nothing is written
+  memcpy(&mesh.positions, &points, sizeof points);
+  mesh.indices = (uint32_t *)nsvcd__alloc(allocator, bytes);
+  if (!mesh.indices) return count ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_EMPTY;
+  for (size_t i = 0; i < 3 * count; i++) mesh.indices[i] = (uint32_t)(i / 3);
+  const nsvcd_result result = nsvcd__encode_round(&mesh, radius, allocator, body);
+  nsvcd__free(allocator, mesh.indices);
+  return result;
+}
+#endif
