@@ -1278,7 +1278,7 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 // In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
 
 // Index of the lowest bit that is set, of a number that is not 0; how many are set.
-static size_t nsvcd__lowest_bit(uint64_t bits) {
+static size_t nsvcd__low_bit(uint64_t bits) {
 #if defined(__GNUC__) || defined(__clang__)
   return (size_t)__builtin_ctzll(bits);
 #else
@@ -1314,6 +1314,15 @@ static inline int nsvcd__is_finite(float x) {
 
 // ----------------------------------------------------------------------------------- ground/points
 // In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
+
+// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
+// calls with most compilers.
+static inline double nsvcd__max(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double nsvcd__min(double a, double b) {
+  return a < b ? a : b;
+}
 
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
 // on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
@@ -3673,7 +3682,7 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_distance2(at, from));
+    squared = nsvcd__max(squared, nsvcd__d3_distance2(at, from));
   }
   return sqrt(squared);
 }
@@ -3700,7 +3709,7 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
       const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
       const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
       beyond[i] = length > 0 ? height / length : -1;
-      most = fmax(most, beyond[i]);
+      most = nsvcd__max(most, beyond[i]);
     }
     if (most <= pieces->overlap) continue;
     nsvcd__list *points = &pieces->points;
@@ -3724,7 +3733,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
-    squared = fmax(squared, nsvcd__d3_distance2(a, b));
+    squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
     pieces->waiting[0].points[k] = corners[k];
   }
   piece.parted = sqrt(squared) > pieces->longest_edge;
@@ -4019,7 +4028,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     for (size_t i = 0; i < points.count; i++) {
       const double square = nsvcd__d3_distance2(points.at[i], ball.centre);
       if (square > most) farthest = i;
-      most = fmax(most, square);
+      most = nsvcd__max(most, square);
     }
     if (most <= ball.squared * (1 + 1e-9)) break;
     border.points[border.count++] = points.at[farthest];
@@ -4147,7 +4156,7 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
   double squared = 0;
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);
-    squared = fmax(squared, nsvcd__d3_dot(moment, moment));
+    squared = nsvcd__max(squared, nsvcd__d3_dot(moment, moment));
   }
   const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
   nsvcd__disc disc;
@@ -4247,7 +4256,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
     if (distance > most) next = i;
-    most = fmax(most, distance);
+    most = nsvcd__max(most, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
@@ -4261,7 +4270,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
     for (size_t k = 0; k < points.count; k++) {
       const size_t i = (first + k) % points.count;
       if (bounds[i] <= *farthest) continue;
-      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      bounds[i] = nsvcd__min(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
       if (bounds[i] <= *farthest) continue;
       *farthest = bounds[i];
       next = i;
@@ -4954,7 +4963,7 @@ static nsvcd__spheres nsvcd__body_patches(const nsvcd_body *body) {
 static nsvcd__spheres nsvcd__level_spheres(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
 }
-static nsvcd__spheres nsvcd__group_spheres(const nsvcd_body *body) {
+static nsvcd__spheres nsvcd__groups_of(const nsvcd_body *body) {
   return nsvcd__level_spheres(body, nsvcd__level_of(body->padded, 0));
 }
 static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
@@ -5167,7 +5176,7 @@ static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
 // whose patches and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  const nsvcd__spheres groups = nsvcd__group_spheres(body);
+  const nsvcd__spheres groups = nsvcd__groups_of(body);
   for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
     nsvcd__cover_level(body, k, nsvcd__level_spheres(body, below), below.count);
@@ -5303,7 +5312,7 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
       walk->level++;
     }
     uint32_t *left = &walk->left[walk->level];
-    const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(*left);
+    const size_t found = walk->first[walk->level] + nsvcd__low_bit(*left);
     *left &= *left - 1;
     if (walk->level == 0) {
       *group = found;
@@ -5556,7 +5565,7 @@ typedef struct nsvcd__slab {
 
 static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
   const size_t first = NSVCD__GROUP * g;
-  const nsvcd__spheres groups = nsvcd__group_spheres(f->body);
+  const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
@@ -5867,7 +5876,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < 0) return 0;
-  const nsvcd__spheres groups = nsvcd__group_spheres(b);
+  const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
   for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
@@ -5983,7 +5992,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
     nsvcd__hulls hulls;
     nsvcd__gather_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
-    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__group_spheres(b), g);
+    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
     if (!nsvcd__covers(over, all, hulls.count)) return 0;
   }
 
@@ -6021,8 +6030,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
-  if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
-    return 0;
+  if (!nsvcd__level_covers(nsvcd__groups_of(b), nsvcd__body_patches(b), b->patches)) return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
@@ -8160,7 +8168,7 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   nsvcd__v_store(least, intervals->least);
   nsvcd__v_store(depth, nsvcd__v_sub(one, share));
   for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__lowest_bit(lanes);
+    const size_t l = nsvcd__low_bit(lanes);
     nsvcd__candidate candidate;
     candidate.moving = (uint16_t)(i + l);
     candidate.fixed = (uint16_t)j;
@@ -8187,7 +8195,7 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint
   size_t oldest = 0;
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
@@ -8212,7 +8220,7 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
   const size_t l = i % NSVCD__GROUP;
   nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
     const nsvcd__v3 way = nsvcd__chords_way(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);
@@ -8289,7 +8297,7 @@ static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
 }
 
 static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
+  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
 }
 
 // Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
@@ -8314,7 +8322,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
     out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
   }
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     nsvcd__chords_in_segment(search, s, groups, search->moving->extent, c);
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
@@ -8378,7 +8386,7 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
     nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
     memset(nearby, 0, tile->count * sizeof *nearby);
     for (; groups; groups &= groups - 1) {
-      const size_t h = nsvcd__lowest_bit(groups);
+      const size_t h = nsvcd__low_bit(groups);
       const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
       nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
       count += nsvcd__bit_count(nearby[h]);
@@ -8411,7 +8419,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(walk->body), g);
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(walk->body), g);
     nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
@@ -8421,7 +8429,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
-  tile->spheres = nsvcd__group_spheres(body);
+  tile->spheres = nsvcd__groups_of(body);
 }
 
 // ---- filters of a walk, which are given the search
@@ -8441,7 +8449,7 @@ static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
   nsvcd__chords *chords = nsvcd__spare_chords(search);
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     nsvcd__chords_in_segment(search, s, all, search->moving->extent, chords);
     met |= nsvcd__meet(chords, fixed);
   }
@@ -8455,7 +8463,7 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
        wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
   }
@@ -8479,7 +8487,7 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
   for (uint64_t left = search->near_segments; left; left &= left - 1) {
-    const size_t s = nsvcd__lowest_bit(left);
+    const size_t s = nsvcd__low_bit(left);
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
@@ -8541,7 +8549,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 
 // No point of a group is farther from its body's origin; in the body's own units.
 static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
-  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
   return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
 }
 
@@ -8552,7 +8560,7 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
   search->remote = nsvcd__group_reach(search->moving, g);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
-    const size_t s = nsvcd__lowest_bit(missing);
+    const size_t s = nsvcd__low_bit(missing);
     nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
   }
   search->posed |= wanted;
@@ -8566,11 +8574,11 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     for (; bits; bits &= bits - 1) {
-      const size_t l = nsvcd__lowest_bit(bits);
+      const size_t l = nsvcd__low_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
       met |= 1u << l;
     }
@@ -8605,7 +8613,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   uint64_t segments[NSVCD__GROUP];
   size_t at;
   if (search->waiting)
-    at = nsvcd__lowest_bit(search->waiting);
+    at = nsvcd__low_bit(search->waiting);
   else
     at = nsvcd__search_group(search);
   const size_t next = search->order[search->step];
@@ -8614,7 +8622,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   const uint64_t wanted = nsvcd__nearby(search, next)[at];
   uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
   for (; met; met &= met - 1) {
-    const size_t l = nsvcd__lowest_bit(met);
+    const size_t l = nsvcd__low_bit(met);
     nsvcd__pose_members(search, g, segments[l]);
     nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
   }
@@ -9079,14 +9087,14 @@ static int nsvcd__is_spent(nsvcd__proof *p) {
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
       p->known.unsure < NSVCD__NEVER) {
     ask->doubts_end = 1;
-    ask->end = fmin(ask->end, p->known.unsure);
+    ask->end = nsvcd__min(ask->end, p->known.unsure);
     ask->limit = nsvcd__limit_of_first(p);
   }
   return p->work > ask->limit;
 }
 
 // The clearance, in float: not less.
-static float nsvcd__clearance_of(const nsvcd__proof *p) {
+static float nsvcd__clearance(const nsvcd__proof *p) {
   return 1.000001f * (float)p->ask.clearance;
 }
 
@@ -9218,7 +9226,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double angle = nsvcd__d3_length(fixed_turn);
     const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
     const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
-    const double swing = fmax(swing_from, swing_to);
+    const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
     arc->has_axis = !(angle > 0);
     arc->turn = nsvcd__d3_length(turn);
@@ -9336,7 +9344,8 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
                                               size_t s) {
   if (!(p->memo.spans >> s & 1)) {
     p->spans[s] = nsvcd__span_of_segment(p->ask.motion, search, s);
-    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
+    p->spans[s].t_end =
+        nsvcd__min(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
   }
   p->memo.spans |= (uint64_t)1 << s;
   return &p->spans[s];
@@ -9576,7 +9585,7 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
                                   const nsvcd__v_parted *by_fixed,
                                   const nsvcd__v_parted *by_moving) {
   for (; apart; apart &= apart - 1) {
-    const size_t l = nsvcd__lowest_bit(apart);
+    const size_t l = nsvcd__low_bit(apart);
     const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
     const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
@@ -9606,7 +9615,7 @@ static inline uint32_t nsvcd__not_parted(size_t i, size_t j, const nsvcd__span *
                                          const nsvcd__v_parted *parted, uint32_t wanted) {
   const uint32_t apart = (parted->above | parted->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
-    const size_t l = nsvcd__lowest_bit(k);
+    const size_t l = nsvcd__low_bit(k);
     NSVCD__CERTIFY_DISC(i + l, j, parted, l, span);
   }
   return wanted & ~apart;
@@ -9629,7 +9638,7 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
   a.scale = nsvcd__v_set(p->ask.motion->scale);
   a.span = nsvcd__v_span_set(span);
-  a.clearance = nsvcd__clearance_of(p);
+  a.clearance = nsvcd__clearance(p);
   a.reach = reach;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
@@ -9667,14 +9676,14 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
   nsvcd__v_approach a;
   a.moving = nsvcd__v_disc_set(&own);
   a.scale = nsvcd__v_set(search->scale);
-  a.clearance = nsvcd__clearance_of(p);
+  a.clearance = nsvcd__clearance(p);
   a.reach = nsvcd__group_reach(moving, g);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
-    const size_t at = nsvcd__lowest_bit(waiting);
+    const size_t at = nsvcd__low_bit(waiting);
     const size_t h = search->fixed_tile.groups[at];
     const nsvcd__disc other =
         nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
+    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
     a.fixed = nsvcd__v_disc_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {
@@ -9785,8 +9794,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   }
   const float highest = -lowest_rest;
   // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__lowest_bit(least | 0x8000);
-  const size_t b = nsvcd__lowest_bit(least_rest | 0x8000);
+  const size_t a = nsvcd__low_bit(least | 0x8000);
+  const size_t b = nsvcd__low_bit(least_rest | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
   const nsvcd__support out = {lowest - highest,
@@ -9822,7 +9831,7 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
-  const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
+  const float slack = slacks + span->rounding + nsvcd__clearance(p);
   const float reach = nsvcd__patch_reach(&p->moving, i);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
@@ -9881,7 +9890,7 @@ static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
-    longest = fmax(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
+    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
   const double length = nsvcd__d3_length(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
@@ -10048,7 +10057,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->known.found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->ask.measure > 0) {
     p->high = p->known.found.distance;
-    p->ask.clearance = fmax(p->low, p->high - p->ask.measure);
+    p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
     return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
   if (p->ask.first > 0) {
@@ -10072,7 +10081,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
-  if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
+  if (p->ask.doubts_end) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -10094,9 +10103,9 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
     const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_start));
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));
-    highest = fmax(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
   double off_axis = 1;
   if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
@@ -10255,7 +10264,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
   const double parted = distance - 2 * (couple->slack + p->given.tolerance);
-  p->ask.clearance = fmax(p->low, fmin(p->ask.clearance, parted));
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
@@ -10276,7 +10285,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
   int shrunk = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
-    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+    const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
     // a doubt may be the end
     if (!(u < end)) break;
     const double middle = 0.5 * (u + end);
@@ -10702,7 +10711,7 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
     const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
     const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
     const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
-    most = fmax(most, fabs(nsvcd__d3_dot(both, m->normal)));
+    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
   }
   return most;
 }
@@ -10757,8 +10766,8 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(n, t->moving[k]));
-    highest = fmax(highest, nsvcd__d3_dot(n, t->fixed[k]));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, t->moving[k]));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(n, t->fixed[k]));
   }
   return highest - lowest;
 }
@@ -10845,10 +10854,10 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
-  p->needed = fmax(p->needed, lifted + most);
+  p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
   const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
-  p->depths[k] = fmax(p->depths[k], depth);
+  p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
@@ -10887,13 +10896,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   const double clearance = p->ask.clearance;
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__lowest_bit(lanes);
+    const size_t l = nsvcd__low_bit(lanes);
     p->work++;
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
       const nsvcd__couple couple =
-          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
@@ -10937,7 +10946,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
-  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance_of(p);
+  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance(p);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -10975,7 +10984,7 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *sh
 static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
                                        nsvcd__item *item) {
   const double start = (double)search->begin[item->segment];
-  const double end = fmin((double)search->begin[item->segment + 1u], p->clipped_end);
+  const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
   const double tick = start + (double)item->share * (end - start);
   double u;
   item->sought = 1;
@@ -11006,7 +11015,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
-        quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
     NSVCD__EACH_SLICE(s) {
       const nsvcd__v3 normal = nsvcd__v3_set(last);
       const uint32_t apart =
@@ -11018,7 +11027,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
     const nsvcd__couple couple =
-        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -11034,7 +11043,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
-                       nsvcd__clearance_of(p) + span->bulge * reach;
+                       nsvcd__clearance(p) + span->bulge * reach;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -11089,7 +11098,7 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
-      const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->span = nsvcd__span_of_arc(p, first, u, end);
       if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
@@ -11152,7 +11161,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     below->key = (uint32_t)j;
     below->height = p->fixed.slacks[j] * length - highest;
   }
-  if (!(above->height > below->height + nsvcd__clearance_of(p) * length)) return 0;
+  if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }
@@ -11397,9 +11406,9 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
     const double length = nsvcd__d3_length(across);
     around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
-    least = fmin(least, around[k]);
-    most = fmax(most, around[k]);
-    nearest = fmin(nearest, length > 0 ? fabs(around[k]) / length : 0);
+    least = nsvcd__min(least, around[k]);
+    most = nsvcd__max(most, around[k]);
+    nearest = nsvcd__min(nearest, length > 0 ? fabs(around[k]) / length : 0);
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
@@ -11506,7 +11515,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_ray(ray, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !*unclear; patches &= patches - 1) {
-      const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
+      const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
@@ -11516,7 +11525,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
         p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
         for (; lanes; lanes &= lanes - 1) {
-          const size_t listing = n + nsvcd__lowest_bit(lanes);
+          const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
           if (!numbers.encloses) continue;
@@ -11569,7 +11578,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
-      const size_t i = first + nsvcd__lowest_bit(met);
+      const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
       const double limit = 2 * (double)f->quanta[i] + tolerance;
       const size_t end = f->first_triangle[i + 1];
@@ -11579,7 +11588,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
-          nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
+          nsvcd__facet_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
           if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
@@ -11639,7 +11648,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
     }
     for (; out; out &= out - 1) {
-      const size_t i = first + nsvcd__lowest_bit(out);
+      const size_t i = first + nsvcd__low_bit(out);
       if (i < inner->body->patches && inner->hull_counts[i]) return 1;
     }
   }
@@ -11799,7 +11808,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
   *left &= nsvcd__segments_that_matter(p, search);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
-    const size_t s = nsvcd__lowest_bit(*left);
+    const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &search->members[s];
     float squares[NSVCD__LANES];
     float share[NSVCD__LANES];
@@ -11822,7 +11831,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     const nsvcd__span *span = nsvcd__segment_span(p, search, s);
     met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
     for (; met; met &= met - 1) {
-      const size_t l = nsvcd__lowest_bit(met);
+      const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
@@ -11853,13 +11862,13 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     nsvcd__search_group(search);
     nsvcd__part_groups(p, search);
     for (; search->waiting; search->waiting &= search->waiting - 1) {
-      const size_t at = nsvcd__lowest_bit(search->waiting);
+      const size_t at = nsvcd__low_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
       const uint64_t wanted =
           nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
       uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
       for (; met; met &= met - 1) {
-        const size_t l = nsvcd__lowest_bit(met);
+        const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &p->met_in[l];
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
@@ -11936,8 +11945,8 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
-  return fmin(fmin(p->ask.end, p->known.unsure),
-              p->known.lost ? p->known.settled : NSVCD__NEVER);
+  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure),
+                    p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
 // Makes a proof forget all that it knew of a motion.
@@ -11955,7 +11964,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 // Searches a motion whose segments have been chosen, and settles what is found.
 static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                        nsvcd__search *search) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
   p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
   p->known.lost = outcome == NSVCD__SPENT;
@@ -12062,7 +12071,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.share > 0;
   const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   p->ask.limit = p->given.work;
   p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
@@ -12133,7 +12142,7 @@ static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
     const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
     if (square < least) nearest = at;
-    least = fmin(least, square);
+    least = nsvcd__min(least, square);
   }
   return nearest;
 }
@@ -12187,7 +12196,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
-  p->ask.clearance = is_named ? fmax(p->low, p->high - p->ask.measure) : p->high;
+  p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
@@ -12206,7 +12215,7 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(p->ask.motion->lift);
   const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
   nsvcd__choose_segments(p->ask.motion, search);
   p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
   if (is_named && !(p->high - p->low > finest)) return;
@@ -12215,7 +12224,7 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
   for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
-    p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
+    p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
     p->wide = nsvcd__measure_once(p, search);
   }
 }
@@ -12305,8 +12314,8 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
     for (size_t k = 0; k < p->normal_count; k++) {
       const double along = least + (by_depth ? p->depths[k] : 0);
       const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
-      longest = fmax(longest, along);
-      most = fmax(most, lacks);
+      longest = nsvcd__max(longest, along);
+      most = nsvcd__max(most, lacks);
       if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
     if (nsvcd__d3_length(lift) > 4 * longest) break;
@@ -12331,7 +12340,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   still->lift = nsvcd__f3_of(0, 0, 0);
   // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
   // touch afterwards
-  double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
+  double beside = nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
@@ -12356,7 +12365,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   for (size_t k = 0; k < p->normal_count; k++) {
     const double way = nsvcd__lift_along(p->normals[k], t);
     if (way < least) best = k;
-    least = fmin(least, way);
+    least = nsvcd__min(least, way);
   }
   return best;
 }
@@ -12624,7 +12633,7 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
     nsvcd__v_store(lanes + l, sum);
   }
   for (; close; close &= close - 1) {
-    const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
+    const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));
     nsvcd__add_dipoles(body, n - 1, member, NSVCD__GROUP, point, lanes);
   }
 }
@@ -12792,7 +12801,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
     nsvcd__v_store(squares, square);
     nsvcd__v_store(cosines, nsvcd__v_mul(sign, q.w));
     for (; wide; wide &= wide - 1) {
-      const size_t l = nsvcd__lowest_bit(wide);
+      const size_t l = nsvcd__low_bit(wide);
       const float sine = sqrtf(squares[l]);
       ratios[l] = atan2f(sine, cosines[l]) / sine;
     }
@@ -15086,7 +15095,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__clamp01 NSVCD__AT(clamp01)
 #define nsvcd__clamp_share NSVCD__AT(clamp_share)
 #define nsvcd__clear_until NSVCD__AT(clear_until)
-#define nsvcd__clearance_of NSVCD__AT(clearance_of)
+#define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
 #define nsvcd__collect_items NSVCD__AT(collect_items)
 #define nsvcd__collides_again NSVCD__AT(collides_again)

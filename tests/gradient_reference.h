@@ -377,7 +377,7 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   // group.
   const size_t g = i / NSVCD__GROUP;
   double group[3];
-  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__group_spheres(moving), g);
+  const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__groups_of(moving), g);
   group[0] = (double)sphere.centre.x;
   group[1] = (double)sphere.centre.y;
   group[2] = (double)sphere.centre.z;

@@ -22,9 +22,9 @@ done
 cat >$work/list <<'LIST'
 none|||
 hull without deviation|slack * length + nsvcd__deviation(span, normal, reach)|slack * length
-hull without slack|const float slack = slacks + span->rounding + nsvcd__clearance_of(p);|const float slack = 0 * slacks + span->rounding + nsvcd__clearance_of(p);
+hull without slack|const float slack = slacks + span->rounding + nsvcd__clearance(p);|const float slack = 0 * slacks + span->rounding + nsvcd__clearance(p);
 hull without the slack's scale|p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];|0.1f * p->moving.slacks[i] + p->fixed.slacks[j];
-hull without clearance|slacks + span->rounding + nsvcd__clearance_of(p);|slacks + span->rounding;
+hull without clearance|slacks + span->rounding + nsvcd__clearance(p);|slacks + span->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
 deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
@@ -46,14 +46,14 @@ pair without drift|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1
 doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
 pair without clearance|> p->ask.clearance + couple->slack + deviation;|> couple->slack + deviation;
-pair at the start only|lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance_of(p) +|(span->rounding + span->drift) + nsvcd__clearance_of(p) +
-block without clearance|(span->rounding + span->drift) + nsvcd__clearance_of(p) +|(span->rounding + span->drift) +
-block without bulge|nsvcd__clearance_of(p) + span->bulge * reach;|nsvcd__clearance_of(p) + 0 * reach;
+pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
+block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p) +|(span->rounding + span->drift) + nsvcd__clearance(p) +
+block without clearance|(span->rounding + span->drift) + nsvcd__clearance(p) +|(span->rounding + span->drift) +
+block without bulge|nsvcd__clearance(p) + span->bulge * reach;|nsvcd__clearance(p) + 0 * reach;
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
 parting plane at the start only|nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, s, 1, along, normal, &below)
-parting plane without deviation|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance_of(p) + 0 * reach;
-parting plane without quanta|quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance(p) + 0 * reach;
+parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
 a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
@@ -79,11 +79,11 @@ knots of one body only|return after_a < after_b ? after_a : after_b;|return afte
 group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
 discs without scale|nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w)); const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));|nsvcd__v3_dot(w, w);\n  const nsvcd__v across = nsvcd__v3_length(a->turned);
-disc without clearance|a.clearance = nsvcd__clearance_of(p); a.reach = reach;|a.clearance = 0; a.reach = reach;
+disc without clearance|a.clearance = nsvcd__clearance(p); a.reach = reach;|a.clearance = 0; a.reach = reach;
 moving disc without clearance|nsvcd__v_plus(a->span.rounding, a->clearance);|a->span.rounding;
-groups without clearance|a.clearance = nsvcd__clearance_of(p); a.reach = nsvcd__group_reach|a.clearance = 0; a.reach = nsvcd__group_reach
-held plane without clearance|below->height + nsvcd__clearance_of(p) * length|below->height
-held plane not tried again|if (!(above->height > below->height + nsvcd__clearance_of(p) * length)) return 0;|
+groups without clearance|a.clearance = nsvcd__clearance(p); a.reach = nsvcd__group_reach|a.clearance = 0; a.reach = nsvcd__group_reach
+held plane without clearance|below->height + nsvcd__clearance(p) * length|below->height
+held plane not tried again|if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;|
 span of before it was clipped|p->memo.spans \&= ~((uint64_t)1 << s);|
 search without clearance|block->spread[l] += clearance;|block->spread[l] += 0 * clearance;
 clipped without twice the bulge|    block->bulge[l] *= 2;\n    block->drift[l] *= 2;\n|    block->bulge[l] *= 0.1f;\n
@@ -91,9 +91,9 @@ clipped too early|(double)search->begin[segment] < p->ask.end;|(double)search->b
 every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
-a doubt taken for free|fmin(fmin(p->ask.end, p->known.unsure), p->known.lost|fmin(p->ask.end, p->known.lost
+a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
 half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
-distance without tolerance|p->ask.clearance = fmax(p->low, p->high - p->ask.measure);|p->ask.clearance = fmax(p->low, p->high * 1.01);
+distance without tolerance|p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);|p->ask.clearance = nsvcd__max(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->memo.window > 0 \&\& p->fixed_blocks[0].first == first|p->memo.window > 0
@@ -106,7 +106,7 @@ level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0
 level: sums that do not scale|i < 3 * nsvcd__area_slots(padded); i++) {|i < 3 * (size_t)b->padded; i++) {
 level: nearest patches about the middle only|nsvcd__v_fma(r, nsvcd__v_set(NSVCD__AMPLE), radius)|nsvcd__v_mul(r, nsvcd__v_set(NSVCD__AMPLE))
 level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->latents[NSVCD__LATENT * i + k]
-level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__lowest_bit(close) \& ~(size_t)1));
+level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__low_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 round: the fixed one is not|p->given.round = moving_round + (double)p->fixed.round;|p->given.round = moving_round;
 round: without the scale|(double)p->moving.round * (double)task->motion.scale;|(double)p->moving.round;
@@ -123,7 +123,7 @@ asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    retu
 asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
-asks: a gap lost|p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
+asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
 asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; p->wide|for (p->ask.measure = p->high - p->low; 0 \&\& p->wide
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
@@ -142,11 +142,11 @@ asks: not set down|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clea
 asks: set down through contacts|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return least;
 asks: set down with a distance asked for|  p->ask.measure = 0;\n  p->ask.clearance = p->given.clearance;\n  p->ask.limit|  p->ask.limit
 a depth of planes alone|if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;|return most;
-asks: half of a depth|p->depths[k] = fmax(p->depths[k], depth);|p->depths[k] = fmax(p->depths[k], 0.5 * depth);
+asks: half of a depth|p->depths[k] = nsvcd__max(p->depths[k], depth);|p->depths[k] = fmax(p->depths[k], 0.5 * depth);
 asks: one depth for all normals|const double along = least + (by_depth ? p->depths[k] : 0);|const double along = least + (by_depth ? p->depths[0] : 0);
 no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
-asks: a floor that is near by|fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
+asks: a floor that is near by|nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
 asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|

@@ -160,7 +160,7 @@ static void proof_read_patch(const nsvcd__facets *f, size_t i, proof_patch *out)
   for (size_t k = 0; k < 3; k++) out->centre[k] = (double)spheres[k * padded + i];
   for (size_t k = 0; k < 3; k++) out->normal[k] = (double)f->discs[k * padded + i];
   out->radius = (double)spheres[3 * padded + i];
-  const nsvcd__sphere above[2] = {nsvcd__sphere_of(nsvcd__group_spheres(f->body), i / 16),
+  const nsvcd__sphere above[2] = {nsvcd__sphere_of(nsvcd__groups_of(f->body), i / 16),
                                   nsvcd__body_sphere(f->body)};
   for (size_t n = 0; n < 2; n++) {
     const float *sphere = &above[n].centre.x;

@@ -48,18 +48,15 @@ static void body_order(void) {
     size_t groups = nsvcd__body_groups(body);
     for (size_t g = 0; g < groups; g++) {
       for (size_t i = NSVCD__GROUP * g; i < NSVCD__GROUP * (g + 1) && i < points; i++) {
-        double dx =
-            (double)nsvcd__body_patches(body).x[i] - (double)nsvcd__group_spheres(body).x[g];
-        double dy =
-            (double)nsvcd__body_patches(body).y[i] - (double)nsvcd__group_spheres(body).y[g];
-        double dz =
-            (double)nsvcd__body_patches(body).z[i] - (double)nsvcd__group_spheres(body).z[g];
+        double dx = (double)nsvcd__body_patches(body).x[i] - (double)nsvcd__groups_of(body).x[g];
+        double dy = (double)nsvcd__body_patches(body).y[i] - (double)nsvcd__groups_of(body).y[g];
+        double dz = (double)nsvcd__body_patches(body).z[i] - (double)nsvcd__groups_of(body).z[g];
         double far = sqrt(dx * dx + dy * dy + dz * dz) + (double)nsvcd__body_r(body)[i];
-        CHECK_LE(far, nsvcd__group_spheres(body).r[g]);
+        CHECK_LE(far, nsvcd__groups_of(body).r[g]);
       }
     }
     double sum = 0;
-    for (size_t g = 0; g < groups; g++) sum += (double)nsvcd__group_spheres(body).r[g];
+    for (size_t g = 0; g < groups; g++) sum += (double)nsvcd__groups_of(body).r[g];
     if (points > 256) CHECK_LE(sum / (double)groups, 0.45 * (double)body->radius);
   }
 }
@@ -116,7 +113,7 @@ static void body_malice(void) {
   memcpy(copy, body, size);  // group and bounding spheres that do not cover
   nsvcd_body *evil = (nsvcd_body *)(void *)copy;
   float *group_r =
-      (float *)(void *)(copy + ((const char *)nsvcd__group_spheres(body).r - (const char *)body));
+      (float *)(void *)(copy + ((const char *)nsvcd__groups_of(body).r - (const char *)body));
   group_r[0] *= 0.99f;
   evil->checksum = nsvcd__body_checksum(evil);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_BODY);

@@ -73,7 +73,7 @@ static void query_spheres_contain_the_mesh(void) {
       const nsvcd__f3 at = nsvcd__f3_load(mesh.positions + 3 * i);
       double nearest = HUGE_VAL;
       for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
-        const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+        const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
         const nsvcd__d3 d = nsvcd__d3_widen(nsvcd__f3_sub(at, group.centre));
         nearest = fmin(nearest, nsvcd__d3_length(d) - (double)group.radius);
       }

@@ -115,10 +115,10 @@ static void level_walks_find_all(void) {
     nsvcd__walk walk;
     nsvcd__walk_begin(&walk, body, level_touch, ball);
     for (size_t g = 0; g < nsvcd__body_groups(body); g++) {
-      const float d[3] = {nsvcd__group_spheres(body).x[g] - ball[0],
-                          nsvcd__group_spheres(body).y[g] - ball[1],
-                          nsvcd__group_spheres(body).z[g] - ball[2]};
-      const float reach = nsvcd__group_spheres(body).r[g] + ball[3];
+      const float d[3] = {nsvcd__groups_of(body).x[g] - ball[0],
+                          nsvcd__groups_of(body).y[g] - ball[1],
+                          nsvcd__groups_of(body).z[g] - ball[2]};
+      const float reach = nsvcd__groups_of(body).r[g] + ball[3];
       size_t next = 0;
       if (level_square(d) > reach * reach) continue;
       CHECK(nsvcd__walk_next(&walk, &next));

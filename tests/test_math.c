@@ -464,7 +464,7 @@ static void math_bits(void) {
       const uint64_t bits = above | (uint64_t)1 << bit;
       size_t count = 0;
       for (size_t k = 0; k < 64; k++) count += bits >> k & 1;
-      CHECK_EQ(nsvcd__lowest_bit(bits), bit);
+      CHECK_EQ(nsvcd__low_bit(bits), bit);
       CHECK_EQ(nsvcd__bit_count(bits), count);
     }
   }

@@ -112,7 +112,7 @@ static nsvcd__spheres nsvcd__body_patches(const nsvcd_body *body) {
 static nsvcd__spheres nsvcd__level_spheres(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__spheres_of(nsvcd__body_floats(body, level.first), level.slots);
 }
-static nsvcd__spheres nsvcd__group_spheres(const nsvcd_body *body) {
+static nsvcd__spheres nsvcd__groups_of(const nsvcd_body *body) {
   return nsvcd__level_spheres(body, nsvcd__level_of(body->padded, 0));
 }
 static nsvcd__sphere nsvcd__body_sphere(const nsvcd_body *body) {
@@ -325,7 +325,7 @@ static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
 // whose patches and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
-  const nsvcd__spheres groups = nsvcd__group_spheres(body);
+  const nsvcd__spheres groups = nsvcd__groups_of(body);
   for (size_t k = 1; k < nsvcd__level_count(body->padded); k++) {
     const nsvcd__level below = nsvcd__level_of(body->padded, k - 1);
     nsvcd__cover_level(body, k, nsvcd__level_spheres(body, below), below.count);

@@ -241,7 +241,7 @@ typedef struct nsvcd__slab {
 
 static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
   const size_t first = NSVCD__GROUP * g;
-  const nsvcd__spheres groups = nsvcd__group_spheres(f->body);
+  const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {

@@ -48,7 +48,7 @@ static int nsvcd__spheres_are_sound(const nsvcd_body *b) {
   if (!nsvcd__within(&b->radius, 1, NSVCD__MAX_LENGTH)) return 0;
   if (!nsvcd__within(&b->extent, 1, NSVCD__MAX_LENGTH)) return 0;
   if (b->radius < 0) return 0;
-  const nsvcd__spheres groups = nsvcd__group_spheres(b);
+  const nsvcd__spheres groups = nsvcd__groups_of(b);
   nsvcd__spheres below = groups;
   size_t members = 0;
   for (size_t k = 0; k < nsvcd__level_count(b->padded); k++) {
@@ -164,7 +164,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
     nsvcd__hulls hulls;
     nsvcd__gather_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
-    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__group_spheres(b), g);
+    const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
     if (!nsvcd__covers(over, all, hulls.count)) return 0;
   }
 
@@ -202,8 +202,7 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   if (b->size < nsvcd__areas_end(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
-  if (!nsvcd__level_covers(nsvcd__group_spheres(b), nsvcd__body_patches(b), b->patches))
-    return 0;
+  if (!nsvcd__level_covers(nsvcd__groups_of(b), nsvcd__body_patches(b), b->patches)) return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);

@@ -47,7 +47,7 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
       walk->level++;
     }
     uint32_t *left = &walk->left[walk->level];
-    const size_t found = walk->first[walk->level] + nsvcd__lowest_bit(*left);
+    const size_t found = walk->first[walk->level] + nsvcd__low_bit(*left);
     *left &= *left - 1;
     if (walk->level == 0) {
       *group = found;

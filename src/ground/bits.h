@@ -3,7 +3,7 @@
 #include "compiler.h"
 
 // Index of the lowest bit that is set, of a number that is not 0; how many are set.
-static size_t nsvcd__lowest_bit(uint64_t bits) {
+static size_t nsvcd__low_bit(uint64_t bits) {
 #if defined(__GNUC__) || defined(__clang__)
   return (size_t)__builtin_ctzll(bits);
 #else

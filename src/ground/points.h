@@ -2,6 +2,15 @@
 #pragma once
 #include "bits.h"
 
+// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
+// calls with most compilers.
+static inline double nsvcd__max(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double nsvcd__min(double a, double b) {
+  return a < b ? a : b;
+}
+
 // The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
 // on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
 // twice. Of floats a difference, and all that is built of a few of them, is as good as exact in

@@ -106,7 +106,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
     nsvcd__v_store(squares, square);
     nsvcd__v_store(cosines, nsvcd__v_mul(sign, q.w));
     for (; wide; wide &= wide - 1) {
-      const size_t l = nsvcd__lowest_bit(wide);
+      const size_t l = nsvcd__low_bit(wide);
       const float sine = sqrtf(squares[l]);
       ratios[l] = atan2f(sine, cosines[l]) / sine;
     }

@@ -119,7 +119,7 @@ static void nsvcd__add_dipoles(const nsvcd_body *body, size_t n, size_t first, s
     nsvcd__v_store(lanes + l, sum);
   }
   for (; close; close &= close - 1) {
-    const size_t member = NSVCD__GROUP * (first + nsvcd__lowest_bit(close));
+    const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));
     nsvcd__add_dipoles(body, n - 1, member, NSVCD__GROUP, point, lanes);
   }
 }

@@ -28,9 +28,9 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
     const nsvcd__d3 across = nsvcd__d3_cross(edge, ray->direction);
     const double length = nsvcd__d3_length(across);
     around[k] = nsvcd__d3_dot(across, nsvcd__d3_sub(t[k], ray->from));
-    least = fmin(least, around[k]);
-    most = fmax(most, around[k]);
-    nearest = fmin(nearest, length > 0 ? fabs(around[k]) / length : 0);
+    least = nsvcd__min(least, around[k]);
+    most = nsvcd__max(most, around[k]);
+    nearest = nsvcd__min(nearest, length > 0 ? fabs(around[k]) / length : 0);
   }
   const double slope = nsvcd__d3_dot(n, ray->direction);
   const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(t[0], ray->from));
@@ -137,7 +137,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_ray(ray, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !*unclear; patches &= patches - 1) {
-      const size_t i = NSVCD__GROUP * g + nsvcd__lowest_bit(patches);
+      const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
       const double margin = (double)f->quanta[i] + ray->margin;
       const size_t end = f->first_triangle[i + 1];
@@ -147,7 +147,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
         p->work++;
         uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
         for (; lanes; lanes &= lanes - 1) {
-          const size_t listing = n + nsvcd__lowest_bit(lanes);
+          const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
           if (!numbers.encloses) continue;
@@ -200,7 +200,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     const size_t first = NSVCD__GROUP * g;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(b), first);
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
-      const size_t i = first + nsvcd__lowest_bit(met);
+      const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
       const double limit = 2 * (double)f->quanta[i] + tolerance;
       const size_t end = f->first_triangle[i + 1];
@@ -210,7 +210,7 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
         uint32_t lanes = nsvcd__lanes_near(block, at, distance);
         for (; lanes; lanes &= lanes - 1) {
           nsvcd__d3 corners[3];
-          nsvcd__facet_triangle(f, i, n + nsvcd__lowest_bit(lanes), corners);
+          nsvcd__facet_triangle(f, i, n + nsvcd__low_bit(lanes), corners);
           if (nsvcd__nearest_of(point, corners).square <= limit * limit) return 1;
         }
       }
@@ -270,7 +270,7 @@ static int nsvcd__sticks_out(const nsvcd__facets *inner, const nsvcd__transform 
       out |= nsvcd__v_lt(nsvcd__v_mul(limit, limit), nsvcd__v3_dot(d, d)) << l;
     }
     for (; out; out &= out - 1) {
-      const size_t i = first + nsvcd__lowest_bit(out);
+      const size_t i = first + nsvcd__low_bit(out);
       if (i < inner->body->patches && inner->hull_counts[i]) return 1;
     }
   }

@@ -14,7 +14,7 @@ static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
-    longest = fmax(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
+    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
   const double length = nsvcd__d3_length(n);
   return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
 }
@@ -181,7 +181,7 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
   p->known.found = nsvcd__contact_at(p, couple, u, nearest);
   if (p->ask.measure > 0) {
     p->high = p->known.found.distance;
-    p->ask.clearance = fmax(p->low, p->high - p->ask.measure);
+    p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
     return p->ask.clearance > p->low ? NSVCD__SHRUNK : NSVCD__ANSWERED;
   }
   if (p->ask.first > 0) {
@@ -205,7 +205,7 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
   p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
   p->known.unsure = tick;
-  if (p->ask.doubts_end) p->ask.end = fmin(p->ask.end, tick);
+  if (p->ask.doubts_end) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -227,9 +227,9 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
     const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_start));
-    lowest = fmin(lowest, nsvcd__d3_dot(normal, at_end));
-    highest = fmax(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
   double off_axis = 1;
   if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
@@ -388,7 +388,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
   const double parted = distance - 2 * (couple->slack + p->given.tolerance);
-  p->ask.clearance = fmax(p->low, fmin(p->ask.clearance, parted));
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
@@ -409,7 +409,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
   int shrunk = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
-    const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+    const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
     // a doubt may be the end
     if (!(u < end)) break;
     const double middle = 0.5 * (u + end);

@@ -148,7 +148,7 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
                                   const nsvcd__v_parted *by_fixed,
                                   const nsvcd__v_parted *by_moving) {
   for (; apart; apart &= apart - 1) {
-    const size_t l = nsvcd__lowest_bit(apart);
+    const size_t l = nsvcd__low_bit(apart);
     const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
     const int is_fixed = (by_fixed->below | by_fixed->above) >> l & 1;
     for (size_t k = 0; k < NSVCD__GROUP * NSVCD__GROUP; k++) {
@@ -178,7 +178,7 @@ static inline uint32_t nsvcd__not_parted(size_t i, size_t j, const nsvcd__span *
                                          const nsvcd__v_parted *parted, uint32_t wanted) {
   const uint32_t apart = (parted->above | parted->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
-    const size_t l = nsvcd__lowest_bit(k);
+    const size_t l = nsvcd__low_bit(k);
     NSVCD__CERTIFY_DISC(i + l, j, parted, l, span);
   }
   return wanted & ~apart;
@@ -201,7 +201,7 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
   a.at_end = nsvcd__v3_set(nsvcd__mat3_apply_transpose(to, fixed.normal));
   a.scale = nsvcd__v_set(p->ask.motion->scale);
   a.span = nsvcd__v_span_set(span);
-  a.clearance = nsvcd__clearance_of(p);
+  a.clearance = nsvcd__clearance(p);
   a.reach = reach;
   a.fixed_off = nsvcd__v_off(&a, a.fixed.normal);
   NSVCD__EACH_SLICE(l) {
@@ -239,14 +239,14 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
   nsvcd__v_approach a;
   a.moving = nsvcd__v_disc_set(&own);
   a.scale = nsvcd__v_set(search->scale);
-  a.clearance = nsvcd__clearance_of(p);
+  a.clearance = nsvcd__clearance(p);
   a.reach = nsvcd__group_reach(moving, g);
   for (uint32_t waiting = search->waiting; waiting; waiting &= waiting - 1) {
-    const size_t at = nsvcd__lowest_bit(waiting);
+    const size_t at = nsvcd__low_bit(waiting);
     const size_t h = search->fixed_tile.groups[at];
     const nsvcd__disc other =
         nsvcd__disc_at(p->fixed.group_discs, nsvcd__group_slots(fixed->padded), h);
-    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__group_spheres(fixed), h);
+    const nsvcd__f3 centre = nsvcd__centre_of(nsvcd__groups_of(fixed), h);
     uint64_t *met = &nsvcd__nearby(search, next)[at];
     a.fixed = nsvcd__v_disc_set(&other);
     for (size_t first = 0; first < NSVCD__MAX_SEGMENTS; first += NSVCD__SLICE) {

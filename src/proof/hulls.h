@@ -74,8 +74,8 @@ NSVCD__INLINE nsvcd__support nsvcd__support_along(nsvcd__proof *p, nsvcd__f3 nor
   }
   const float highest = -lowest_rest;
   // Were a number not one, no lane would compare: then the last one.
-  const size_t a = nsvcd__lowest_bit(least | 0x8000);
-  const size_t b = nsvcd__lowest_bit(least_rest | 0x8000);
+  const size_t a = nsvcd__low_bit(least | 0x8000);
+  const size_t b = nsvcd__low_bit(least_rest | 0x8000);
   const int is_start = (starts >> a & 1) != 0;
   const nsvcd__f3 moving = nsvcd__lane_of(is_start ? p->hull_start : p->hull_end, a);
   const nsvcd__support out = {lowest - highest,
@@ -111,7 +111,7 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
 static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
                                                const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
-  const float slack = slacks + span->rounding + nsvcd__clearance_of(p);
+  const float slack = slacks + span->rounding + nsvcd__clearance(p);
   const float reach = nsvcd__patch_reach(&p->moving, i);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);

@@ -21,7 +21,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
-        quanta + span->rounding + nsvcd__clearance_of(p) + nsvcd__deviation(span, last, reach);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
     NSVCD__EACH_SLICE(s) {
       const nsvcd__v3 normal = nsvcd__v3_set(last);
       const uint32_t apart =
@@ -33,7 +33,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
     const nsvcd__couple couple =
-        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
@@ -49,7 +49,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const float reach = p->moving.body->extent + p->moving.quanta[i];
   const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
-                       nsvcd__clearance_of(p) + span->bulge * reach;
+                       nsvcd__clearance(p) + span->bulge * reach;
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
@@ -104,7 +104,7 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
-      const double end = fmin(ends[left - 1], nsvcd__arc_limit(p));
+      const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->span = nsvcd__span_of_arc(p, first, u, end);
       if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
@@ -167,7 +167,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     below->key = (uint32_t)j;
     below->height = p->fixed.slacks[j] * length - highest;
   }
-  if (!(above->height > below->height + nsvcd__clearance_of(p) * length)) return 0;
+  if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
   nsvcd__certify_item(p, span, item);
   return 1;
 }

@@ -83,8 +83,8 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
     for (size_t k = 0; k < p->normal_count; k++) {
       const double along = least + (by_depth ? p->depths[k] : 0);
       const double lacks = along - nsvcd__d3_dot(lift, p->normals[k]);
-      longest = fmax(longest, along);
-      most = fmax(most, lacks);
+      longest = nsvcd__max(longest, along);
+      most = nsvcd__max(most, lacks);
       if (lacks > 0) lift = nsvcd__d3_add(lift, nsvcd__d3_scale(p->normals[k], lacks));
     }
     if (nsvcd__d3_length(lift) > 4 * longest) break;
@@ -109,7 +109,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   still->lift = nsvcd__f3_of(0, 0, 0);
   // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
   // touch afterwards
-  double beside = fmax(0.05 * p->ask.skin, fmin(p->given.to, 0.5 * p->ask.skin));
+  double beside = nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
@@ -134,7 +134,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
   for (size_t k = 0; k < p->normal_count; k++) {
     const double way = nsvcd__lift_along(p->normals[k], t);
     if (way < least) best = k;
-    least = fmin(least, way);
+    least = nsvcd__min(least, way);
   }
   return best;
 }

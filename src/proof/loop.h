@@ -26,7 +26,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
   const float *own = nsvcd__body_r(moving) + NSVCD__GROUP * g;
   *left &= nsvcd__segments_that_matter(p, search);
   for (; *left && p->fresh_count + NSVCD__GROUP <= NSVCD__FRESH; *left &= *left - 1) {
-    const size_t s = nsvcd__lowest_bit(*left);
+    const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &search->members[s];
     float squares[NSVCD__LANES];
     float share[NSVCD__LANES];
@@ -49,7 +49,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     const nsvcd__span *span = nsvcd__segment_span(p, search, s);
     met = nsvcd__discs_meet(p, c, g, j, span, search->remote, met);
     for (; met; met &= met - 1) {
-      const size_t l = nsvcd__lowest_bit(met);
+      const size_t l = nsvcd__low_bit(met);
       const size_t i = NSVCD__GROUP * g + l;
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
@@ -80,13 +80,13 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
     nsvcd__search_group(search);
     nsvcd__part_groups(p, search);
     for (; search->waiting; search->waiting &= search->waiting - 1) {
-      const size_t at = nsvcd__lowest_bit(search->waiting);
+      const size_t at = nsvcd__low_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
       const uint64_t wanted =
           nsvcd__nearby(search, next)[at] & nsvcd__segments_that_matter(p, search);
       uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);
       for (; met; met &= met - 1) {
-        const size_t l = nsvcd__lowest_bit(met);
+        const size_t l = nsvcd__low_bit(met);
         uint64_t *left = &p->met_in[l];
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {

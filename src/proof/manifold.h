@@ -119,7 +119,7 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
     const nsvcd__d3 c = m->supports[of[1 + (k + 1) % 3]].point;
     const nsvcd__d3 d = m->supports[of[1 + (k + 2) % 3]].point;
     const nsvcd__d3 both = nsvcd__d3_cross(nsvcd__d3_sub(b, a), nsvcd__d3_sub(d, c));
-    most = fmax(most, fabs(nsvcd__d3_dot(both, m->normal)));
+    most = nsvcd__max(most, fabs(nsvcd__d3_dot(both, m->normal)));
   }
   return most;
 }

@@ -104,7 +104,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double angle = nsvcd__d3_length(fixed_turn);
     const double swing_from = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->from));
     const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
-    const double swing = fmax(swing_from, swing_to);
+    const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
     arc->has_axis = !(angle > 0);
     arc->turn = nsvcd__d3_length(turn);

@@ -430,14 +430,14 @@ static int nsvcd__is_spent(nsvcd__proof *p) {
   if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
       p->known.unsure < NSVCD__NEVER) {
     ask->doubts_end = 1;
-    ask->end = fmin(ask->end, p->known.unsure);
+    ask->end = nsvcd__min(ask->end, p->known.unsure);
     ask->limit = nsvcd__limit_of_first(p);
   }
   return p->work > ask->limit;
 }
 
 // The clearance, in float: not less.
-static float nsvcd__clearance_of(const nsvcd__proof *p) {
+static float nsvcd__clearance(const nsvcd__proof *p) {
   return 1.000001f * (float)p->ask.clearance;
 }
 

@@ -43,7 +43,8 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
                                               size_t s) {
   if (!(p->memo.spans >> s & 1)) {
     p->spans[s] = nsvcd__span_of_segment(p->ask.motion, search, s);
-    p->spans[s].t_end = fmin(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
+    p->spans[s].t_end =
+        nsvcd__min(p->spans[s].t_end, nsvcd__time_of(p->ask.motion, p->ask.end));
   }
   p->memo.spans |= (uint64_t)1 << s;
   return &p->spans[s];

@@ -15,8 +15,8 @@ static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
-  return fmin(fmin(p->ask.end, p->known.unsure),
-              p->known.lost ? p->known.settled : NSVCD__NEVER);
+  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure),
+                    p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
 // Makes a proof forget all that it knew of a motion.
@@ -34,7 +34,7 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
 // Searches a motion whose segments have been chosen, and settles what is found.
 static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
                                                        nsvcd__search *search) {
-  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance_of(p), search);
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
   p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
   p->known.lost = outcome == NSVCD__SPENT;
@@ -141,7 +141,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
   const int in_order = p->ask.share > 0;
   const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance_of(p) + 1.0001f * lifted;
+  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   p->ask.limit = p->given.work;
   p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
@@ -212,7 +212,7 @@ static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
     const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
     const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
     if (square < least) nearest = at;
-    least = fmin(least, square);
+    least = nsvcd__min(least, square);
   }
   return nearest;
 }
@@ -266,7 +266,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
-  p->ask.clearance = is_named ? fmax(p->low, p->high - p->ask.measure) : p->high;
+  p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
@@ -285,7 +285,7 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(p->ask.motion->lift);
   const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = fmax(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
   nsvcd__choose_segments(p->ask.motion, search);
   p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
   if (is_named && !(p->high - p->low > finest)) return;
@@ -294,7 +294,7 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
   for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
-    p->ask.measure = fmax(finest, p->ask.measure / NSVCD__FINER);
+    p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
     p->wide = nsvcd__measure_once(p, search);
   }
 }

@@ -11,8 +11,8 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    lowest = fmin(lowest, nsvcd__d3_dot(n, t->moving[k]));
-    highest = fmax(highest, nsvcd__d3_dot(n, t->fixed[k]));
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, t->moving[k]));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(n, t->fixed[k]));
   }
   return highest - lowest;
 }
@@ -99,10 +99,10 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const nsvcd__d3 n = p->normals[k];
   const double lifted = nsvcd__d3_dot(nsvcd__d3_widen(p->ask.motion->lift), n);
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
-  p->needed = fmax(p->needed, lifted + most);
+  p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
   const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
-  p->depths[k] = fmax(p->depths[k], depth);
+  p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
 // Does normal k undo a touch? How far it has to is remembered.
@@ -141,13 +141,13 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   const double clearance = p->ask.clearance;
   uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
   for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__lowest_bit(lanes);
+    const size_t l = nsvcd__low_bit(lanes);
     p->work++;
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
       const size_t listing = p->moving_block.first + l;
       const nsvcd__couple couple =
-          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__lowest_bit(met));
+          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
       nsvcd__place_triangle(at, couple.moving, posed);
@@ -191,7 +191,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
-  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance_of(p);
+  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance(p);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -229,7 +229,7 @@ static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *sh
 static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
                                        nsvcd__item *item) {
   const double start = (double)search->begin[item->segment];
-  const double end = fmin((double)search->begin[item->segment + 1u], p->clipped_end);
+  const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
   const double tick = start + (double)item->share * (end - start);
   double u;
   item->sought = 1;

@@ -100,7 +100,7 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   nsvcd__v_store(least, intervals->least);
   nsvcd__v_store(depth, nsvcd__v_sub(one, share));
   for (; lanes; lanes &= lanes - 1) {
-    const size_t l = nsvcd__lowest_bit(lanes);
+    const size_t l = nsvcd__low_bit(lanes);
     nsvcd__candidate candidate;
     candidate.moving = (uint16_t)(i + l);
     candidate.fixed = (uint16_t)j;
@@ -127,7 +127,7 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint
   size_t oldest = 0;
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
@@ -152,7 +152,7 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
   const size_t l = i % NSVCD__GROUP;
   nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
     const nsvcd__v3 way = nsvcd__chords_way(c, l);
     const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__chords_start(c, l), centre);

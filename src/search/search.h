@@ -12,7 +12,7 @@ static void nsvcd__chords_in_all(nsvcd__search *search, nsvcd__sphere sphere) {
 }
 
 static void nsvcd__chords_of_group(nsvcd__search *search, size_t g) {
-  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__group_spheres(search->moving), g));
+  nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(search->moving), g));
 }
 
 // Chords of 16 spheres of the moving body in segment s. remote: as nsvcd__chords_of_members has it.
@@ -37,7 +37,7 @@ static void nsvcd__boxes_of_groups(const nsvcd__search *search, size_t first, ui
     out->high[n / NSVCD__LANES][n % NSVCD__LANES] = NSVCD__NOWHERE;
   }
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     nsvcd__chords_in_segment(search, s, groups, search->moving->extent, c);
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v nowhere = nsvcd__v_set(NSVCD__NOWHERE);
@@ -101,7 +101,7 @@ static void nsvcd__search_tile(nsvcd__search *search, uint64_t wanted) {
     nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
     memset(nearby, 0, tile->count * sizeof *nearby);
     for (; groups; groups &= groups - 1) {
-      const size_t h = nsvcd__lowest_bit(groups);
+      const size_t h = nsvcd__low_bit(groups);
       const nsvcd__sphere resting = nsvcd__sphere_of(tile->spheres, h);
       nearby[h] = nsvcd__meet_in(search->group, nsvcd__all_segments(search), resting);
       count += nsvcd__bit_count(nearby[h]);
@@ -134,7 +134,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
     tile->gathered[n] = n < 3 * NSVCD__TILE_SLOTS ? 0 : NSVCD__NOWHERE;
   tile->count = 0;
   while (tile->count < NSVCD__TILE && nsvcd__walk_next(walk, &g)) {
-    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(walk->body), g);
+    const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(walk->body), g);
     nsvcd__sphere_store(group, tile->gathered, NSVCD__TILE_SLOTS, tile->count);
     tile->groups[tile->count++] = (uint16_t)g;
   }
@@ -144,7 +144,7 @@ static void nsvcd__tile_fill(nsvcd__tile *tile, nsvcd__walk *walk) {
 static void nsvcd__tile_fill_all(nsvcd__tile *tile, const nsvcd_body *body) {
   tile->count = nsvcd__body_groups(body);
   for (size_t g = 0; g < tile->count; g++) tile->groups[g] = (uint16_t)g;
-  tile->spheres = nsvcd__group_spheres(body);
+  tile->spheres = nsvcd__groups_of(body);
 }
 
 // ---- filters of a walk, which are given the search
@@ -164,7 +164,7 @@ static uint32_t nsvcd__comes_near(const void *what, nsvcd__spheres all) {
   nsvcd__chords *chords = nsvcd__spare_chords(search);
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     nsvcd__chords_in_segment(search, s, all, search->moving->extent, chords);
     met |= nsvcd__meet(chords, fixed);
   }
@@ -178,7 +178,7 @@ static uint32_t nsvcd__is_approached(const void *what, nsvcd__spheres all) {
   uint32_t met = 0;
   for (uint64_t wanted = search->near_segments; wanted && nearby & ~met;
        wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     met |= nearby & nsvcd__meet_members(chords, s % NSVCD__LANES, all);
   }
@@ -202,7 +202,7 @@ static void nsvcd__search_moving_tile(nsvcd__search *search) {
   if (search->moving_tile.count == 0) return;
   nsvcd__chords_of_tile(search);
   for (uint64_t left = search->near_segments; left; left &= left - 1) {
-    const size_t s = nsvcd__lowest_bit(left);
+    const size_t s = nsvcd__low_bit(left);
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     const size_t l = s % NSVCD__LANES;
     const nsvcd__f3 start = nsvcd__f3_get(c->start[0] + l, NSVCD__LANES);
@@ -264,7 +264,7 @@ static int nsvcd__search_begin(const nsvcd_body *moving, const nsvcd_body *fixed
 
 // No point of a group is farther from its body's origin; in the body's own units.
 static float nsvcd__group_reach(const nsvcd_body *body, size_t g) {
-  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__group_spheres(body), g);
+  const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(body), g);
   return 1.000002f * (nsvcd__f3_length(group.centre) + group.radius);
 }
 
@@ -275,7 +275,7 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * g);
   search->remote = nsvcd__group_reach(search->moving, g);
   for (uint64_t missing = wanted & ~search->posed; missing; missing &= missing - 1) {
-    const size_t s = nsvcd__lowest_bit(missing);
+    const size_t s = nsvcd__low_bit(missing);
     nsvcd__chords_in_segment(search, s, members, search->remote, &search->members[s]);
   }
   search->posed |= wanted;
@@ -289,11 +289,11 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
   uint32_t met = 0;
   for (; wanted; wanted &= wanted - 1) {
-    const size_t s = nsvcd__lowest_bit(wanted);
+    const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
     uint32_t bits = nsvcd__meet_members(chords, s % NSVCD__LANES, members);
     for (; bits; bits &= bits - 1) {
-      const size_t l = nsvcd__lowest_bit(bits);
+      const size_t l = nsvcd__low_bit(bits);
       segments[l] = (met >> l & 1 ? segments[l] : 0) | (uint64_t)1 << s;
       met |= 1u << l;
     }
@@ -328,7 +328,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   uint64_t segments[NSVCD__GROUP];
   size_t at;
   if (search->waiting)
-    at = nsvcd__lowest_bit(search->waiting);
+    at = nsvcd__low_bit(search->waiting);
   else
     at = nsvcd__search_group(search);
   const size_t next = search->order[search->step];
@@ -337,7 +337,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   const uint64_t wanted = nsvcd__nearby(search, next)[at];
   uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
   for (; met; met &= met - 1) {
-    const size_t l = nsvcd__lowest_bit(met);
+    const size_t l = nsvcd__low_bit(met);
     nsvcd__pose_members(search, g, segments[l]);
     nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
   }

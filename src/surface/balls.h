@@ -116,7 +116,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
     for (size_t i = 0; i < points.count; i++) {
       const double square = nsvcd__d3_distance2(points.at[i], ball.centre);
       if (square > most) farthest = i;
-      most = fmax(most, square);
+      most = nsvcd__max(most, square);
     }
     if (most <= ball.squared * (1 + 1e-9)) break;
     border.points[border.count++] = points.at[farthest];

@@ -116,7 +116,7 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
   double squared = 0;
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);
-    squared = fmax(squared, nsvcd__d3_dot(moment, moment));
+    squared = nsvcd__max(squared, nsvcd__d3_dot(moment, moment));
   }
   const double across = sqrt(squared / nsvcd__d3_dot(stored, stored));
   nsvcd__disc disc;

@@ -88,7 +88,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
     if (distance > most) next = i;
-    most = fmax(most, distance);
+    most = nsvcd__max(most, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
@@ -102,7 +102,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
     for (size_t k = 0; k < points.count; k++) {
       const size_t i = (first + k) % points.count;
       if (bounds[i] <= *farthest) continue;
-      bounds[i] = fmin(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
+      bounds[i] = nsvcd__min(bounds[i], nsvcd__hull_distance(hull, points.at[i], *farthest));
       if (bounds[i] <= *farthest) continue;
       *farthest = bounds[i];
       next = i;

@@ -208,7 +208,7 @@ static double nsvcd__convex_reach(const nsvcd__pieces *pieces, const nsvcd__conv
   double squared = 0;
   for (size_t i = 0; i < convex->count; i++) {
     const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
-    squared = fmax(squared, nsvcd__d3_distance2(at, from));
+    squared = nsvcd__max(squared, nsvcd__d3_distance2(at, from));
   }
   return sqrt(squared);
 }
@@ -235,7 +235,7 @@ static int nsvcd__trim(nsvcd__pieces *pieces, uint32_t patch, nsvcd__convex *con
       const nsvcd__d3 at = nsvcd__point_at(pieces, convex->points[i]);
       const double height = nsvcd__d3_dot(nsvcd__d3_sub(at, middle), across);
       beyond[i] = length > 0 ? height / length : -1;
-      most = fmax(most, beyond[i]);
+      most = nsvcd__max(most, beyond[i]);
     }
     if (most <= pieces->overlap) continue;
     nsvcd__list *points = &pieces->points;
@@ -259,7 +259,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 a = nsvcd__point_at(pieces, corners[k]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, corners[(k + 1) % 3]);
-    squared = fmax(squared, nsvcd__d3_distance2(a, b));
+    squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
     pieces->waiting[0].points[k] = corners[k];
   }
   piece.parted = sqrt(squared) > pieces->longest_edge;
