@@ -2865,7 +2865,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
   const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
-  sum->squared_reach = fmax(sum->squared_reach, square);
+  sum->squared_reach = nsvcd__max(sum->squared_reach, square);
 }
 
 // Root, rounded up: a radius may be too large by a rounding, never too small.
@@ -2946,9 +2946,9 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
     const size_t k = nsvcd__edge_squares(&triangle, e);
-    longest = fmax(longest, e[k]);
+    longest = nsvcd__max(longest, e[k]);
   }
-  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
+  for (limit = nsvcd__max(limit, sqrt(longest) / most);; limit *= 2) {
     *pieces = 0;
     for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; t++) {
       const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
@@ -4241,17 +4241,22 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
-// one that is farthest from it. points: about the ball's centre. bounds: working memory, one a
-// point: their distances found before. A point that was near enough stays so, for the hull only
-// grows. Writes the numbers of those chosen, and the distance of the farthest point; returns how
-// many they are.
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: all, if they
+// are not more, or else always the one that is farthest from it. points: about the ball's centre.
+// bounds: working memory, one a point: their distances found before. A point that was near enough
+// stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
+// farthest point; returns how many they are.
 static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
                                  size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
   double most = 0;
+  *farthest = 0;
+  if (points.count <= NSVCD__HULL) {
+    for (size_t i = 0; i < points.count; i++) chosen[i] = i;
+    return points.count;
+  }
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
@@ -4409,7 +4414,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   const nsvcd__points about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball->centre));
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
-    radius = fmax(radius, nsvcd__d3_length(about.at[j]));
+    radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
   s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
 
@@ -4463,7 +4468,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
   double greatest = NSVCD__SURFACE_TINY;
   for (size_t j = 0; j < points.count; j++) {
     for (size_t k = 0; k < 3; k++)
-      greatest = fmax(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
+      greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
   }
   s->steps[to] = nsvcd__float_above(greatest / 32767);
   const double metres = (double)s->steps[to];
@@ -4474,11 +4479,11 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     nsvcd__d3 stored = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
       const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
-      const double integer = fmin(fmax(nearest, -32767), 32767);
+      const double integer = nsvcd__min(nsvcd__max(nearest, -32767), 32767);
       vertices[k * points.count + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&stored, k, metres * integer);
     }
-    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
+    worst = nsvcd__max(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
     if (j < hull_count) worst_of_hull = worst;
   }
   s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
@@ -5578,9 +5583,9 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
       const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
-      slab.low = fmin(slab.low, height - slack);
-      slab.high = fmax(slab.high, height + slack);
-      slab.across = fmax(slab.across, sqrt(square > 0 ? square : 0) + slack);
+      slab.low = nsvcd__min(slab.low, height - slack);
+      slab.high = nsvcd__max(slab.high, height + slack);
+      slab.across = nsvcd__max(slab.across, sqrt(square > 0 ? square : 0) + slack);
     }
   }
   return slab;

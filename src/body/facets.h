@@ -254,9 +254,9 @@ static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd_
       const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
       const double square = nsvcd__d3_dot(v, v) - height * height;
-      slab.low = fmin(slab.low, height - slack);
-      slab.high = fmax(slab.high, height + slack);
-      slab.across = fmax(slab.across, sqrt(square > 0 ? square : 0) + slack);
+      slab.low = nsvcd__min(slab.low, height - slack);
+      slab.high = nsvcd__max(slab.high, height + slack);
+      slab.across = nsvcd__max(slab.across, sqrt(square > 0 ? square : 0) + slack);
     }
   }
   return slab;

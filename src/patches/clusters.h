@@ -147,7 +147,7 @@ static void nsvcd__move_centres(nsvcd__patches *p) {
 static void nsvcd__reach_to(nsvcd__patches *p, size_t patch, nsvcd__d3 at) {
   nsvcd__patch_sum *sum = &p->sums[patch];
   const double square = nsvcd__d3_distance2(at, nsvcd__d3_widen(p->centres[patch]));
-  sum->squared_reach = fmax(sum->squared_reach, square);
+  sum->squared_reach = nsvcd__max(sum->squared_reach, square);
 }
 
 // Root, rounded up: a radius may be too large by a rounding, never too small.

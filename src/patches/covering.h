@@ -49,9 +49,9 @@ static double nsvcd__raise_limit(const nsvcd_mesh *mesh, double limit, double mo
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);
     const size_t k = nsvcd__edge_squares(&triangle, e);
-    longest = fmax(longest, e[k]);
+    longest = nsvcd__max(longest, e[k]);
   }
-  for (limit = fmax(limit, sqrt(longest) / most);; limit *= 2) {
+  for (limit = nsvcd__max(limit, sqrt(longest) / most);; limit *= 2) {
     *pieces = 0;
     for (size_t t = 0; t < mesh->triangle_count && *pieces <= most; t++) {
       const nsvcd__triangle triangle = nsvcd__triangle_of(mesh, t);

@@ -73,17 +73,22 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: always the
-// one that is farthest from it. points: about the ball's centre. bounds: working memory, one a
-// point: their distances found before. A point that was near enough stays so, for the hull only
-// grows. Writes the numbers of those chosen, and the distance of the farthest point; returns how
-// many they are.
+// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: all, if they
+// are not more, or else always the one that is farthest from it. points: about the ball's centre.
+// bounds: working memory, one a point: their distances found before. A point that was near enough
+// stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
+// farthest point; returns how many they are.
 static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
                                  size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
   double most = 0;
+  *farthest = 0;
+  if (points.count <= NSVCD__HULL) {
+    for (size_t i = 0; i < points.count; i++) chosen[i] = i;
+    return points.count;
+  }
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);

@@ -131,7 +131,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   const nsvcd__points about = nsvcd__place_points(sorted, nsvcd__d3_widen(ball->centre));
   double radius = 0;
   for (size_t j = 0; j < about.count; j++)
-    radius = fmax(radius, nsvcd__d3_length(about.at[j]));
+    radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
   s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
 
@@ -185,7 +185,7 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
   double greatest = NSVCD__SURFACE_TINY;
   for (size_t j = 0; j < points.count; j++) {
     for (size_t k = 0; k < 3; k++)
-      greatest = fmax(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
+      greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
   }
   s->steps[to] = nsvcd__float_above(greatest / 32767);
   const double metres = (double)s->steps[to];
@@ -196,11 +196,11 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     nsvcd__d3 stored = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
       const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
-      const double integer = fmin(fmax(nearest, -32767), 32767);
+      const double integer = nsvcd__min(nsvcd__max(nearest, -32767), 32767);
       vertices[k * points.count + j] = (int16_t)integer;
       nsvcd__d3_set_axis(&stored, k, metres * integer);
     }
-    worst = fmax(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
+    worst = nsvcd__max(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
     if (j < hull_count) worst_of_hull = worst;
   }
   s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
