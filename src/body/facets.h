@@ -336,13 +336,14 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
 static void nsvcd__facets_finish(nsvcd_body *b) {
   const nsvcd__facets f = nsvcd__facets_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
-  nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);  // and the padding
   float *out = (float *)(b + 1) + groups.first;
-  for (size_t g = 0; g < groups.count; g++) {
+  for (size_t g = 0; g < groups.slots; g++) {
+    nsvcd__sphere over = {{0, 0, 0}, NSVCD__NOWHERE};
     nsvcd__hulls hulls;
-    nsvcd__gather_hulls(&f, g, &hulls);
-    const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
-    const nsvcd__sphere over = nsvcd__cover_spheres(all, hulls.count);
+    if (g < groups.count) {
+      nsvcd__gather_hulls(&f, g, &hulls);
+      over = nsvcd__cover_spheres(nsvcd__hull_spheres(&hulls), hulls.count);
+    }
     nsvcd__sphere_store(over, out, groups.slots, g);
   }
   nsvcd__body_finish(b);

@@ -147,7 +147,7 @@ static int leaf_is_clear(const tree_body *b, const tree_leaf *leaf, nsvcd__d3 pl
   for (; left; left &= left - 1) {
     nsvcd__d3 corners[3];
     leaf_triangle(b, leaf, lowest_bit(left), corners);
-    const nsvcd__nearest nearest = nsvcd__triangles_nearest(point, corners);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(point, corners);
     if (!(nearest.square > (double)distance * (double)distance))
       return 0;
   }

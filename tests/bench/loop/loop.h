@@ -186,7 +186,7 @@ static int couple_meets(loop *p, const couple *c, const nsvcd__placement *at, do
     return take_contact(p, c, time);
   if (!(p->clearance > 0))
     return 0;
-  const double square = nsvcd__triangles_nearest(posed, c->b).square;
+  const double square = nsvcd__nearest_of(posed, c->b).square;
   return square <= p->clearance * p->clearance && take_contact(p, c, time);
 }
 
@@ -276,7 +276,7 @@ static int settle_couple(loop *p, const work_item *item) {
   const nsvcd__placement middle = middle_pose(p, s, &time);
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(&middle, c.a, posed);
-  const nsvcd__nearest nearest = nsvcd__triangles_nearest(posed, c.b);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, c.b);
   const double distance = sqrt(nearest.square);
   if (distance <= p->clearance + c.rounding && time < p->end)
     return take_contact(p, &c, time);
