@@ -1,4 +1,4 @@
-// neuralsvcd.h - v0.2.0 - does this body, moving along this trajectory, hit that body?
+// neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
 // surfaces never do, at any time, rotation included. Where memory is short, or a gradient is
@@ -259,9 +259,9 @@
 // In: what is defined before the header. Out: what follows from it, and how functions are declared.
 
 // as the first line says; before 1.0 a minor version may change what a program sees
-#define NSVCD_VERSION "0.2.0"
+#define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
-#define NSVCD_VERSION_MINOR 2
+#define NSVCD_VERSION_MINOR 3
 #define NSVCD_VERSION_PATCH 0
 
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
@@ -435,7 +435,7 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
-// A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
+// A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
 // fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
@@ -473,12 +473,10 @@ typedef struct nsvcd_encode_options {
   float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
+  // 1: for the network too, of which the proof needs nothing: 40 bytes more a patch, and time
+  int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;
-  // 1: for the proof alone
-  int no_latents;
-  // 1: for the network too, also of more than NSVCD_SMALL_PATCHES patches. Not with no_latents
-  int latents;
   // NULL, or told how much is done
   nsvcd_progress *progress;
   // handed to progress
@@ -500,7 +498,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
 // few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
-//   options    NULL: the defaults, triangles for the proof and latents for the network
+//   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
 //   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
 //              from the allocator, and nsvcd_body_free gives it back
@@ -675,11 +673,14 @@ typedef struct nsvcd_network_options {
 typedef struct nsvcd_mover {
   // from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
   const nsvcd_body *body;
-  // (count), uniform in t in [0,1]; in between, position linear and rotation slerp. One pose: it
-  // rests there. NULL, and count 0: it rests at the origin
+  // (count) poses; in between, position linear and rotation slerp. One: it rests there. NULL, and
+  // count 0: it rests at the origin
   const nsvcd_pose *poses;
   // up to NSVCD_MAX_POSES
   size_t count;
+  // (count) when it is at each, from 0 to 1, each later than the one before by 1e-7 or more;
+  // rounded to 2^-32. NULL: uniform
+  const float *times;
   // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
   float scale;
 } nsvcd_mover;
@@ -1016,7 +1017,7 @@ typedef struct nsvcd_plan_problem {
   const float *low, *high;
   // (F)
   const float *start, *goal;
-  // (B), up to 65536; ones in no pair may be NULL
+  // (B), up to 65536, with latents; ones in no pair may be NULL
   const nsvcd_body *const *bodies;
   size_t body_count;
   // (P)
@@ -6415,20 +6416,17 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 
 // Checks mesh and options, and fills in the defaults.
 static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
-  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
 #endif
+  if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
-  o->no_latents = 1;
+  if (o->latents) return NSVCD_ERROR_ARGUMENT;
 #endif
-  // nothing would be left
-  if (o->no_triangles && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0 && (o->latents || o->no_triangles)) return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0) o->no_latents = 1;
+  if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
@@ -6440,8 +6438,6 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #endif
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
-  const int any = o->no_triangles || o->patches <= NSVCD_SMALL_PATCHES || o->latents;
-  o->latents = any && !o->no_latents;
   return NSVCD_OK;
 }
 
@@ -6495,7 +6491,6 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  options.no_latents = 1;
   return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
 }
 
@@ -7010,26 +7005,56 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
 // ======================================================================== motion: where bodies are
 
 // ----------------------------------------------------------------------------------- motion/motion
-// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
-// position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
-// *moving*, in the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame
-// it is, in units of its scale, so that its stored numbers need no change. A point x of the moving
-// body is at scale R x + p there. Positions are subtracted in the world first, so a scene far from
-// the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding
-// picks one.
+// In: two movers: bodies, their scales, and their poses, t in [0,1]; between poses the position is
+// linear and the rotation a slerp on the shorter arc. Out: the pose of one of them, *moving*, in
+// the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame it is, in
+// units of its scale, so that its stored numbers need no change. A point x of the moving body is at
+// scale R x + p there. Positions are subtracted in the world first, so a scene far from the origin
+// loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
 //
 // Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
-// two of its poses: the least common multiple. A *knot* is a tick at which a pose of either is.
-// Between two knots both motions are smooth.
+// two of its poses: the least common multiple. Where poses have times of their own, 2^31 or more,
+// and each of these is at the nearest. A *knot* is a tick at which a pose of either is. Between two
+// knots both motions are smooth.
 
 // The poses of one body.
 typedef struct nsvcd__track {
   // (count), the caller's
   const nsvcd_pose *poses;
+  // (count), the caller's, where there are two poses or more; NULL: uniform
+  const float *times;
   size_t count;
-  // from a pose to the next; all of them where there is one pose
+  // from a pose to the next; all of them where there is one pose; 0 where there are times
   uint32_t ticks;
+  // of the motion, where there are times
+  uint32_t whole;
 } nsvcd__track;
+
+// The tick at which a track's pose k is.
+static uint32_t nsvcd__tick_of(const nsvcd__track *track, uint32_t k) {
+  if (!track->times) return k * track->ticks;
+  return (uint32_t)((double)track->times[k] * (double)track->whole + 0.5);
+}
+
+// The last pose of a track that is not after a tick, or, at the end of several, the last but one.
+static uint32_t nsvcd__pose_before(const nsvcd__track *track, uint32_t tick) {
+  if (track->count == 1) return 0;
+  const uint32_t last = (uint32_t)(track->count - 2);
+  if (!track->times) {
+    const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
+    return k < last ? k : last;
+  }
+  uint32_t low = 0;
+  uint32_t high = last;
+  while (low < high) {
+    const uint32_t middle = (low + high + 1) / 2;
+    if (nsvcd__tick_of(track, middle) <= tick)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
@@ -7073,6 +7098,17 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
   return shortest >= 0.9998f && longest <= 1.0002f;
 }
 
+// Do they rise from 0 to 1, or are there none?
+static int nsvcd__times_are_valid(const float *times, size_t count) {
+  if (!times || count == 1) return 1;
+  int rise =
+      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  // what is not a number does not rise
+  for (size_t k = 1; k < count; k++)
+    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
+  return rise;
+}
+
 // What a mover that is at rest at the origin is given.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
@@ -7097,17 +7133,19 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   }
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
   if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
   return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
-  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
-                        nsvcd__pose_count(mover), 0};
+  const size_t count = nsvcd__pose_count(mover);
+  const nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
+                              count > 1 ? mover->times : NULL, count, 0, 0};
   return track;
 }
 
-// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which
-// 32 bits hold, for parts is 1 but where knots are few.
+// The motion's ticks as if all poses were uniform, `parts` times as many as its knots need. No more
+// than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where knots are few.
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
@@ -7120,6 +7158,41 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->ticks = a / divisor * b * parts;
   motion->moving.ticks = motion->ticks / a;
   motion->fixed.ticks = motion->ticks / b;
+}
+
+// The ticks of a motion of which poses have times: the poses of a uniform body times a power of
+// two, so that these, and times of few bits, are at ticks.
+static void nsvcd__motion_set_times(nsvcd__motion *motion) {
+  nsvcd__track *tracks[2] = {&motion->moving, &motion->fixed};
+  uint32_t arcs = 1;
+  if (!motion->moving.times && !motion->fixed.times) return;
+  for (size_t n = 0; n < 2; n++) {
+    if (!tracks[n]->times && tracks[n]->count > 1) arcs = (uint32_t)(tracks[n]->count - 1);
+  }
+  motion->ticks = arcs;
+  while (motion->ticks < 0x80000000u) motion->ticks *= 2;
+  for (size_t n = 0; n < 2; n++) {
+    tracks[n]->whole = motion->ticks;
+    tracks[n]->ticks = tracks[n]->times       ? 0
+                       : tracks[n]->count > 1 ? motion->ticks / arcs
+                                              : motion->ticks;
+  }
+}
+
+// Where poses have times, segments begin where they would if these were uniform: what counts is how
+// far bodies go in one. The uniform ticks in begin (S + 1) become the motion's.
+static void nsvcd__motion_retime(nsvcd__motion *motion, uint32_t *begin, size_t segments) {
+  const nsvcd__track *track = motion->moving.times ? &motion->moving : &motion->fixed;
+  if (!track->times) return;
+  const uint32_t each = track->ticks;
+  nsvcd__motion_set_times(motion);
+  for (size_t s = 0; s < segments; s++) {
+    const uint32_t k = begin[s] / each;
+    const uint32_t from = nsvcd__tick_of(track, k);
+    const uint64_t length = nsvcd__tick_of(track, k + 1) - from;
+    begin[s] = from + (uint32_t)(length * (begin[s] - k * each) / each);
+  }
+  begin[segments] = motion->ticks;
 }
 
 // The box of a track's positions.
@@ -7141,6 +7214,7 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
   motion->fixed = fixed;
   motion->fixed_moves = motion->fixed.count > 1;
   nsvcd__motion_set_ticks(motion, 1);
+  nsvcd__motion_set_times(motion);
 
   const nsvcd_pose *first = motion->fixed.poses;
   const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
@@ -7205,20 +7279,25 @@ static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const ns
 
 // A track's pose at a tick.
 static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t tick) {
-  const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
-  const uint32_t past = tick - k * track->ticks;
-  const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
-  if (past == 0 || track->count == 1) return nsvcd__world_pose_of(a);
-  return nsvcd__world_pose_between(a, a + 1, (double)past / (double)track->ticks);
+  const uint32_t k = nsvcd__pose_before(track, tick);
+  const nsvcd_pose *a = &track->poses[k];
+  const uint32_t from = nsvcd__tick_of(track, k);
+  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a);
+  const uint32_t to = nsvcd__tick_of(track, k + 1);
+  if (tick == to) return nsvcd__world_pose_of(a + 1);
+  return nsvcd__world_pose_between(a, a + 1, (double)(tick - from) / (double)(to - from));
+}
+
+// The tick of a track's next pose after a tick that is not the last.
+static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
+  return nsvcd__tick_of(track, nsvcd__pose_before(track, tick) + 1);
 }
 
 // The knot after a tick.
 static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
-  const uint32_t a = motion->moving.ticks;
-  const uint32_t b = motion->fixed.ticks;
-  if (a == 1 || b == 1) return tick + 1;
-  const uint32_t after_a = (tick / a + 1) * a;
-  const uint32_t after_b = (tick / b + 1) * b;
+  if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
+  const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
+  const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
   return after_a < after_b ? after_a : after_b;
 }
 
@@ -7258,14 +7337,29 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
 }
 
 #ifndef NSVCD_NO_NETWORK
-// A track's pose at time t in [0,1].
-static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+// The pose of a track that moves before time t in [0,1], and the share of the way to the next. A
+// uniform one is not taken to ticks: derivatives by t need what floats resolve.
+static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *share) {
+  if (track->times) {
+    const double tick = (double)t * (double)track->whole;
+    const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
+    const float from = track->times[k];
+    *share = (t - from) / (track->times[k + 1] - from);
+    return k;
+  }
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  const double share = (double)(at - (float)k);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], share);
+  *share = at - (float)k;
+  return k;
+}
+
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  float share;
+  const size_t k = nsvcd__pose_at(track, t, &share);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)share);
 }
 
 // The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
@@ -7907,16 +8001,18 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   const uint32_t segments = (uint32_t)search->segments;
   const uint32_t each = motion->ticks / segments;
   const uint32_t over = motion->ticks % segments;
-  const double per_tick = 1 / (double)motion->ticks;
   uint32_t tick = 0;
   uint32_t rest = 0;
   for (size_t s = 0; s <= segments; s++) {
     search->begin[s] = tick;
-    search->time[s] = (float)((double)tick * per_tick);
     rest += over;
     tick += each + (rest >= segments);
     rest -= rest >= segments ? segments : 0;
   }
+  nsvcd__motion_retime(motion, search->begin, segments);
+  const double per_tick = 1 / (double)motion->ticks;
+  for (size_t s = 0; s < segments; s++)
+    search->time[s] = (float)((double)search->begin[s] * per_tick);
   search->time[segments] = 1;
 }
 
@@ -8133,10 +8229,11 @@ typedef struct nsvcd__intervals {
   nsvcd__v square, least_segment, least;
 } nsvcd__intervals;
 
-// The time at a share of segment s.
+// The time at a share of segment s: at 1 that of its end, to the bit.
 static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
   const float start = search->time[s];
-  return start + share * (search->time[s + 1] - start);
+  const float end = search->time[s + 1];
+  return share < 1 ? start + share * (end - start) : end;
 }
 
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
@@ -9169,14 +9266,13 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
     ends[1] = ends[0];
     return;
   }
-  const uint32_t last = (uint32_t)(track->count - 2);
-  const uint32_t past = track->ticks == 1 ? first : first / track->ticks;
-  const uint32_t k = past < last ? past : last;
+  const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = a + 1;
-  const double per_tick = track->ticks == 1 ? 1 : 1 / (double)track->ticks;
+  const uint32_t begin = nsvcd__tick_of(track, k);
+  const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
   leg->share = (double)ticks * per_tick;
-  leg->from = (double)(first - k * track->ticks) * per_tick;
+  leg->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
   const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
   ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
@@ -10979,9 +11075,10 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
-  const uint32_t past_a = tick % motion->moving.ticks;
-  const uint32_t past_b = tick % motion->fixed.ticks;
-  const uint32_t first = tick - (past_a < past_b ? past_a : past_b);
+  const uint32_t a =
+      nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
+  const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
+  const uint32_t first = a > b ? a : b;
   *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
   return first;
 }
@@ -11992,6 +12089,7 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
   moving.poses += at_end ? moving.count - 1 : 0;
   fixed.poses += at_end ? fixed.count - 1 : 0;
   moving.count = fixed.count = 1;
+  moving.times = fixed.times = NULL;
   still.begin = at_end ? 1 : 0;
   still.duration = 0;
   nsvcd__motion_set_tracks(&still, moving, fixed);
@@ -12826,11 +12924,9 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
   const int moves = track->count > 1;
-  const size_t last = moves ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const float at = moves ? t[l] * (float)(last + 1) : 0;
-    const size_t k = (size_t)at < last ? (size_t)at : last;
+    const size_t k = moves ? nsvcd__pose_at(track, t[l], &share[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
@@ -12841,7 +12937,6 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     const float sign = cosine < 0 ? -1.0f : 1.0f;
     const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
                                sign * next.w - q.w};
-    share[l] = at - (float)k;
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
     if (fabsf(cosine) < 0.999f)
@@ -13977,8 +14072,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_lift(task);
-  const nsvcd__track moves = {moving, takes_it ? 2u : 1u, 0};
-  const nsvcd__track rests = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
+  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
@@ -14007,7 +14102,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
 // world's: places in its frame are as exact as if it were there.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__track tracks[2] = {{&poses[0], 1, 0}, {&poses[1], 1, 0}};
+  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
   const nsvcd__d3 here = {0, 0, 0};
   nsvcd__d3 place, origin;
   const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &place);
@@ -14211,7 +14306,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   const float scale_a = nsvcd__scale_of(a);
   const float scale_b = nsvcd__scale_of(b);
   const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
-  const int same_motion = a->poses == b->poses && a->count == b->count;
+  const int same_motion = a->poses == b->poses && a->times == b->times && a->count == b->count;
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
@@ -14259,7 +14354,10 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   if (count_a != count_b) return count_b < count_a;
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
-  return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
+  const int order = memcmp(poses_b, poses_a, count_a * sizeof *poses_a);
+  if (order || count_a == 1 || a->times == b->times) return order < 0;
+  if (!a->times || !b->times) return !b->times;
+  return memcmp(b->times, a->times, count_a * sizeof *a->times) < 0;
 }
 
 // ---- lay out
@@ -14418,8 +14516,8 @@ static nsvcd_result nsvcd__self_test(void) {
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
   const nsvcd_pose rest = {{1, 2, 3}, {0.5f, 0.5f, 0.5f, 0.5f}};
-  const nsvcd_mover moving = {NULL, path, 2, 0};
-  const nsvcd_mover fixed = {NULL, &rest, 1, 0};
+  const nsvcd_mover moving = {NULL, path, 2, NULL, 0};
+  const nsvcd_mover fixed = {NULL, &rest, 1, NULL, 0};
   float places[3][NSVCD__LANES];
   // in a block: the stack is shared with what comes after it
   {
@@ -14769,14 +14867,14 @@ static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
 static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
                              nsvcd__f3 torque, float *gradient) {
-  const size_t arcs = track->count - 1;
-  if (arcs == 0) {
+  if (track->count == 1) {
     if (gradient) nsvcd__wrench_add(force, torque, gradient);
     return 0;
   }
-  const float at = t * (float)arcs;
-  const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
-  const float u = at - (float)k;
+  float u;
+  const size_t k = nsvcd__pose_at(track, t, &u);
+  const float *times = track->times;
+  const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
   // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
@@ -14799,7 +14897,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
   const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
-  return (float)arcs * (nsvcd__f3_dot(force, moved) + by_turn);
+  return per_t * (nsvcd__f3_dot(force, moved) + by_turn);
 }
 
 // ---- instants and contact
@@ -15246,7 +15344,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_gap NSVCD__AT(motion_gap)
 #define nsvcd__motion_init NSVCD__AT(motion_init)
 #define nsvcd__motion_pose NSVCD__AT(motion_pose)
+#define nsvcd__motion_retime NSVCD__AT(motion_retime)
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
+#define nsvcd__motion_set_times NSVCD__AT(motion_set_times)
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
@@ -15259,6 +15359,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__needs_of NSVCD__AT(needs_of)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
 #define nsvcd__next_knot NSVCD__AT(next_knot)
+#define nsvcd__next_pose NSVCD__AT(next_pose)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_part NSVCD__AT(normals_part)
 #define nsvcd__not_parted NSVCD__AT(not_parted)
@@ -15278,6 +15379,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__placement NSVCD__AT(placement)
 #define nsvcd__placement_at NSVCD__AT(placement_at)
 #define nsvcd__plane_parts NSVCD__AT(plane_parts)
+#define nsvcd__pose_at NSVCD__AT(pose_at)
+#define nsvcd__pose_before NSVCD__AT(pose_before)
 #define nsvcd__pose_count NSVCD__AT(pose_count)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_of NSVCD__AT(pose_of)
@@ -15374,12 +15477,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
 #define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
 #define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
+#define nsvcd__tick_of NSVCD__AT(tick_of)
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
+#define nsvcd__times_are_valid NSVCD__AT(times_are_valid)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
@@ -16260,8 +16365,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, 0};
-  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, 0};
+  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, NULL, 0};
+  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, NULL, 0};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;

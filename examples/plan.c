@@ -20,12 +20,13 @@ static const float clearance = 0.001f;
 
 // Once per mesh. NULL, with a message, if the file is no mesh.
 static const nsvcd_body *load(const char *path) {
+  const nsvcd_encode_options options = {.latents = 1};  // a planner asks the network first
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
   size_t line = 0;
   nsvcd_result result = nsvcd_obj_load(path, NULL, &mesh, &line);
   if (!result) {
-    result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
+    result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
     nsvcd_mesh_free(&mesh, NULL);
   }
   if (result) fprintf(stderr, "%s:%zu: %s\n", path, line, nsvcd_result_string(result));

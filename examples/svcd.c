@@ -58,7 +58,6 @@ static const option options[] = {
     {"--radius", ENCODE, OPTION_NUMBER, AT(encode.patch_radius), 1e-12, METRES,
      "NSVCD_MAX_COORDINATE"},
     {"--no-triangles", ENCODE, OPTION_FLAG, AT(encode.no_triangles), 0, 0, NULL},
-    {"--no-latents", ENCODE, OPTION_FLAG, AT(encode.no_latents), 0, 0, NULL},
     {"--latents", ENCODE, OPTION_FLAG, AT(encode.latents), 0, 0, NULL},
     {"--pairs", CHECK, OPTION_COUNT, AT(sweep.network.pairs), 1, NSVCD_MAX_PAIRS,
      "NSVCD_MAX_PAIRS"},
@@ -201,7 +200,7 @@ static int recall_is_known(const nsvcd_question *asked) {
   float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   uint32_t indices[3] = {0, 1, 2};
   nsvcd_mesh mesh = {positions, indices, 3, 1};
-  nsvcd_encode_options one_point = {.patches = 1};
+  nsvcd_encode_options one_point = {.patches = 1, .latents = 1};
   const nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
   nsvcd_answer unused;
   const nsvcd_body *body;
@@ -348,10 +347,6 @@ static int encode_options(const settings *options) {
     return usage_error("encode", "IN.obj and OUT.body or OUT.h are wanted ('svcd encode --help')");
   if (!ends_with(options->paths[1], ".body") && !ends_with(options->paths[1], ".h"))
     return usage_error(options->paths[1], "neither .body nor .h");
-  if (encode->no_triangles && encode->no_latents)
-    return usage_error("--no-latents", "nothing would be left");
-  if (encode->latents && encode->no_latents)
-    return usage_error("--latents", "not together with --no-latents");
   if (encode->patches && encode->patch_radius > 0)
     return usage_error("--radius", "not together with --points");
   return DONE;
@@ -729,15 +724,14 @@ static void help_info(FILE *out) {
 static void help_encode(FILE *out) {
   fprintf(out,
           "svcd encode IN.obj OUT.body|OUT.h [--scale S] [--points N | --radius METRES]\n"
-          "            [--no-triangles | --no-latents | --latents]\n"
+          "            [--latents | --no-triangles]\n"
           "Encodes a mesh, to a file or to a C array.\n"
           "  --scale S        to metres: 0.001 of millimetres (1)\n"
           "  --points N       patches, 1..%d (%d and more, by the number of triangles)\n"
           "  --radius METRES  as many as make patches of this radius\n"
-          "  --no-triangles   for the network alone\n"
-          "  --no-latents     for the proof alone\n"
-          "  --latents        for both, also where there are more than %d patches\n",
-          NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_SMALL_PATCHES);
+          "  --latents        for the network too, not for the proof alone\n"
+          "  --no-triangles   for the network alone\n",
+          NSVCD_MAX_PATCHES, NSVCD_LEAST_PATCHES);
 }
 
 static void help_check(FILE *out) {

@@ -47,6 +47,7 @@ PLANNER_DEF int planner_encode(const task_scene *scene, const nsvcd_body **bodie
   nsvcd_result result = NSVCD_OK;
   memset(&options, 0, sizeof options);
   options.patches = PLANNER_POINTS;
+  options.latents = 1;
   for (int i = 0; i < scene->body_count; i++) bodies[i] = NULL;
   for (int i = 0; i < scene->body_count && !result; i++)
     result = nsvcd_encode(&scene->bodies[i].mesh, &options, NULL, NULL, 0, &bodies[i]);

@@ -1,4 +1,4 @@
-// neuralsvcd.h - v0.2.0 - does this body, moving along this trajectory, hit that body?
+// neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
 // surfaces never do, at any time, rotation included. Where memory is short, or a gradient is

@@ -59,10 +59,11 @@ expect 2 'usage: ' build/mining_site 1 "$dir/x.svg" soon
 expect 1 '' build/mining_site 1 "$dir/x.svg" 0  # cancelled by the progress callback
 grep -q 'cancelled' "$dir/out" || fail "mining_site is not cancelled: $(cat "$dir/out")"
 
-# Bodies for one method alone, and a body for none.
-expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/proof.body" --no-latents
+# Bodies for one method alone, and for both.
+expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/proof.body"
 expect 0 '' build/svcd info "$dir/proof.body"
-expect 2 'nothing would be left' build/svcd encode examples/assets/mug.obj "$dir/none.body" --no-latents --no-triangles
+expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/both.body" --latents
+expect 0 '' build/svcd sweep "$dir/both.body" "$dir/both.body" --to 1,0,0 --method network
 
 # A level, and a flight through it that keeps its distance, by the oracle's word (the exit status).
 expect 0 '' build/fly_through 60000

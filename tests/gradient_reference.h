@@ -24,6 +24,7 @@ typedef struct reference_pair {
   double segment[2][2], reach[2];
   const nsvcd__decoder *head;
   size_t count;
+  const float *times;  // of the poses, or NULL
 } reference_pair;
 
 static double reference_dot(const double *a, const double *b) {
@@ -81,10 +82,15 @@ static void reference_turn(const double *by, const double *q, double *out) {
 static void reference_at(const reference_pair *pair, const reference_pose *poses, double t,
                          double *q, double *m, double *p) {
   const size_t arcs = pair->count - 1;
-  const size_t k = arcs == 0                             ? 0
-                   : t * (double)arcs < (double)arcs - 1 ? (size_t)(t * (double)arcs)
-                                                         : arcs - 1;
-  const double u = t * (double)arcs - (double)k;
+  const float *times = pair->times;
+  size_t k = arcs == 0                             ? 0
+             : t * (double)arcs < (double)arcs - 1 ? (size_t)(t * (double)arcs)
+                                                   : arcs - 1;
+  double u = t * (double)arcs - (double)k;
+  if (times) {
+    for (k = 0; k + 1 < arcs && t >= (double)times[k + 1];) k++;
+    u = (t - (double)times[k]) / ((double)times[k + 1] - (double)times[k]);
+  }
   const reference_pose *a = &poses[k];
   const reference_pose *b = arcs ? a + 1 : a;
   double step[4];
@@ -343,8 +349,8 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
 }
 
 // What a query in float decided, for the reference, and its poses. work: as that query left it.
-static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, size_t count,
-                           const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
+static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, const float *times,
+                           size_t count, const nsvcd_body *fixed, const nsvcd_pose *fixed_pose,
                            const nsvcd__search *work, const nsvcd__candidate *candidate,
                            const nsvcd__decoder *head, reference_pair *pair,
                            reference_pose *exact) {
@@ -353,6 +359,7 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, si
   double q[4], m[9];
   pair->head = head;
   pair->count = count;
+  pair->times = times;
   for (size_t n = 0; n < count; n++) {
     for (int k = 0; k < 3; k++) {
       exact[n].position[k] = (double)poses[n].position[k] - (double)fixed_pose->position[k];

@@ -53,6 +53,8 @@ static void level_solid_init(level_solid *s, shapes_mesh *shape, double extent) 
   free(shape->positions);
 }
 
+static const nsvcd_encode_options level_both = {.latents = 1};
+
 static void level_make_bodies(level_solid *bodies) {
   for (int k = 0; k < LEVEL_BODIES; k++) {
     shapes_mesh shape;
@@ -64,7 +66,7 @@ static void level_make_bodies(level_solid *bodies) {
     if (k == 4) level_arch(&shape, 0.12, 0.03, 24);
     if (k == 5) shapes_plate(&shape, 0.15, 0.03, 0.01, 48);
     level_solid_init(&bodies[k], &shape, 0.3);
-    if (nsvcd_encode(&bodies[k].mesh, NULL, NULL, NULL, 0, &bodies[k].body))
+    if (nsvcd_encode(&bodies[k].mesh, &level_both, NULL, NULL, 0, &bodies[k].body))
       level_fail("a body was refused");
   }
 }

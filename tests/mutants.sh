@@ -75,6 +75,7 @@ both turn, no swing|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsv
 arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc->turn);
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
+a leg from its pose|leg->from = (double)(first - begin) * per_tick;|leg->from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);

@@ -393,6 +393,8 @@ static void proof_free(proof_body *b) {
 typedef struct proof_track {
   nsvcd_pose raw[PROOF_POSES];     // as asked
   oracle_pose poses[PROOF_POSES];  // the same in double, quaternions of unit length
+  float times[PROOF_POSES];        // of them, if it is timed; else they are uniform
+  int timed;
   size_t count;
   float scale;  // of the body
 } proof_track;
@@ -411,6 +413,7 @@ typedef struct proof_place {
 static void proof_track_set(proof_track *track, const oracle_pose *poses, size_t count) {
   track->count = count;
   track->scale = 1;
+  track->timed = 0;
   for (size_t i = 0; i < count; i++) {
     track->raw[i] = pose_rounded(&poses[i]);
     track->poses[i] = pose_widened(&track->raw[i]);
@@ -438,16 +441,43 @@ static proof_place proof_relative(const oracle_pose *pose, const oracle_pose *fi
   return out;
 }
 
+// Gives some tracks times of their own: most poses in a moment, or not. rng: a copy, so that scenes
+// are what they are without.
+static void proof_set_times(shapes_rng rng, proof_track *track) {
+  const double uneven = shapes_uniform(&rng, 0.5, 3.5);
+  double sums[PROOF_POSES] = {0};
+  if (track->count < 2 || shapes_next(&rng) % 3) return;
+  track->timed = 1;
+  for (size_t k = 1; k < track->count; k++)
+    sums[k] = sums[k - 1] + pow(10, -uneven * shapes_uniform(&rng, 0, 1));
+  // of 20 bits, which are at ticks
+  for (size_t k = 0; k < track->count; k++)
+    track->times[k] = (float)(rint(sums[k] / sums[track->count - 1] * 1048576) / 1048576);
+}
+
+// When pose k is, and the last pose before t, which is not the last of all.
+static double proof_time_of(const proof_track *m, size_t k) {
+  return m->timed ? (double)m->times[k] : (double)k / (double)(m->count - 1);
+}
+static size_t proof_pose_before(const proof_track *m, double t) {
+  const double at = t * (double)(m->count - 1);
+  const size_t last = m->count - 2;
+  size_t k = 0;
+  if (!m->timed) return at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
+  while (k < last && (double)m->times[k + 1] <= t) k++;
+  return k;
+}
+
 // The pose at t. As oracle_pose_at, but where samples are exactly half a turn apart and both arcs
 // are as short: there the sign is that of the floats' own product, and 0 leaves them as they are.
 static oracle_pose proof_pose_at(const proof_track *m, double t) {
   if (m->count == 1) return m->poses[0];
-  const double at = t * (double)(m->count - 1);
-  const size_t last = m->count - 2;
-  const size_t k = at <= 0 ? 0 : (size_t)at < last ? (size_t)at : last;
+  const size_t k = proof_pose_before(m, t);
   const oracle_pose *a = &m->poses[k];
   const oracle_pose *b = a + 1;
-  const double f = at - (double)k;
+  const double from = proof_time_of(m, k);
+  const double f = m->timed ? (t - from) / (proof_time_of(m, k + 1) - from)
+                            : t * (double)(m->count - 1) - (double)k;
   double product = 0;
   double apart = 0;
   double together = 0;

@@ -13,6 +13,7 @@
 
 // Bodies for the network alone.
 static const nsvcd_encode_options query_latents = {.no_triangles = 1};
+static const nsvcd_encode_options query_both = {.latents = 1};
 
 #define QUERY_ALIGN NSVCD_ALIGNMENT
 #define QUERY_POSES 17

@@ -311,7 +311,6 @@ static void cost_threads_agree_by_proof(void) {
     const nsvcd_body *bodies[2];
     cost_open(&b, seed);
     memset(&encoding, 0, sizeof encoding);
-    encoding.no_latents = 1;
     encoding.patches = seed % 4 == 0 ? 700 : 0;
     for (size_t k = 0; k < 2; k++) {
       nsvcd_mesh mesh = query_solid(2 * seed + k, k ? 0.3 : 0.2);

@@ -98,12 +98,10 @@ static void query_encode_refuses_bad_input(void) {
   query_memory memory = query_reserve(nsvcd_body_size(NSVCD_SMALL_PATCHES) + QUERY_ALIGN);
   nsvcd_encode_options options = {.patches = 64, .no_triangles = 1};
   nsvcd_encode_options too_many = {.patches = NSVCD_MAX_PATCHES + 1, .no_triangles = 1};
-  nsvcd_encode_options both = {.latents = 1, .no_latents = 1};
   nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
   nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &both, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
   query_encode_refuses(&mesh, &options, memory.at, size - 1, NSVCD_ERROR_WORKSPACE);

@@ -63,7 +63,7 @@ static void query_blobs_of_the_other_byte_order(void) {
 
 // What a corner is in: the sphere of a group, and that of the body.
 static void query_spheres_contain_the_mesh(void) {
-  const nsvcd_encode_options options = {.patches = 40, .no_latents = 1};
+  const nsvcd_encode_options options = {.patches = 40};
   for (uint64_t seed = 1; seed <= 30; seed++) {
     nsvcd_mesh mesh = query_solid(seed, 0.3);
     const nsvcd_body *body = NULL;
@@ -200,7 +200,7 @@ static void facets_scaled_far_are_loaded(void) {
   float positions[12] = {-0.3f, 0, -250000, 0.4f, 0.3f, 0, 0.4f, -0.4f, 0, 0.5f, -0.4f, 0.4f};
   uint32_t indices[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
   const nsvcd_mesh mesh = {positions, indices, 4, 4};
-  nsvcd_encode_options options = {.patches = 1, .no_latents = 1};
+  nsvcd_encode_options options = {.patches = 1};
   const nsvcd_body *body = NULL;
   const nsvcd_body *scaled = NULL;
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);

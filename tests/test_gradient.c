@@ -27,6 +27,7 @@ void test_gradient(void);
 typedef struct scene {
   const nsvcd_body *moving, *fixed;
   nsvcd_pose poses[REFERENCE_POSES], fixed_pose;
+  float times[REFERENCE_POSES];  // where options.a has them
   size_t count;
   nsvcd_question options;
 } scene;
@@ -121,7 +122,7 @@ static int decisive_centres(const scene *s, double *moving, double *fixed) {
   reference_pose poses[REFERENCE_POSES];
   double in_fixed[2][3], m[9], q[4];
   if (!decide(s, &answer, &decisive)) return 0;
-  reference_open(s->moving, s->poses, s->count, s->fixed, &s->fixed_pose,
+  reference_open(s->moving, s->poses, s->options.a.times, s->count, s->fixed, &s->fixed_pose,
                  &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                  decisive.decoder, &pair, poses);
   reference_place(&pair, poses, 0.5, in_fixed[0]);
@@ -191,6 +192,21 @@ static int many_samples(scene *s, shapes_rng *rng, size_t n) {
   (void)n;
   pass_by(s, rng, count_between(rng, 17, REFERENCE_POSES), shapes_uniform(rng, 0.3, 1),
           shapes_uniform(rng, 0.5, 2), shapes_uniform(rng, 0, 0.1), shapes_uniform(rng, 0, 0.02));
+  return 1;
+}
+static int at_their_times(scene *s, shapes_rng *rng, size_t n) {
+  if (n % 2) {
+    moderate(s, rng, n);
+  } else {
+    many_samples(s, rng, n);
+  }
+  for (size_t k = 1; k < s->count; k++) {
+    const double step = shapes_pick(rng, 3) ? shapes_uniform(rng, 0.1, 1) : 0.01;
+    s->times[k] = s->times[k - 1] + (float)step;
+  }
+  for (size_t k = 1; k < s->count; k++) s->times[k] /= s->times[s->count - 1];
+  s->times[s->count - 1] = 1;
+  s->options.a.times = s->times;
   return 1;
 }
 static int at_rest(scene *s, shapes_rng *rng, size_t n) {  // one pose, or the same one repeated
@@ -416,6 +432,7 @@ static const family families[] = {
     {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
+    {"at their times", at_their_times, 0.001, 0, 2e-06, 0.0001},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
 #define SHALLOW 12
@@ -496,7 +513,7 @@ static void gradient_matches_the_reference(void) {
       float gradient[6 * REFERENCE_POSES];
       double found[6 * REFERENCE_POSES], expected[6 * REFERENCE_POSES], times[2], graze;
       if (!scene_of(f, n, &s, &answer, &decisive)) continue;
-      reference_open(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose,
+      reference_open(s.moving, s.poses, s.options.a.times, s.count, s.fixed, &s.fixed_pose,
                      &((nsvcd__query *)query_workspace())->broad_phase, &decisive.candidate,
                      decisive.decoder, &pair, poses);
       CHECK_EQ(ask_gradient(&s, &answer, gradient), NSVCD_OK);

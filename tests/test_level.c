@@ -25,7 +25,6 @@ static nsvcd_encode_options level_options(size_t points) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.patches = points;
-  options.no_latents = 1;
   return options;
 }
 
@@ -370,7 +369,6 @@ static void level_components_are_found(void) {
 static const nsvcd_body *level_with_latents(void) {
   static const nsvcd_body *body;
   nsvcd_encode_options options = level_options(5000);
-  options.no_latents = 0;
   options.latents = 1;
   if (!body)
     CHECK_EQ(nsvcd_encode(&level_shared()->level.mesh, &options, NULL, NULL, 0, &body), NSVCD_OK);
@@ -392,7 +390,6 @@ static void level_latents_are_added(void) {
 
   nsvcd_encode_options options = level_options(600);
   const nsvcd_body *other = NULL;
-  options.no_latents = 0;
   CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other),
            NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 0);
@@ -566,7 +563,6 @@ static void level_containment_by_the_network(void) {
   level_solid_init(&crates, &shape, 0);
   level_solid_init(&ball, &pebble, 0);
   nsvcd_encode_options options = level_options(20000);
-  options.no_latents = 0;
   options.no_triangles = 1;
   CHECK_EQ(nsvcd_encode(&crates.mesh, &options, NULL, NULL, 0, &crates.body), NSVCD_OK);
   options.patches = 32;
@@ -757,7 +753,6 @@ static void level_encoding_ends_well(void) {
   nsvcd_encode_options options = level_options(700);
   const nsvcd_body *body = NULL;
   int fails = 0;
-  options.no_latents = 0;
   options.latents = 1;
   for (int fail_at = 0; fail_at < 2000; fail_at++) {
     failing_heap heap = {0, 0, fail_at};
@@ -800,10 +795,6 @@ static void level_encoding_ends_well(void) {
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   options.patches = NSVCD_MAX_PATCHES + 1;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
-  options.latents = 0;
-  options.no_latents = options.no_triangles = 1;  // nothing would be left
-  options.patches = 10;
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
   level_free(&solid);
 }

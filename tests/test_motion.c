@@ -65,9 +65,72 @@ static void bad_poses(void) {
   CHECK(memcmp(&motion, &before, sizeof motion) == 0);  // outputs untouched
 }
 
+static nsvcd_result times_check(const float *times, size_t count) {
+  static const struct nsvcd_body any = {0};
+  nsvcd_mover mover;
+  memset(&mover, 0, sizeof mover);
+  mover.body = &any;
+  mover.poses = poses;
+  mover.times = times;
+  mover.count = count;
+  return nsvcd__mover_check(&mover);
+}
+
+static void bad_times(void) {
+  const nsvcd_pose good = {{0, 0, 0}, {0, 0, 0, 1}};
+  const float rising[4] = {0, 1e-7f, 0.99999988f, 1};
+  const float bad[9] = {
+      (float)NAN, (float)INFINITY, -(float)INFINITY, -1e-7f, 2, 0.9e-7f, 0.5f, 1 - 5e-8f, 1};
+  for (int n = 0; n < 4; n++) poses[n] = good;
+  CHECK_EQ(times_check(rising, 4), NSVCD_OK);
+  CHECK_EQ(times_check(NULL, 4), NSVCD_OK);
+  CHECK_EQ(times_check(bad, 1), NSVCD_OK);  // one pose is there all the time
+  for (int at = 0; at < 4; at++) {
+    for (int n = 0; n < 9; n++) {
+      float times[4];
+      memcpy(times, rising, sizeof times);
+      times[at] = bad[n];
+      const int rises = (at == 3 && n == 8) || (at == 1 && n == 6) || (at == 2 && n == 6);
+      CHECK_EQ(times_check(times, 4), rises ? NSVCD_OK : NSVCD_ERROR_POSE);
+    }
+  }
+}
+
+// Times of few bits are at ticks whatever the other body's count, and so are its poses.
+static void times_are_at_ticks(void) {
+  const nsvcd_pose good = {{0, 0, 0}, {0, 0, 0, 1}};
+  static const float times[5] = {0, 1.0f / 65536, 0.375f, 1 - 1.0f / 1024, 1};
+  static const struct nsvcd_body any = {0};
+  for (size_t count = 1; count <= NSVCD_MAX_POSES; count += 1 + count / 3) {
+    nsvcd_question question;
+    nsvcd__motion motion;
+    for (size_t n = 0; n < count; n++) poses[n] = good;
+    memset(&question, 0, sizeof question);
+    question.a.body = question.b.body = &any;
+    question.a.poses = question.b.poses = poses;
+    question.a.count = 5;
+    question.a.times = times;
+    question.b.count = count;
+    nsvcd__motion_init(&question.a, &question.b, &motion);
+    CHECK_GE(motion.ticks, 0x80000000u);
+    for (uint32_t k = 0; k < 5; k++) {
+      const double at = (double)times[k] * (double)motion.ticks;
+      CHECK_LE(fabs((double)nsvcd__tick_of(&motion.moving, k) - at), 0);
+      if (k < 4) CHECK_EQ(nsvcd__pose_before(&motion.moving, (uint32_t)at), k);
+      if (k) CHECK_EQ(nsvcd__pose_before(&motion.moving, (uint32_t)at - 1), k - 1);
+    }
+    if (count > 1) {
+      CHECK_EQ(nsvcd__tick_of(&motion.fixed, (uint32_t)count - 1), motion.ticks);
+      CHECK_EQ(motion.ticks % (count - 1), 0);
+    }
+  }
+}
+
 void test_motion(void) {
   RUN(motion_pose_is_slerp);
   RUN(bad_poses);
+  RUN(bad_times);
+  RUN(times_are_at_ticks);
 }
 
 CHECK_ALONE(test_motion)

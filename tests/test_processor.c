@@ -42,7 +42,7 @@ typedef struct processor_scene {
 static const nsvcd_body *processor_body(uint64_t seed, double extent) {
   nsvcd_mesh mesh = query_solid(seed, extent);
   const nsvcd_body *body = NULL;
-  CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode(&mesh, &query_both, NULL, NULL, 0, &body), NSVCD_OK);
   nsvcd_mesh_free(&mesh, NULL);
   return body;
 }

@@ -67,6 +67,7 @@ static nsvcd_mover proof_mover(const proof_body *b, const proof_track *track) {
   nsvcd_mover mover;
   mover.body = b->body;
   mover.poses = track->raw;
+  mover.times = track->timed ? track->times : NULL;
   mover.count = track->count;
   mover.scale = track->scale;
   return mover;
@@ -201,6 +202,7 @@ static int proof_scene(shapes_rng *rng, attack *a, double gap, double offset) {
   if (!proof_near_contact(rng, a, &fixed, gap * size, &pose, point, away)) return 0;
   proof_motion_past(rng, &pose, point, away, size, angle, count, poses);
   proof_motion_set(&a->motion, poses, count, &fixed);
+  proof_set_times(*rng, &a->motion.moving);
   return 1;
 }
 
@@ -243,6 +245,15 @@ static void proof_carry(shapes_rng *rng, attack *a, double angle, double way) {
   proof_track_set(fixed, carried, count);
   moving->scale = scales[0];
   fixed->scale = scales[1];
+}
+
+// The same, and each in its own time, now and then.
+static void proof_carry_unevenly(shapes_rng *rng, attack *a, double angle, double way) {
+  proof_carry(rng, a, angle, way);
+  shapes_rng aside = *rng;
+  proof_set_times(aside, &a->motion.moving);
+  aside.state++;
+  proof_set_times(aside, &a->motion.fixed);
 }
 
 // -------------------------------------------------------------------------------------
@@ -480,17 +491,17 @@ static struct {
 // No point of the body moves by more than this in an interval of time about t.
 static double proof_track_speed(const proof_track *m, double size, double t, double interval) {
   if (m->count < 2) return 0;
-  const double arcs = (double)(m->count - 1);
   double fastest = 0;
   for (int side = -1; side <= 1; side++) {
-    const double at = t * arcs + side * interval * arcs;
-    const size_t k = at <= 0 ? 0 : at >= arcs - 1 ? m->count - 2 : (size_t)at;
+    const size_t k = proof_pose_before(m, t + side * interval);
+    const double duration = proof_time_of(m, k + 1) - proof_time_of(m, k);
     double moved[3], axis[3];
     oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
     const double turn = oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis);
-    fastest = fmax(fastest, oracle_length(moved) + turn * size * (double)m->scale);
+    const double way = oracle_length(moved) + turn * size * (double)m->scale;
+    fastest = fmax(fastest, way / duration);
   }
-  return fastest * arcs * interval;
+  return fastest * interval;
 }
 static double proof_speed_bound(const attack *a, double t, double interval) {
   return proof_track_speed(&a->motion.moving, a->moving->size, t, interval) +
@@ -860,8 +871,8 @@ static void proof_cross_once(attack *a, shapes_rng *rng, crossing_sum *sum) {
   attack carried = *a;
   proof_ask_crossing(a, x, y, t, 1, sum);
   if (shapes_pick(rng, 2)) return;
-  proof_carry(rng, &carried, shapes_uniform(rng, 0, 4 * SHAPES_PI),
-              shapes_uniform(rng, 0, 3) * size);
+  proof_carry_unevenly(rng, &carried, shapes_uniform(rng, 0, 4 * SHAPES_PI),
+                       shapes_uniform(rng, 0, 3) * size);
   proof_ask_crossing(&carried, x, y, t, 2, sum);
 }
 
@@ -900,6 +911,8 @@ static void proof_motion_init(const proof_motion *m, nsvcd__motion *motion) {
   nsvcd_question question =
       question_of(NULL, m->moving.raw, m->moving.count, NULL, m->fixed.raw, NULL);
   question.b.count = m->fixed.count;
+  question.a.times = m->moving.timed ? m->moving.times : NULL;
+  question.b.times = m->fixed.timed ? m->fixed.times : NULL;
   question.a.scale = m->moving.scale;
   question.b.scale = m->fixed.scale;
   nsvcd__motion_init(&question.a, &question.b, motion);
@@ -962,6 +975,7 @@ static void proof_any_motion(shapes_rng *rng, proof_motion *m) {
     }
   }
   proof_motion_set(m, poses, count, &fixed);
+  proof_set_times(*rng, &m->moving);
 }
 
 // The same of both bodies, each on its own, and of any size.
@@ -1241,16 +1255,15 @@ static double proof_distance_at(const attack *a, double t) {
 
 // How fast points of a body may be from t until its next pose, at *next.
 static double proof_track_rate(const proof_track *m, double size, double t, double *next) {
-  const double arcs = (double)(m->count - 1);
   double moved[3], axis[3];
   *next = 1;
   if (m->count < 2) return 0;
-  const size_t k = (size_t)(t * arcs) < m->count - 2 ? (size_t)(t * arcs) : m->count - 2;
+  const size_t k = proof_pose_before(m, t);
   oracle_sub(m->poses[k + 1].position, m->poses[k].position, moved);
-  *next = (double)(k + 1) / arcs;
+  *next = proof_time_of(m, k + 1);
   return (oracle_length(moved) +
-          size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) *
-         arcs;
+          size * oracle_quat_arc(m->poses[k].rotation, m->poses[k + 1].rotation, axis)) /
+         (*next - proof_time_of(m, k));
 }
 
 // The first time from which it cannot be said that surfaces are farther apart than `clearance`:
@@ -1394,7 +1407,7 @@ static int proof_timing_scene(shapes_rng *rng, attack *a) {
   if (!proof_scene(rng, a, gap, 0.3)) return 0;
   const double size = a->moving->size + a->fixed->size;
   if (shapes_pick(rng, 2))
-    proof_carry(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
+    proof_carry_unevenly(rng, a, shapes_uniform(rng, 0, 6), shapes_uniform(rng, 0, 2) * size);
   return 1;
 }
 
@@ -2381,6 +2394,7 @@ static void proof_takes_no_more_work(void) {
     const double gap = shapes_pick(&rng, 3) ? pow(10, shapes_uniform(&rng, -4, -1)) : -0.02;
     if (!proof_scene(&rng, &a, gap, 0.3)) continue;
     const double size = a.moving->size + a.fixed->size;
+    a.motion.moving.timed = 0;
     scenes++;
     for (int kind = 0; kind < COSTS; kind++) {
       const nsvcd_question options = proof_cost_options((cost_kind)kind, size);
@@ -2695,7 +2709,7 @@ static void proof_certificates_hold_where_both_move(void) {
     if (!proof_scene(&rng, &a, gap, trial % 7 ? 1 : 0)) continue;
     const double size = a.moving->size + a.fixed->size;
     const double angle = shapes_uniform(&rng, 0, 4 * SHAPES_PI);
-    proof_carry(&rng, &a, trial % 4 ? angle : 0, shapes_uniform(&rng, 0, 3) * size);
+    proof_carry_unevenly(&rng, &a, trial % 4 ? angle : 0, shapes_uniform(&rng, 0, 3) * size);
     proof_replay(&a, &rng, &sum);
   }
   proof_report("both move", &sum);

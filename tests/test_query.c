@@ -240,8 +240,7 @@ static void query_sizes_at_the_limits(void) {
   CHECK_EQ(nsvcd_encode(&speck, &query_latents, NULL, memory.at,
                         nsvcd_body_size(NSVCD_SMALL_PATCHES), &body),
            NSVCD_ERROR_EMPTY);
-  nsvcd_encode_options of_triangles = {.no_latents = 1};
-  CHECK_EQ(nsvcd_encode(&speck, &of_triangles, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
+  CHECK_EQ(nsvcd_encode(&speck, NULL, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
   CHECK(body == NULL);
   query_release(&memory);
   nsvcd_mesh_free(&speck, NULL);
@@ -800,6 +799,7 @@ static void query_sizes_are_what_is_asked(void) {
       nsvcd_encode_options options;
       memset(&options, 0, sizeof options);
       options.patches = points[k];
+      options.latents = 1;
       CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
     }
     for (size_t segments = 16; segments <= 64; segments += 16) {
@@ -884,7 +884,7 @@ static void query_proofs_stay_within_their_workspace(void) {
   size_t statuses[STATUS_UNDECIDED + 1] = {0};
   size_t unused = SIZE_MAX;
   for (size_t n = 0; n < 10; n++) {
-    const nsvcd_encode_options options = {.patches = sizes[n % 5], .no_latents = n % 5 == 2};
+    const nsvcd_encode_options options = {.patches = sizes[n % 5], .latents = n % 5 != 2};
     nsvcd_mesh mesh = query_solid(n / 5 + 1, 0.3);
     CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &bodies[n / 5][n % 5]), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
@@ -995,7 +995,7 @@ static void query_opinions_leave_what_is_known(void) {
   size_t opinions = 0;
   shapes_rng rng = {7};
   for (size_t k = 0; k < 2; k++) {
-    CHECK_EQ(nsvcd_encode(&meshes[k], NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&meshes[k], &query_both, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
     nsvcd_mesh_free(&meshes[k], NULL);
   }
   nsvcd_question by_network;

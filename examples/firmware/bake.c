@@ -76,7 +76,7 @@ int main(int argc, char **argv) {
     return 2;
   }
   nsvcd_encode_options options = {0};
-  options.no_latents = strcmp(argv[1], "proof") == 0;
+  options.latents = strcmp(argv[1], "both") == 0;
   options.no_triangles = strcmp(argv[1], "network") == 0;
   options.patches = (size_t)strtoul(argv[2], NULL, 10);
   FILE *file = fopen(argv[3], "w");

@@ -229,20 +229,17 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 
 // Checks mesh and options, and fills in the defaults.
 static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
-  if (o->latents && o->no_latents) return NSVCD_ERROR_ARGUMENT;
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
 #endif
+  if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
-  o->no_latents = 1;
+  if (o->latents) return NSVCD_ERROR_ARGUMENT;
 #endif
-  // nothing would be left
-  if (o->no_triangles && o->no_latents) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
     return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0 && (o->latents || o->no_triangles)) return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0) o->no_latents = 1;
+  if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result checked = nsvcd__mesh_check(mesh);
   if (checked) return checked;
@@ -254,8 +251,6 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #endif
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
-  const int any = o->no_triangles || o->patches <= NSVCD_SMALL_PATCHES || o->latents;
-  o->latents = any && !o->no_latents;
   return NSVCD_OK;
 }
 

@@ -10,7 +10,6 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  options.no_latents = 1;
   return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
 }
 

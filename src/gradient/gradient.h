@@ -18,14 +18,14 @@ static void nsvcd__wrench_add(nsvcd__f3 force, nsvcd__f3 torque, float *row) {
 //              and sin(u h) / sin h of b, turned by -(1 - u) h.
 static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force,
                              nsvcd__f3 torque, float *gradient) {
-  const size_t arcs = track->count - 1;
-  if (arcs == 0) {
+  if (track->count == 1) {
     if (gradient) nsvcd__wrench_add(force, torque, gradient);
     return 0;
   }
-  const float at = t * (float)arcs;
-  const size_t k = (size_t)at < arcs - 1 ? (size_t)at : arcs - 1;
-  const float u = at - (float)k;
+  float u;
+  const size_t k = nsvcd__pose_at(track, t, &u);
+  const float *times = track->times;
+  const float per_t = times ? 1 / (times[k + 1] - times[k]) : (float)(track->count - 1);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = &track->poses[k + 1];
   // The turn from a to b on the shorter arc: by 2 h about n, of length 1, or 0 where nothing turns.
@@ -48,7 +48,7 @@ static float nsvcd__by_poses(const nsvcd__track *track, float t, nsvcd__f3 force
   const nsvcd__f3 from = nsvcd__f3_load(a->position);
   const nsvcd__f3 moved = nsvcd__f3_sub(nsvcd__f3_load(b->position), from);
   const float by_turn = 2 * h * nsvcd__f3_dot(torque, n);
-  return (float)arcs * (nsvcd__f3_dot(force, moved) + by_turn);
+  return per_t * (nsvcd__f3_dot(force, moved) + by_turn);
 }
 
 // ---- instants and contact

@@ -15,7 +15,7 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_DEFAULT_PATCHES 192
 #define NSVCD_DEFAULT_NETWORK_PATCHES 256
 #define NSVCD_MAX_PATCHES 65536
-// A body of more patches is a level: its patches are in a tree, and it has latents only if asked.
+// A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
 // fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
@@ -53,12 +53,10 @@ typedef struct nsvcd_encode_options {
   float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
+  // 1: for the network too, of which the proof needs nothing: 40 bytes more a patch, and time
+  int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;
-  // 1: for the proof alone
-  int no_latents;
-  // 1: for the network too, also of more than NSVCD_SMALL_PATCHES patches. Not with no_latents
-  int latents;
   // NULL, or told how much is done
   nsvcd_progress *progress;
   // handed to progress
@@ -80,7 +78,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // Encodes a mesh into a body. The body may have fewer patches than asked, where the surface has too
 // few points to tell apart. Same mesh, same bytes, in one build: see DETERMINISM above.
 //   mesh       not NULL; not kept
-//   options    NULL: the defaults, triangles for the proof and latents for the network
+//   options    NULL: the defaults, for the proof
 //   allocator  NULL: malloc and free
 //   memory     (capacity) bytes, aligned to NSVCD_ALIGNMENT, for the body. NULL: the body comes
 //              from the allocator, and nsvcd_body_free gives it back

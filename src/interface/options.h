@@ -2,9 +2,9 @@
 #pragma once
 
 // as the first line says; before 1.0 a minor version may change what a program sees
-#define NSVCD_VERSION "0.2.0"
+#define NSVCD_VERSION "0.3.0"
 #define NSVCD_VERSION_MAJOR 0
-#define NSVCD_VERSION_MINOR 2
+#define NSVCD_VERSION_MINOR 3
 #define NSVCD_VERSION_PATCH 0
 
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)

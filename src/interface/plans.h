@@ -75,7 +75,7 @@ typedef struct nsvcd_plan_problem {
   const float *low, *high;
   // (F)
   const float *start, *goal;
-  // (B), up to 65536; ones in no pair may be NULL
+  // (B), up to 65536, with latents; ones in no pair may be NULL
   const nsvcd_body *const *bodies;
   size_t body_count;
   // (P)

@@ -68,11 +68,14 @@ typedef struct nsvcd_network_options {
 typedef struct nsvcd_mover {
   // from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale
   const nsvcd_body *body;
-  // (count), uniform in t in [0,1]; in between, position linear and rotation slerp. One pose: it
-  // rests there. NULL, and count 0: it rests at the origin
+  // (count) poses; in between, position linear and rotation slerp. One: it rests there. NULL, and
+  // count 0: it rests at the origin
   const nsvcd_pose *poses;
   // up to NSVCD_MAX_POSES
   size_t count;
+  // (count) when it is at each, from 0 to 1, each later than the one before by 1e-7 or more;
+  // rounded to 2^-32. NULL: uniform
+  const float *times;
   // of the body, about its origin, NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
   float scale;
 } nsvcd_mover;

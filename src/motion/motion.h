@@ -1,14 +1,14 @@
-// In: two movers: bodies, their scales, and their poses, uniform in t in [0,1]; between poses the
-// position is linear and the rotation a slerp on the shorter arc. Out: the pose of one of them,
-// *moving*, in the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame
-// it is, in units of its scale, so that its stored numbers need no change. A point x of the moving
-// body is at scale R x + p there. Positions are subtracted in the world first, so a scene far from
-// the origin loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding
-// picks one.
+// In: two movers: bodies, their scales, and their poses, t in [0,1]; between poses the position is
+// linear and the rotation a slerp on the shorter arc. Out: the pose of one of them, *moving*, in
+// the frame of the other, *fixed*, at any t. Both may move; "fixed" says whose frame it is, in
+// units of its scale, so that its stored numbers need no change. A point x of the moving body is at
+// scale R x + p there. Positions are subtracted in the world first, so a scene far from the origin
+// loses nothing. Two poses exactly 180 degrees apart have two shortest arcs: rounding picks one.
 //
 // Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
-// two of its poses: the least common multiple. A *knot* is a tick at which a pose of either is.
-// Between two knots both motions are smooth.
+// two of its poses: the least common multiple. Where poses have times of their own, 2^31 or more,
+// and each of these is at the nearest. A *knot* is a tick at which a pose of either is. Between two
+// knots both motions are smooth.
 #pragma once
 #include "../interface/queries.h"
 #include "../body/facets.h"
@@ -18,10 +18,40 @@
 typedef struct nsvcd__track {
   // (count), the caller's
   const nsvcd_pose *poses;
+  // (count), the caller's, where there are two poses or more; NULL: uniform
+  const float *times;
   size_t count;
-  // from a pose to the next; all of them where there is one pose
+  // from a pose to the next; all of them where there is one pose; 0 where there are times
   uint32_t ticks;
+  // of the motion, where there are times
+  uint32_t whole;
 } nsvcd__track;
+
+// The tick at which a track's pose k is.
+static uint32_t nsvcd__tick_of(const nsvcd__track *track, uint32_t k) {
+  if (!track->times) return k * track->ticks;
+  return (uint32_t)((double)track->times[k] * (double)track->whole + 0.5);
+}
+
+// The last pose of a track that is not after a tick, or, at the end of several, the last but one.
+static uint32_t nsvcd__pose_before(const nsvcd__track *track, uint32_t tick) {
+  if (track->count == 1) return 0;
+  const uint32_t last = (uint32_t)(track->count - 2);
+  if (!track->times) {
+    const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
+    return k < last ? k : last;
+  }
+  uint32_t low = 0;
+  uint32_t high = last;
+  while (low < high) {
+    const uint32_t middle = (low + high + 1) / 2;
+    if (nsvcd__tick_of(track, middle) <= tick)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}
 
 typedef struct nsvcd__motion {
   nsvcd__track moving, fixed;
@@ -65,6 +95,17 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
   return shortest >= 0.9998f && longest <= 1.0002f;
 }
 
+// Do they rise from 0 to 1, or are there none?
+static int nsvcd__times_are_valid(const float *times, size_t count) {
+  if (!times || count == 1) return 1;
+  int rise =
+      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  // what is not a number does not rise
+  for (size_t k = 1; k < count; k++)
+    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
+  return rise;
+}
+
 // What a mover that is at rest at the origin is given.
 static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
@@ -89,17 +130,19 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   }
   if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
   if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
   return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
-  nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
-                        nsvcd__pose_count(mover), 0};
+  const size_t count = nsvcd__pose_count(mover);
+  const nsvcd__track track = {mover->poses ? mover->poses : &nsvcd__at_origin,
+                              count > 1 ? mover->times : NULL, count, 0, 0};
   return track;
 }
 
-// The motion's ticks, `parts` times as many as its knots need. No more than 65,535 * 65,534, which
-// 32 bits hold, for parts is 1 but where knots are few.
+// The motion's ticks as if all poses were uniform, `parts` times as many as its knots need. No more
+// than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where knots are few.
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
@@ -112,6 +155,41 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->ticks = a / divisor * b * parts;
   motion->moving.ticks = motion->ticks / a;
   motion->fixed.ticks = motion->ticks / b;
+}
+
+// The ticks of a motion of which poses have times: the poses of a uniform body times a power of
+// two, so that these, and times of few bits, are at ticks.
+static void nsvcd__motion_set_times(nsvcd__motion *motion) {
+  nsvcd__track *tracks[2] = {&motion->moving, &motion->fixed};
+  uint32_t arcs = 1;
+  if (!motion->moving.times && !motion->fixed.times) return;
+  for (size_t n = 0; n < 2; n++) {
+    if (!tracks[n]->times && tracks[n]->count > 1) arcs = (uint32_t)(tracks[n]->count - 1);
+  }
+  motion->ticks = arcs;
+  while (motion->ticks < 0x80000000u) motion->ticks *= 2;
+  for (size_t n = 0; n < 2; n++) {
+    tracks[n]->whole = motion->ticks;
+    tracks[n]->ticks = tracks[n]->times       ? 0
+                       : tracks[n]->count > 1 ? motion->ticks / arcs
+                                              : motion->ticks;
+  }
+}
+
+// Where poses have times, segments begin where they would if these were uniform: what counts is how
+// far bodies go in one. The uniform ticks in begin (S + 1) become the motion's.
+static void nsvcd__motion_retime(nsvcd__motion *motion, uint32_t *begin, size_t segments) {
+  const nsvcd__track *track = motion->moving.times ? &motion->moving : &motion->fixed;
+  if (!track->times) return;
+  const uint32_t each = track->ticks;
+  nsvcd__motion_set_times(motion);
+  for (size_t s = 0; s < segments; s++) {
+    const uint32_t k = begin[s] / each;
+    const uint32_t from = nsvcd__tick_of(track, k);
+    const uint64_t length = nsvcd__tick_of(track, k + 1) - from;
+    begin[s] = from + (uint32_t)(length * (begin[s] - k * each) / each);
+  }
+  begin[segments] = motion->ticks;
 }
 
 // The box of a track's positions.
@@ -133,6 +211,7 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
   motion->fixed = fixed;
   motion->fixed_moves = motion->fixed.count > 1;
   nsvcd__motion_set_ticks(motion, 1);
+  nsvcd__motion_set_times(motion);
 
   const nsvcd_pose *first = motion->fixed.poses;
   const nsvcd__quat q = nsvcd__quat_unit(nsvcd__quat_load(first->rotation));
@@ -197,20 +276,25 @@ static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const ns
 
 // A track's pose at a tick.
 static nsvcd__world_pose nsvcd__track_pose(const nsvcd__track *track, uint32_t tick) {
-  const uint32_t k = track->ticks == 1 ? tick : tick / track->ticks;
-  const uint32_t past = tick - k * track->ticks;
-  const nsvcd_pose *a = &track->poses[k < track->count ? k : track->count - 1];
-  if (past == 0 || track->count == 1) return nsvcd__world_pose_of(a);
-  return nsvcd__world_pose_between(a, a + 1, (double)past / (double)track->ticks);
+  const uint32_t k = nsvcd__pose_before(track, tick);
+  const nsvcd_pose *a = &track->poses[k];
+  const uint32_t from = nsvcd__tick_of(track, k);
+  if (tick == from || track->count == 1) return nsvcd__world_pose_of(a);
+  const uint32_t to = nsvcd__tick_of(track, k + 1);
+  if (tick == to) return nsvcd__world_pose_of(a + 1);
+  return nsvcd__world_pose_between(a, a + 1, (double)(tick - from) / (double)(to - from));
+}
+
+// The tick of a track's next pose after a tick that is not the last.
+static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
+  return nsvcd__tick_of(track, nsvcd__pose_before(track, tick) + 1);
 }
 
 // The knot after a tick.
 static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
-  const uint32_t a = motion->moving.ticks;
-  const uint32_t b = motion->fixed.ticks;
-  if (a == 1 || b == 1) return tick + 1;
-  const uint32_t after_a = (tick / a + 1) * a;
-  const uint32_t after_b = (tick / b + 1) * b;
+  if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
+  const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
+  const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
   return after_a < after_b ? after_a : after_b;
 }
 
@@ -250,14 +334,29 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
 }
 
 #ifndef NSVCD_NO_NETWORK
-// A track's pose at time t in [0,1].
-static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
-  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+// The pose of a track that moves before time t in [0,1], and the share of the way to the next. A
+// uniform one is not taken to ticks: derivatives by t need what floats resolve.
+static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *share) {
+  if (track->times) {
+    const double tick = (double)t * (double)track->whole;
+    const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
+    const float from = track->times[k];
+    *share = (t - from) / (track->times[k + 1] - from);
+    return k;
+  }
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  const double share = (double)(at - (float)k);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], share);
+  *share = at - (float)k;
+  return k;
+}
+
+// A track's pose at time t in [0,1].
+static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
+  if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
+  float share;
+  const size_t k = nsvcd__pose_at(track, t, &share);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)share);
 }
 
 // The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be

@@ -623,16 +623,18 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   const uint32_t segments = (uint32_t)search->segments;
   const uint32_t each = motion->ticks / segments;
   const uint32_t over = motion->ticks % segments;
-  const double per_tick = 1 / (double)motion->ticks;
   uint32_t tick = 0;
   uint32_t rest = 0;
   for (size_t s = 0; s <= segments; s++) {
     search->begin[s] = tick;
-    search->time[s] = (float)((double)tick * per_tick);
     rest += over;
     tick += each + (rest >= segments);
     rest -= rest >= segments ? segments : 0;
   }
+  nsvcd__motion_retime(motion, search->begin, segments);
+  const double per_tick = 1 / (double)motion->ticks;
+  for (size_t s = 0; s < segments; s++)
+    search->time[s] = (float)((double)search->begin[s] * per_tick);
   search->time[segments] = 1;
 }
 

@@ -125,11 +125,9 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   float position[3 * NSVCD__SLICE] = {0};
   float moved[3 * NSVCD__SLICE] = {0};
   const int moves = track->count > 1;
-  const size_t last = moves ? track->count - 2 : 0;
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const float at = moves ? t[l] * (float)(last + 1) : 0;
-    const size_t k = (size_t)at < last ? (size_t)at : last;
+    const size_t k = moves ? nsvcd__pose_at(track, t[l], &share[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
@@ -140,7 +138,6 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     const float sign = cosine < 0 ? -1.0f : 1.0f;
     const nsvcd__quat chord = {sign * next.x - q.x, sign * next.y - q.y, sign * next.z - q.z,
                                sign * next.w - q.w};
-    share[l] = at - (float)k;
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
     if (fabsf(cosine) < 0.999f)

@@ -169,8 +169,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     motion[n] = nsvcd__relative_pose(&row[pair->a], &row[pair->b]);
   }
 
-  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, 0};
-  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, 0};
+  const nsvcd_mover a = {p->problem->bodies[pair->a], motion, segments + 1, NULL, 0};
+  const nsvcd_mover b = {p->problem->bodies[pair->b], NULL, 0, NULL, 0};
   nsvcd_question question = p->options.sweep;
   question.a = a;
   question.b = b;

@@ -41,14 +41,13 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
     ends[1] = ends[0];
     return;
   }
-  const uint32_t last = (uint32_t)(track->count - 2);
-  const uint32_t past = track->ticks == 1 ? first : first / track->ticks;
-  const uint32_t k = past < last ? past : last;
+  const uint32_t k = nsvcd__pose_before(track, first);
   const nsvcd_pose *a = &track->poses[k];
   const nsvcd_pose *b = a + 1;
-  const double per_tick = track->ticks == 1 ? 1 : 1 / (double)track->ticks;
+  const uint32_t begin = nsvcd__tick_of(track, k);
+  const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
   leg->share = (double)ticks * per_tick;
-  leg->from = (double)(first - k * track->ticks) * per_tick;
+  leg->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
   const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
   ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));

@@ -56,6 +56,7 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
   moving.poses += at_end ? moving.count - 1 : 0;
   fixed.poses += at_end ? fixed.count - 1 : 0;
   moving.count = fixed.count = 1;
+  moving.times = fixed.times = NULL;
   still.begin = at_end ? 1 : 0;
   still.duration = 0;
   nsvcd__motion_set_tracks(&still, moving, fixed);

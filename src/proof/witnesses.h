@@ -218,9 +218,10 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
 static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
-  const uint32_t past_a = tick % motion->moving.ticks;
-  const uint32_t past_b = tick % motion->fixed.ticks;
-  const uint32_t first = tick - (past_a < past_b ? past_a : past_b);
+  const uint32_t a =
+      nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
+  const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
+  const uint32_t first = a > b ? a : b;
   *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
   return first;
 }

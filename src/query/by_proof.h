@@ -167,8 +167,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion down = *whole;
   nsvcd_pose moving[2], fixed[2];
   const int takes_it = nsvcd__takes_lift(task);
-  const nsvcd__track moves = {moving, takes_it ? 2u : 1u, 0};
-  const nsvcd__track rests = {fixed, takes_it ? 1u : 2u, 0};
+  const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
+  const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
   const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
@@ -197,7 +197,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
 // world's: places in its frame are as exact as if it were there.
 static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pose *poses) {
   nsvcd__motion still = task->motion;
-  const nsvcd__track tracks[2] = {{&poses[0], 1, 0}, {&poses[1], 1, 0}};
+  const nsvcd__track tracks[2] = {{&poses[0], NULL, 1, 0, 0}, {&poses[1], NULL, 1, 0, 0}};
   const nsvcd__d3 here = {0, 0, 0};
   nsvcd__d3 place, origin;
   const nsvcd__dquat turn = nsvcd__turn_at(&still, &still.moving, t, &place);

@@ -32,7 +32,7 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   const float scale_a = nsvcd__scale_of(a);
   const float scale_b = nsvcd__scale_of(b);
   const int same_size = !(scale_a < scale_b) && !(scale_b < scale_a);
-  const int same_motion = a->poses == b->poses && a->count == b->count;
+  const int same_motion = a->poses == b->poses && a->times == b->times && a->count == b->count;
   if (a->body == b->body && same_motion && same_size) return NSVCD_ERROR_SAME;
 
   // Are the options' numbers in their ranges, and do they go together?
@@ -80,7 +80,10 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   if (count_a != count_b) return count_b < count_a;
   const nsvcd_pose *poses_a = a->poses ? a->poses : &nsvcd__at_origin;
   const nsvcd_pose *poses_b = b->poses ? b->poses : &nsvcd__at_origin;
-  return memcmp(poses_b, poses_a, count_a * sizeof *poses_a) < 0;
+  const int order = memcmp(poses_b, poses_a, count_a * sizeof *poses_a);
+  if (order || count_a == 1 || a->times == b->times) return order < 0;
+  if (!a->times || !b->times) return !b->times;
+  return memcmp(b->times, a->times, count_a * sizeof *a->times) < 0;
 }
 
 // ---- lay out

@@ -59,10 +59,11 @@ typedef struct nsvcd__intervals {
   nsvcd__v square, least_segment, least;
 } nsvcd__intervals;
 
-// The time at a share of segment s.
+// The time at a share of segment s: at 1 that of its end, to the bit.
 static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
   const float start = search->time[s];
-  return start + share * (search->time[s + 1] - start);
+  const float end = search->time[s + 1];
+  return share < 1 ? start + share * (end - start) : end;
 }
 
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the

@@ -129,7 +129,6 @@ int main(int argc, char **argv) {
   memset(bodies, 0, sizeof bodies);
   memset(&shape, 0, sizeof shape);
   memset(&options, 0, sizeof options);
-  options.no_latents = !network;
   options.latents = network;
   if (argc > 3) options.patches = strtoul(argv[3], NULL, 10);
   if (options.patches == 0) options.patch_radius = triangles > NSVCD_MANY_TRIANGLES ? 0 : RADIUS;

@@ -93,7 +93,6 @@ static row measure(kind kind, size_t triangles, size_t points, const level_solid
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.patches = points;
-  options.no_latents = 1;
   if (kind == LEVEL && triangles <= NSVCD_MANY_TRIANGLES) options.patch_radius = 0.15f;
   make_shape(kind, triangles, &shape);
   level_solid_init(&solid, &shape, kind == THING ? 0.3 : 0);

@@ -226,6 +226,8 @@ typedef struct part {
   oracle_mesh mesh;
   nsvcd_pose raw[MOST_POSES];
   oracle_pose poses[MOST_POSES];
+  float times[MOST_POSES];
+  int timed;  // else they are uniform
   size_t count;
 } part;
 
@@ -484,6 +486,26 @@ static const struct {
     {"screws", scene_screws, 1},   {"wanders", scene_wanders, 3}};
 #define MAKERS (sizeof makers / sizeof makers[0])
 
+static oracle_pose part_at(const part *p, double t) {
+  size_t k = 0;
+  if (!p->timed) return oracle_pose_at(p->poses, p->count, t);
+  while (k + 2 < p->count && (double)p->times[k + 1] <= t) k++;
+  const double from = (double)p->times[k];
+  const double share = (t - from) / ((double)p->times[k + 1] - from);
+  return oracle_pose_between(&p->poses[k], &p->poses[k + 1], share);
+}
+
+// Of every third part the poses are at times of their own, of 20 bits. rng: a copy.
+static void set_times(shapes_rng rng, part *p) {
+  double sums[MOST_POSES] = {0};
+  p->timed = p->count > 1 && shapes_next(&rng) % 3 == 0;
+  for (size_t n = 1; n < p->count; n++) sums[n] = sums[n - 1] + shapes_uniform(&rng, 0.1, 1);
+  for (size_t n = 0; n < p->count; n++) {
+    const double t = p->count > 1 ? sums[n] / sums[p->count - 1] : 0;
+    p->times[n] = (float)(rint(t * 1048576) / 1048576);
+  }
+}
+
 // The poses of a part: its travel, seen from a frame that itself goes along a way.
 static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const oracle_pose *frame,
                      const double *along) {
@@ -494,8 +516,10 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const
   if (!oracle_mesh_init(&p->mesh, m->positions, m->vertices, m->indices, m->triangles,
                         (double)p->scale))
     exit(REFUSED);
+  set_times(*rng, p);
   for (size_t n = 0; n < p->count; n++) {
-    const double t = p->count > 1 ? (double)n / (double)(p->count - 1) : 0;
+    const double uniform = p->count > 1 ? (double)n / (double)(p->count - 1) : 0;
+    const double t = p->timed ? (double)p->times[n] : uniform;
     oracle_pose own;
     double turn[4];
     oracle_axis_angle(go->axis, go->angle * t, turn);
@@ -512,7 +536,8 @@ static void set_part(scene *s, shapes_rng *rng, part *p, const travel *go, const
     const double angle = oracle_quat_arc(p->poses[n - 1].rotation, p->poses[n].rotation, axis);
     const double way = oracle_length(moved) + s->scale * p->of->reach * angle;
     s->turn += angle;
-    s->speed = fmax(s->speed, way * (double)(p->count - 1));
+    const double late = (double)p->times[n] - (double)p->times[n - 1];
+    s->speed = fmax(s->speed, p->timed ? way / late : way * (double)(p->count - 1));
   }
 }
 
@@ -521,7 +546,7 @@ static nsvcd_question question_of(const scene *s, const nsvcd_question *options,
   nsvcd_mover movers[2];
   for (int k = 0; k < 2; k++) {
     const part *p = &s->parts[k];
-    movers[k] = (nsvcd_mover){p->of->body, p->raw, p->count, p->scale};
+    movers[k] = (nsvcd_mover){p->of->body, p->raw, p->count, p->timed ? p->times : NULL, p->scale};
   }
   q.a = movers[swapped];
   q.b = movers[!swapped];
@@ -593,11 +618,11 @@ static world worlds[MOST_WORLDS];
 static size_t world_count;
 
 static oracle_pose pose_in(const scene *s, const world *w, int k, double t) {
-  oracle_pose pose = oracle_pose_at(s->parts[k].poses, s->parts[k].count, t);
+  oracle_pose pose = part_at(&s->parts[k], t);
   const part *fixed = &s->parts[s->lifted_with];
   double m[9], seen[3], turned[3];
   if (k == 1) return pose;
-  const oracle_pose now = oracle_pose_at(fixed->poses, fixed->count, t);
+  const oracle_pose now = part_at(fixed, t);
   oracle_matrix(fixed->poses[0].rotation, m);
   oracle_rotate_back(m, w->lift, seen);
   oracle_matrix(now.rotation, m);

@@ -286,7 +286,7 @@ static void run_episode(int task, uint64_t seed, int only, float weight, size_t 
   task_scene scene;
   plan_spheres spheres;
   const nsvcd_body *bodies[TASK_MAX_BODIES];
-  const nsvcd_encode_options encode = {.patches = POINTS};
+  const nsvcd_encode_options encode = {.patches = POINTS, .latents = 1};
   if (!episodes[task](&scene, seed)) {
     fprintf(stderr, "plan_bench: no episode %llu\n", (unsigned long long)seed);
     exit(2);

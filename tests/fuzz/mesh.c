@@ -55,8 +55,7 @@ static void read_options(fuzz_input *in, nsvcd_encode_options *options) {
   const uint8_t flags = fuzz_byte(in);
   options->open = flags % 8 == 1;
   options->no_triangles = flags / 8 % 8 == 1;
-  options->no_latents = flags / 64 == 1;
-  options->latents = flags == 255;
+  options->latents = flags / 64 == 1;
   if (flags % 16 == 2)
     options->patch_radius = fuzz_float(in);
   if (!(options->patch_radius < 0.1f) && kind % 16 == 3)  // smaller ones only make many
@@ -119,13 +118,26 @@ static int read_solid(fuzz_input *in, solid *out) {
 // A mover in double. 0 where it makes half a turn between two poses: either way is the shorter.
 typedef struct track {
   oracle_pose poses[SCENE_POSES];
+  const float *times;
   size_t count;
   double scale;
 } track;
 
+static oracle_pose pose_at(const track *track, double t) {
+  const float *times = track->times;
+  size_t k = 0;
+  if (!times || track->count < 2)
+    return oracle_pose_at(track->poses, track->count, t);
+  while (k + 2 < track->count && (double)times[k + 1] <= t)
+    k++;
+  const double from = (double)times[k];
+  return oracle_pose_at(track->poses + k, 2, (t - from) / ((double)times[k + 1] - from));
+}
+
 static int track_of(const nsvcd_mover *mover, track *out) {
   const nsvcd_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   out->count = mover->count ? mover->count : 1;
+  out->times = mover->times;
   out->scale = mover->scale > 0 ? (double)mover->scale : 1;
   for (size_t i = 0; i < out->count; i++) {
     const nsvcd_pose *pose = mover->count ? &mover->poses[i] : &origin;
@@ -147,7 +159,7 @@ static int track_of(const nsvcd_mover *mover, track *out) {
 // A triangle of the mesh as it stands at t. 0 if it is so thin that rounding decides about it.
 static int triangle_at(const nsvcd_mesh *mesh, size_t n, const track *track, double t,
                        oracle_triangle *out) {
-  const oracle_pose pose = oracle_pose_at(track->poses, track->count, t);
+  const oracle_pose pose = pose_at(track, t);
   double edges[3][3];
   double longest = 0;
   for (size_t c = 0; c < 3; c++) {

@@ -67,10 +67,9 @@ static const nsvcd_body *scene_encode(size_t kind) {
   const nsvcd_body *body = NULL;
   memset(&options, 0, sizeof options);
   options.patches = patches[kind];
-  options.no_latents = kind == 4;
   options.no_triangles = kind == 5;
   options.open = kind == 3 || kind == 6;
-  options.latents = kind == 7;
+  options.latents = kind != 4;
   switch (kind) {
     case 1:
       scene_box(&made, 0.2f, 0.2f, 1e-3f);
@@ -114,6 +113,7 @@ enum { SCENE_POSES = 6 };
 
 typedef struct scene_question {
   nsvcd_pose a[SCENE_POSES], b[SCENE_POSES];
+  float times[2 * SCENE_POSES];
   nsvcd_question question;
 } scene_question;
 
@@ -135,7 +135,23 @@ static void scene_pose(fuzz_input *in, float reach, nsvcd_pose *pose) {
     pose->rotation[k] = turns ? pose->rotation[k] / length : (float)(k == 3);
 }
 
-static void scene_mover(fuzz_input *in, float reach, nsvcd_pose *poses, nsvcd_mover *mover) {
+// Mostly times that rise; else any numbers.
+static void scene_times(fuzz_input *in, size_t count, float *times) {
+  const uint8_t kind = fuzz_byte(in);
+  float sum = 0;
+  for (size_t k = 0; k < count; k++) {
+    times[k] = kind < 16 ? fuzz_float(in) : sum;
+    sum += kind < 16 ? 0 : 1.0f + fuzz_byte(in);
+  }
+  if (kind < 16 || count < 2)
+    return;
+  const float last = times[count - 1];
+  for (size_t k = 0; k < count; k++)
+    times[k] = k + 1 < count ? times[k] / last : 1;
+}
+
+static void scene_mover(fuzz_input *in, float reach, nsvcd_pose *poses, float *times,
+                        nsvcd_mover *mover) {
   static const float scales[8] = {0, 1, 0, 1, 0.5f, 3, 1e-6f, 1e6f};
   const uint8_t shape = fuzz_byte(in);
   mover->count = shape % 8 < SCENE_POSES ? shape % 8 : 2;
@@ -143,6 +159,10 @@ static void scene_mover(fuzz_input *in, float reach, nsvcd_pose *poses, nsvcd_mo
   for (size_t k = 0; k < mover->count; k++)
     scene_pose(in, reach, &poses[k]);
   mover->poses = mover->count ? poses : NULL;
+  if (shape / 8 % 8 == 7) {
+    scene_times(in, mover->count, times);
+    mover->times = times;
+  }
 }
 
 // What is asked: all but the bodies.
@@ -186,8 +206,8 @@ static void scene_ask_about(fuzz_input *in, const nsvcd_body *a, const nsvcd_bod
   scene_options(in, &out->question);
   out->question.a.body = a;
   out->question.b.body = b;
-  scene_mover(in, reach, out->a, &out->question.a);
-  scene_mover(in, reach, out->b, &out->question.b);
+  scene_mover(in, reach, out->a, out->times, &out->question.a);
+  scene_mover(in, reach, out->b, out->times + SCENE_POSES, &out->question.b);
 }
 
 // ------------------------------------------------------------------------------------------ answers

@@ -60,7 +60,6 @@ static int load_bodies(const problem_file *file, bodies *out) {
              file->meshes[i].path);
     nsvcd_encode_options options;
     memset(&options, 0, sizeof options);
-    options.no_latents = 1;
     if (nsvcd_obj_load(path, NULL, &mesh, NULL))
       return complain("%s: cannot be read", path);
     size_t size;

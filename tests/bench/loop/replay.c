@@ -337,7 +337,6 @@ static void find_leaves(replay_body *b, uint32_t link) {
 static int load_body(const char *path, float remote, replay_body *out) {
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
-  options.no_latents = 1;
   memset(out, 0, sizeof *out);
   if (nsvcd_obj_load(path, NULL, &out->mesh, NULL))
     return complain("%s: cannot be read", path);
