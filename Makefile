@@ -34,7 +34,7 @@ endif
 .PHONY: all demo preview assets header help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
-.PHONY: check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
+.PHONY: check-one-path bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-asks bench-casts bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -343,7 +343,10 @@ check-options: build/check_options build/check_options_fused  # every option aga
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
-CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options problems extremes python web
+check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
+	CC="$(CC)" tests/one_path.sh
+
+CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options one-path problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
@@ -477,6 +480,8 @@ bench-scale: build/bench_scale  ## bytes and microseconds against triangles and 
 bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
 	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
 ASKED = $(call files,standard hollow rest)
+bench-one-path:  ## what NSVCD_ONE_PATH costs
+	CC="$(CC)" tests/one_path.sh time
 bench-casts: build/bench_casts  ## capsules, spheres and rays in a level; clouds
 	build/bench_casts
 bench-asks: build/bench_asks build/game $(ASKED)  ## what first contacts, clearances and skins cost

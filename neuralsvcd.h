@@ -66,6 +66,7 @@
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
+//   NSVCD_ONE_PATH    the same bits everywhere: see DETERMINISM
 //   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
 //                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
 //                     decides
@@ -124,6 +125,12 @@
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
+//   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
+//   same operations in the same order, no products fused into sums, sines and angles of this
+//   header's own. gcc fuses where it is told neither -std=c99 or the like nor -ffp-contract=off,
+//   clang with -ffp-contract=fast: then nsvcd_self_test says BUILD. It costs 4 to 14 %
+//   (`make bench-one-path`).
 //
 // CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
 //   interface: what a program sees
@@ -136,6 +143,7 @@
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
 //     strings         what codes and statuses say
+//     angles          sines and angles, by libm or reckoned here
 //     bits            bits and sizes
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
@@ -1189,6 +1197,20 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
+// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+#ifdef NSVCD_ONE_PATH
+#include <float.h>
+#if defined(__FAST_MATH__) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error \
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+#endif
+// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+#endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__MERGED static inline __attribute__((always_inline))
@@ -1273,6 +1295,45 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
       "unknown status\0",
       (size_t)status);
 }
+#endif
+
+// ----------------------------------------------------------------------------------- ground/angles
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
+// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+
+#ifdef NSVCD_ONE_PATH
+// sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
+static inline double nsvcd__sin(double x) {
+  const double square = x * x;
+  double sum = 1;
+  for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
+  return x * sum;
+}
+// The angle of a vector (x, y), neither below 0, to 1e-15: a quarter of it, twice halved by
+// tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), is less than 0.2, and of the series there 1e-18 is
+// left.
+static inline double nsvcd__atan2(double y, double x) {
+  const int steep = y > x;
+  const double slope = steep ? x / y : x > 0 ? y / x : 0;
+  double t = slope;
+  double sum = 0;
+  for (int n = 0; n < 2; n++) t = t / (1 + sqrt(1 + t * t));
+  for (int n = 25; n > 0; n -= 2) sum = 1.0 / n - sum * (t * t);
+  return steep ? 1.57079632679489662 - 4 * t * sum : 4 * t * sum;
+}
+static inline float nsvcd__sinf(float x) {
+  return (float)nsvcd__sin((double)x);
+}
+// 0 <= x < 1
+static inline float nsvcd__asinf(float x) {
+  const double sine = (double)x;
+  return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));
+}
+#else
+#define nsvcd__sin sin
+#define nsvcd__atan2 atan2
+#define nsvcd__sinf sinf
+#define nsvcd__asinf asinf
 #endif
 
 // ------------------------------------------------------------------------------------- ground/bits
@@ -1562,7 +1623,7 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
 // left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
   const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
-  return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+  return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
 // The same rotation on the side of another quaternion, to which q is opposed or not.
@@ -1598,8 +1659,8 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
   float wb = u;
   // below, the difference is less than rounding
   if (angle > 1e-3f) {
-    wa = sinf((1 - u) * angle);
-    wb = sinf(u * angle);
+    wa = nsvcd__sinf((1 - u) * angle);
+    wb = nsvcd__sinf(u * angle);
   }
   return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
 }
@@ -6665,6 +6726,9 @@ typedef __m128 nsvcd__v;
 #define NSVCD__SELECT(mask, x, y) _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y))
 #endif
 
+#ifdef NSVCD_ONE_PATH
+#undef NSVCD__FMA
+#endif
 #ifndef NSVCD__FMA
 #define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
 #endif
@@ -9246,8 +9310,8 @@ static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
   double after = way;
   // below, the difference is less than rounding
   if (leg->half_angle > 1e-7) {
-    before = sin((1 - way) * leg->half_angle);
-    after = sin(way * leg->half_angle);
+    before = nsvcd__sin((1 - way) * leg->half_angle);
+    after = nsvcd__sin(way * leg->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
@@ -9285,7 +9349,7 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
   const double together = nsvcd__dquat_dot(sum, sum);
-  leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+  leg->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
 // The rotation vector of a leg, over its arc.
@@ -10710,16 +10774,16 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, doub
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
-  const nsvcd__d3 v = nsvcd__d3_cross(n, u);
   memset(m, 0, sizeof *m);
   m->normal = n;
   m->reach = reach;
   m->same = same;
+  // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
+  nsvcd__d3 along = u;
   for (int k = 0; k < NSVCD__AROUND; k++) {
-    const double angle = k * (2 * 3.14159265358979323846 / NSVCD__AROUND);
-    m->along[k] =
-        nsvcd__d3_add(nsvcd__d3_scale(u, cos(angle)), nsvcd__d3_scale(v, sin(angle)));
+    m->along[k] = along;
     m->farthest[k] = -HUGE_VAL;
+    along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
   }
 }
 
@@ -14561,6 +14625,14 @@ static nsvcd_result nsvcd__self_test(void) {
   right &= !(nsvcd__nearest_of(a, b).square > 0);
   for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
   right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
+#endif
+#ifdef NSVCD_ONE_PATH
+  // a product that has been rounded: of one that is fused, 2^-24 would be left
+  const volatile float one_up = 1 + 1.0f / 4096;
+  const volatile float square = 1 + 1.0f / 2048;
+  const float factor = one_up;
+  const float left = factor * factor - square;
+  right &= !(left > 0);
 #endif
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }

@@ -66,6 +66,7 @@
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
+//   NSVCD_ONE_PATH    the same bits everywhere: see DETERMINISM
 //   NSVCD_NO_DISPATCH on x86-64 what the compiler's flags allow, SSE2 by default; without it a
 //                     build for SSE2 holds queries for AVX2 and AVX-512 too, and the processor
 //                     decides
@@ -124,6 +125,12 @@
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
+//   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
+//   same operations in the same order, no products fused into sums, sines and angles of this
+//   header's own. gcc fuses where it is told neither -std=c99 or the like nor -ffp-contract=off,
+//   clang with -ffp-contract=fast: then nsvcd_self_test says BUILD. It costs 4 to 14 %
+//   (`make bench-one-path`).
 //
 // CONTENTS
 //
@@ -189,6 +196,7 @@ extern "C" {
 // ====================================================================== ground: numbers and memory
 #include "ground/compiler.h"   // what is asked of the compiler; libc and libm
 #include "ground/strings.h"    // what codes and statuses say
+#include "ground/angles.h"     // sines and angles, by libm or reckoned here
 #include "ground/bits.h"       // bits and sizes
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles

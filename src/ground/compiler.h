@@ -12,6 +12,20 @@
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
+// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+#ifdef NSVCD_ONE_PATH
+#include <float.h>
+#if defined(__FAST_MATH__) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error \
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+#endif
+// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+#endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__MERGED static inline __attribute__((always_inline))

@@ -1,6 +1,7 @@
 // In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
 // its rows. A transform is a rotation and a place.
 #pragma once
+#include "angles.h"
 #include "points.h"
 
 // The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
@@ -118,7 +119,7 @@ static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
 // left.
 static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
   const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
-  return 2 * asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+  return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
 }
 
 // The same rotation on the side of another quaternion, to which q is opposed or not.
@@ -154,8 +155,8 @@ static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float 
   float wb = u;
   // below, the difference is less than rounding
   if (angle > 1e-3f) {
-    wa = sinf((1 - u) * angle);
-    wb = sinf(u * angle);
+    wa = nsvcd__sinf((1 - u) * angle);
+    wb = nsvcd__sinf(u * angle);
   }
   return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
 }

@@ -111,6 +111,9 @@ typedef __m128 nsvcd__v;
 #define NSVCD__SELECT(mask, x, y) _mm_or_ps(_mm_and_ps(mask, x), _mm_andnot_ps(mask, y))
 #endif
 
+#ifdef NSVCD_ONE_PATH
+#undef NSVCD__FMA
+#endif
 #ifndef NSVCD__FMA
 #define NSVCD__FMA(a, b, c) nsvcd__v_add(nsvcd__v_mul(a, b), c)
 #endif

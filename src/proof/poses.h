@@ -21,8 +21,8 @@ static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
   double after = way;
   // below, the difference is less than rounding
   if (leg->half_angle > 1e-7) {
-    before = sin((1 - way) * leg->half_angle);
-    after = sin(way * leg->half_angle);
+    before = nsvcd__sin((1 - way) * leg->half_angle);
+    after = nsvcd__sin(way * leg->half_angle);
   }
   const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
@@ -60,7 +60,7 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const double apart = nsvcd__dquat_dot(difference, difference);
   const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
   const double together = nsvcd__dquat_dot(sum, sum);
-  leg->half_angle = 2 * atan2(sqrt(apart), sqrt(together));
+  leg->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
 // The rotation vector of a leg, over its arc.

@@ -57,5 +57,13 @@ static nsvcd_result nsvcd__self_test(void) {
   for (size_t k = 0; k < 3; k++) b[k].z += 1 + lift;
   right &= fabs(nsvcd__nearest_of(a, b).square - lift * lift) < 1e-9;
 #endif
+#ifdef NSVCD_ONE_PATH
+  // a product that has been rounded: of one that is fused, 2^-24 would be left
+  const volatile float one_up = 1 + 1.0f / 4096;
+  const volatile float square = 1 + 1.0f / 2048;
+  const float factor = one_up;
+  const float left = factor * factor - square;
+  right &= !(left > 0);
+#endif
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }
