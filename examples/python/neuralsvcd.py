@@ -158,14 +158,14 @@ def _struct(name: str, /, **kinds: Any) -> Any:
 
 _Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
 _EncodeOptions = _struct(
-    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, no_triangles=c_int,
-    no_latents=c_int, latents=c_int, progress=_PROGRESS, user=c_void_p)
+    "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, latents=c_int,
+    no_triangles=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float)
-_Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, scale=c_float)
+_Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
     tolerance=c_float, manifold=c_int, method=c_int, work=c_size_t, segments=c_size_t, network=_NetworkOptions)
@@ -468,9 +468,8 @@ class Body:
     round         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
                   vertex thrice) and segments, and there are no latents
     open          the mesh is not closed: nothing counts as inside it
-    no_triangles  for the network alone
-    no_latents    for the proof alone
-    latents       for the network too, also of more than 512 patches
+    latents       for the network, the planner and gradients too
+    no_triangles  for them alone
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
     """
@@ -480,11 +479,11 @@ class Body:
     _address: int
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, patches: int = 0, patch_radius: float = 0,
-                 round: float = 0, open: bool = False, no_triangles: bool = False, no_latents: bool = False, latents: bool = False,
+                 round: float = 0, open: bool = False, latents: bool = False, no_triangles: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         mesh = _c_mesh(vertices, triangles)
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
-                          no_triangles=no_triangles, no_latents=no_latents, latents=latents)
+                          latents=latents, no_triangles=no_triangles)
         caught: list[BaseException] = []
         if progress:
             options.progress = _PROGRESS(functools.partial(_cancels, progress, caught))
@@ -774,31 +773,46 @@ def _answer_of(c: Any) -> Answer:
                   _contact_of(v[28:41]), opinion, v[48])
 
 
-def _motion(poses: Optional[ArrayLike], shape: tuple[Optional[int], ...], name: str) -> Optional[Floats]:
+class _Motion(NamedTuple):
+    """(k, 7), and (k) or None; of a batch there may be (n, k, 7) and (n, k). poses None: at rest at the origin."""
+    poses: Optional[Floats]
+    times: Optional[Floats]
+
+
+def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], side: str, batch: bool = False) -> _Motion:
     if poses is None:
-        return None
-    motion = _floats(poses, shape, name)
-    if not motion.shape[-2]:
-        raise ValueError(f"{name}: no pose; None is at rest at the origin")
-    return motion
+        if times is not None:
+            raise ValueError(f"times_{side}: there are no poses")
+        return _Motion(None, None)
+    each = (None,) if batch and np.ndim(poses) != 2 else ()
+    kept = _floats(poses, (*each, None, 7), f"poses_{side}")
+    if not kept.shape[-2]:
+        raise ValueError(f"poses_{side}: no pose; None is at rest at the origin")
+    if times is None:
+        return _Motion(kept, None)
+    each = (None,) if batch and np.ndim(times) != 1 else ()
+    return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times_{side}"))
 
 
-def _mover(body: Body, motion: Optional[Floats], scale: float, side: str) -> Any:
+def _mover(body: Body, motion: _Motion, scale: float, side: str) -> Any:
     if not isinstance(body, Body):
         raise TypeError(f"{side}: a Body is needed, not {type(body).__name__}")
     factor = c_float(scale)
     if not factor.value:
         raise ValueError(f"scale_{side}: {scale}")  # in C that is 1
-    if motion is None:
-        return body._address, None, 0, factor
-    return body._address, _address(motion), len(motion), factor
+    if motion.poses is None:
+        return body._address, None, 0, None, factor
+    times = None if motion.times is None else _address(motion.times)
+    return body._address, _address(motion.poses), len(motion.poses), times, factor
 
 
-def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike], scale_a: float,
-              scale_b: float, options: Options) -> Any:
-    motion_a = _motion(poses_a, (None, 7), "poses_a")
-    # The same array twice is the same motion, which the library refuses of one body.
-    motion_b = motion_a if poses_b is poses_a else _motion(poses_b, (None, 7), "poses_b")
+def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
+              times_a: Optional[ArrayLike], times_b: Optional[ArrayLike], scale_a: float, scale_b: float,
+              options: Options) -> Any:
+    motion_a = _motion(poses_a, times_a, "a")
+    # The same arrays twice are the same motion, which the library refuses of one body.
+    same = poses_b is poses_a and times_b is times_a
+    motion_b = motion_a if same else _motion(poses_b, times_b, "b")
     question = _Question.from_buffer_copy(options._c)
     question.a, question.b = _mover(a, motion_a, scale_a, "a"), _mover(b, motion_b, scale_b, "b")
     question.kept = motion_a, motion_b
@@ -806,14 +820,15 @@ def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[
 
 
 def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
-          scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Answer:
+          times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Answer:
     """Do two bodies hit each other?
 
-    poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w, uniform in time; k may differ; one pose: it rests
-                      there; None: it rests at the origin
+    poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
+                      rests at the origin
+    times_a, times_b  (k) when a body is at each pose, from 0 to 1, rising; None: uniform
     scale_a, scale_b  of the bodies, about their origins, 1e-6 to 1e6
     """
-    question = _question(a, b, poses_a, poses_b, scale_a, scale_b, options)
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
     answer = _Answer()
     _check(_library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer)))
     return _answer_of(answer)
@@ -831,11 +846,12 @@ class Gradient(NamedTuple):
 
 
 def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+                   times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None,
                    scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Gradient:
     """As sweep, by the network, with derivatives; zero where no network answered."""
-    question = _question(a, b, poses_a, poses_b, scale_a, scale_b, options)
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
     answer = _Answer()
-    by_a, by_b = (np.zeros((1 if motion is None else len(motion), 6), np.float32) for motion in question.kept)
+    by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept)
     _check(_library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
                                          _address(by_a), _address(by_b)))
     return Gradient(_answer_of(answer), by_a, by_b)
@@ -899,13 +915,12 @@ class _Side(NamedTuple):
     """Body a or body b of all questions of a batch; each one, or one for each question."""
     name: str
     bodies: Bodies
-    motions: Optional[Floats]
+    motion: _Motion
     scales: Floats
 
     def lengths(self) -> set[int]:
         lengths = set() if isinstance(self.bodies, Body) else {len(self.bodies)}
-        if self.motions is not None and self.motions.ndim == 3:
-            lengths.add(len(self.motions))
+        lengths.update(len(each) for each, one in zip(self.motion, (2, 1)) if each is not None and each.ndim > one)
         if self.scales.ndim == 1:
             lengths.add(len(self.scales))
         return lengths
@@ -916,20 +931,22 @@ class _Side(NamedTuple):
             raise TypeError(f"{self.name}: bodies are needed")
         movers["body"] = [body._address for body in bodies]
         movers["scale"] = self.scales
-        if self.motions is not None:
-            step = self.motions.strides[0] if self.motions.ndim == 3 else 0
-            movers["poses"] = _address(self.motions) + step * np.arange(len(movers), dtype=np.uintp)
-            movers["count"] = self.motions.shape[-2]
+        for field, given, one in zip(("poses", "times"), self.motion, (2, 1)):
+            if given is not None:
+                step = given.strides[0] if given.ndim > one else 0
+                movers[field] = _address(given) + step * np.arange(len(movers), dtype=np.uintp)
+        if self.motion.poses is not None:
+            movers["count"] = self.motion.poses.shape[-2]
 
 
-def _side(name: str, bodies: Bodies, poses: Optional[ArrayLike], scale: ArrayLike) -> _Side:
+def _side(name: str, bodies: Bodies, poses: Optional[ArrayLike], times: Optional[ArrayLike],
+          scale: ArrayLike) -> _Side:
     given = np.asarray(scale)
     scales = _floats(given, (None,) * min(given.ndim, 1), f"scale_{name}")
     if not scales.all():
         raise ValueError(f"scale_{name}: 0")
     kept: Bodies = bodies if isinstance(bodies, Body) else tuple(bodies)
-    for_all = poses is not None and np.ndim(poses) == 2
-    return _Side(name, kept, _motion(poses, (None, 7) if for_all else (None, None, 7), f"poses_{name}"), scales)
+    return _Side(name, kept, _motion(poses, times, name, batch=True), scales)
 
 
 def _first_fault(questions: NDArray[Any]) -> int:
@@ -938,11 +955,13 @@ def _first_fault(questions: NDArray[Any]) -> int:
 
 
 def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+                times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None,
                 scale_a: ArrayLike = 1, scale_b: ArrayLike = 1, options: Options = _DEFAULTS) -> NDArray[Any]:
     """Answers n questions in one call of the library, one after the other.
 
     a, b              a body for all, or a sequence of n
     poses_a, poses_b  (n, k, 7), or (k, 7) for all, or None
+    times_a, times_b  (n, k), or (k) for all, or None
     scale_a, scale_b  (n), or a number for all
 
     Returns a structured array (n) with the fields of nsvcd_answer: answers["verdict"] == "hit" is an array of bool,
@@ -950,9 +969,9 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     NO_TRIANGLE; answers["opinion"]["asked"] says whether there is one. One after another on the same two bodies: the
     network is first asked where the motion before collided; see nsvcd_sweep_batch.
     """
-    side_a, side_b = _side("a", a, poses_a, scale_a), _side("b", b, poses_b, scale_b)
-    if poses_b is poses_a:
-        side_b = side_b._replace(motions=side_a.motions)  # as in _question
+    side_a, side_b = _side("a", a, poses_a, times_a, scale_a), _side("b", b, poses_b, times_b, scale_b)
+    if poses_b is poses_a and times_b is times_a:
+        side_b = side_b._replace(motion=side_a.motion)  # as in _question
     lengths = side_a.lengths() | side_b.lengths()
     if len(lengths) != 1:
         raise ValueError(f"lengths differ: {sorted(lengths)}" if lengths else "nothing says how many motions there are")

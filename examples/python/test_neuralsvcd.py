@@ -44,7 +44,7 @@ FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 
 
 def setUpModule() -> None:
     global MUG, RACK, BOX
-    MUG, RACK = (Body(*nsvcd.load_obj(ASSETS / name)) for name in ("mug.obj", "dish_rack.obj"))
+    MUG, RACK = (Body(*nsvcd.load_obj(ASSETS / name), latents=True) for name in ("mug.obj", "dish_rack.obj"))
     BOX = Body(CUBE, FACES)
 
 
@@ -134,7 +134,7 @@ class AgainstC(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "mug.body"
             subprocess.run([SVCD, "encode", ASSETS / "mug.obj", path], check=True, capture_output=True)
-            self.assertEqual(path.stat().st_size, len(bytes(MUG)))
+            self.assertEqual(path.read_bytes(), bytes(Body(*nsvcd.load_obj(ASSETS / "mug.obj"))))
             self.assertEqual(nsvcd.sweep(Body.load(path), RACK, LOW).verdict, "hit")
 
 
@@ -241,6 +241,37 @@ class Queries(unittest.TestCase):
         three = at(-3, 0, 0) + at(0, 10, 0) + at(3, 0, 0)
         self.assertFalse(nsvcd.sweep(BOX, BOX, three, at(0, 0, 0) + at(0, 0, 0)))
 
+    def test_times(self) -> None:
+        """A stop on the way, and the same with poses in its place."""
+        gate = at(0, 0, 0) + at(0, 3, 0) + at(0, 3, 0)
+        for times, verdict in (([0, 0.3, 1], "free"), ([0, 0.9, 1], "hit")):
+            for given in (times, np.array(times), tuple(times)):
+                self.assertEqual(nsvcd.sweep(BOX, BOX, line(-10, 10), gate, times_b=given).verdict, verdict)
+                self.assertEqual(nsvcd.sweep(BOX, BOX, gate, line(-10, 10), times_a=given).verdict, verdict)
+        even = [at(x, 0, 0)[0] for x in (-5, -4, -3, 0, 3)]
+        first = Options(ask="first", to=1e-4)
+        expected = nsvcd.sweep(BOX, BOX, even, options=first).time
+        found = nsvcd.sweep(BOX, BOX, even[::2], times_a=[0, 0.5, 1], options=first).time
+        np.testing.assert_allclose(found, expected, atol=1e-4)
+        late = nsvcd.sweep(BOX, BOX, even[::2], times_a=[0, 0.9, 1], options=first).time
+        self.assertTrue(0.9 < late.low <= late.high < 0.95)
+        gradients = [nsvcd.sweep_gradient(MUG, RACK, LOW, times_a=times, options=BY_NETWORK)
+                     for times in (None, [0, 1])]
+        np.testing.assert_array_equal(gradients[0].by_a, gradients[1].by_a)
+
+    def test_times_refused(self) -> None:
+        path = [at(x, 0, 0)[0] for x in (-5, 0, 5)]
+        for times in ([0, 0.5, 0.9], [0.1, 0.5, 1], [0, 0, 1], [0, 1.5, 1], [0, np.nan, 1], [0, 0.5, 0.5]):
+            self.assertEqual(raised(nsvcd.sweep, BOX, RACK, path, times_a=times).code, Code.POSE, times)
+            self.assertEqual(raised(nsvcd.sweep, BOX, RACK, None, path, times_b=times).code, Code.POSE, times)
+        for times in ([0, 1], [0, 0.3, 0.6, 1], [], [[0, 0.5, 1]]):
+            with self.assertRaises(ValueError):
+                nsvcd.sweep(BOX, RACK, path, times_a=times)
+        with self.assertRaises(ValueError):
+            nsvcd.sweep(BOX, RACK, times_a=[0, 1])
+        with self.assertRaises(TypeError):
+            nsvcd.sweep(BOX, RACK, path, times_a=["0", "1", "2"])
+
     def test_gradient(self) -> None:
         """Against differences, by where the bodies are."""
         path, rest = np.array(LOW, float), np.array(at(0.01, 0.02, 0))
@@ -335,6 +366,18 @@ class Batches(unittest.TestCase):
         answers = nsvcd.sweep_batch(bodies, RACK, self.paths, other, scale_a=scales, scale_b=2)
         for k, row in enumerate(answers):
             self.same(row, nsvcd.sweep(bodies[k], RACK, self.paths[k], other[k], scale_a=scales[k], scale_b=2))
+        times = np.zeros((60, 4))
+        times[:, 1:] = np.sort(np.random.default_rng(6).uniform(0.1, 0.9, (60, 3)))
+        times[:, 3] = 1
+        answers = nsvcd.sweep_batch(MUG, RACK, self.paths, other, times_b=times)
+        for k, row in enumerate(answers):
+            self.same(row, nsvcd.sweep(MUG, RACK, self.paths[k], other[k], times_b=times[k]))
+        answers = nsvcd.sweep_batch(MUG, RACK, self.paths, other[0], times_b=times)
+        for k, row in enumerate(answers):
+            self.same(row, nsvcd.sweep(MUG, RACK, self.paths[k], other[0], times_b=times[k]))
+        answers = nsvcd.sweep_batch(MUG, RACK, self.paths, other, times_a=[0, 1], times_b=times[0])
+        for k, row in enumerate(answers):
+            self.same(row, nsvcd.sweep(MUG, RACK, self.paths[k], other[k], times_a=[0, 1], times_b=times[0]))
         answers = nsvcd.sweep_batch(RACK, tuple(bodies), poses_b=LOW)
         for body, row in zip(bodies, answers):
             self.same(row, nsvcd.sweep(RACK, body, None, LOW))
@@ -368,6 +411,13 @@ class Batches(unittest.TestCase):
                           (MUG, RACK, self.paths[0, 0])):
             with self.assertRaises(ValueError):
                 nsvcd.sweep_batch(*arguments)
+        for times in ([0, 0.5, 1], np.zeros((59, 2)), np.zeros((60, 2, 1))):
+            with self.assertRaises(ValueError):
+                nsvcd.sweep_batch(MUG, RACK, self.paths, times_a=times)
+        backwards = np.tile([0, 1], (60, 1))
+        backwards[5] = [1, 0]
+        error = raised(nsvcd.sweep_batch, MUG, RACK, self.paths[:30], times_a=backwards[:30])
+        self.assertEqual((error.code, error.index), (Code.POSE, 5))
         for scale in (0, [1] * 59 + [0], [1, 2], [[1]]):
             with self.assertRaises(ValueError):
                 nsvcd.sweep_batch(MUG, RACK, self.paths, scale_a=scale)
@@ -390,8 +440,9 @@ class Arrays(unittest.TestCase):
         self.assertEqual(nsvcd.sweep(BOX, RACK, np.array(REST, np.int8)), nsvcd.sweep(BOX, RACK, REST))
         vertices, faces = nsvcd.load_obj(ASSETS / "mug.obj")
         for kind in (np.int8 if len(vertices) < 128 else np.int16, np.uint16, np.int64, np.uint64, ">i4"):
-            self.assertEqual(bytes(Body(vertices.astype(float), np.asfortranarray(faces.astype(kind)))), bytes(MUG))
-        self.assertEqual(bytes(Body(vertices.tolist(), faces.tolist())), bytes(MUG))
+            body = Body(vertices.astype(float), np.asfortranarray(faces.astype(kind)), latents=True)
+            self.assertEqual(bytes(body), bytes(MUG))
+        self.assertEqual(bytes(Body(vertices.tolist(), faces.tolist(), latents=True)), bytes(MUG))
 
     def test_what_is_given_stays_as_it_is(self) -> None:
         vertices, faces = CUBE.astype(np.float32), FACES.astype(np.uint32)
@@ -484,7 +535,6 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(ValueError):
                 Body(CUBE, FACES, **named)
         self.assertEqual(raised(Body, CUBE, FACES, patches=65537).code, Code.ARGUMENT)
-        self.assertEqual(raised(Body, CUBE, FACES, no_triangles=True, no_latents=True).code, Code.ARGUMENT)
 
 
 class Meshes(unittest.TestCase):
@@ -537,15 +587,14 @@ class Errors(unittest.TestCase):
 class Bodies(unittest.TestCase):
     def test_facts(self) -> None:
         facts = BOX.facts
-        self.assertEqual((facts.triangles, facts.latents, facts.size), (12, True, len(bytes(BOX))))
+        self.assertEqual((facts.triangles, facts.latents, facts.size), (12, False, len(bytes(BOX))))
         self.assertTrue(3**0.5 <= facts.radius and max(map(abs, facts.centre)) < 0.1)
         self.assertLess(Body(CUBE, FACES, patches=192).facts.radius, 2)
         self.assertTrue(facts.listings >= 12 and 0 < facts.quantum < 1e-3 and facts.mean_patch_radius > 0)
         self.assertEqual(Body(CUBE, FACES, patches=50).facts.patches, 50)
         self.assertGreater(Body(CUBE, FACES, patch_radius=0.1).facts.patches, 192)
-        self.assertEqual(Body(CUBE, FACES, no_triangles=True).facts.triangles, 0)
-        self.assertFalse(Body(CUBE, FACES, no_latents=True).facts.latents)
-        self.assertFalse(Body(CUBE, FACES, patches=600).facts.latents)
+        alone = Body(CUBE, FACES, no_triangles=True).facts
+        self.assertEqual((alone.triangles, alone.latents), (0, True))
         self.assertTrue(Body(CUBE, FACES, patches=600, latents=True).facts.latents)
         self.assertTrue(nsvcd.sweep(BOX, BOX, scale_b=0.1))
         self.assertFalse(nsvcd.sweep(Body(CUBE, FACES, open=True), BOX, scale_b=0.1))
@@ -616,7 +665,7 @@ class Bodies(unittest.TestCase):
     def test_progress(self) -> None:
         told = []
         vertices, faces = nsvcd.load_obj(ASSETS / "mug.obj")
-        self.assertEqual(bytes(Body(vertices, faces, progress=told.append)), bytes(MUG))
+        self.assertEqual(bytes(Body(vertices, faces, latents=True, progress=told.append)), bytes(MUG))
         self.assertTrue(told and all(0 <= done <= 1 for done in told))
         self.assertEqual(raised(Body, vertices, faces, progress=lambda done: True).code, Code.CANCELLED)
         for kind in (ZeroDivisionError, KeyboardInterrupt):
@@ -837,7 +886,7 @@ class Layouts(unittest.TestCase):
                 ("opinion=_Opinion, work=c_size_t", "opinion=_Opinion", "nsvcd_answer.work"),
                 ("network=_NetworkOptions)", "network=_NetworkOptions, next=c_size_t)", "nsvcd_question.next"),
                 ("limited=c_int", "limited=c_uint64", "nsvcd_opinion.limited"),
-                ("count=c_size_t, scale=c_float", "count=c_uint32, scale=c_float", "nsvcd_mover.count"),
+                ("count=c_size_t, times=c_void_p", "count=c_uint32, times=c_void_p", "nsvcd_mover.count"),
                 ("discrete=c_int", "apart=c_int", "nsvcd_plan_options.apart"),
                 ('    UNDECIDED = "undecided"\n    FREE = "free"', '    FREE = "free"\n    UNDECIDED = "undecided"',
                  "NSVCD_UNDECIDED"),
