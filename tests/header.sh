@@ -138,7 +138,9 @@ int main(int argc, char **argv) {
 #ifdef ENCODES
   nsvcd_mesh mesh;
   if (argc != 3 || nsvcd_obj_load(argv[1], NULL, &mesh, NULL)) return 1;
-  if (nsvcd_encode(&mesh, NULL, NULL, memory, sizeof memory, &body)) return 1;
+  nsvcd_encode_options options = {0};
+  options.latents = 1;
+  if (nsvcd_encode(&mesh, &options, NULL, memory, sizeof memory, &body)) return 1;
 #else
   FILE *from = fopen(argv[1], "rb");
   const size_t size = argc == 3 && from ? fread(memory, 1, sizeof memory, from) : 0;

@@ -77,8 +77,8 @@ if command -v cmake >/dev/null; then
     asks "$1" '' 0
     asks "$1" "$version EXACT" 0
     asks "$1" "$minor" 0
-    asks "$1" 0.1 1
-    asks "$1" 0.3 1
+    asks "$1" 0.2 1
+    asks "$1" 0.4 1
     asks "$1" "$minor.99" 1
     asks "$1" 1.0 1
   }
