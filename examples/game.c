@@ -217,6 +217,7 @@ static void find_pairs(world *w) {
 
 static nsvcd_mover mover_of(const world *w, const thing *t) {
   nsvcd_mover mover;
+  memset(&mover, 0, sizeof mover);
   mover.body = w->bodies[t->mesh];
   mover.poses = t->poses;
   mover.count = moves(t) ? 2 : 1;

@@ -41,10 +41,12 @@ char *EXPORT(web_text)(size_t size) {
 nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
+  nsvcd_encode_options options = {0};
   nsvcd_result result = nsvcd_obj_parse(text, size, NULL, &mesh, &error_line);
   free(text);
   if (result) return result;
-  result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
+  options.latents = 1;  // the page asks the network too
+  result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
   if (result) {
     nsvcd_mesh_free(&mesh, NULL);
     return result;
