@@ -8924,6 +8924,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LONG 6000
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
+#define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
@@ -10733,6 +10734,65 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
+// Of these lanes of a fixed block, those that the plane which parted a couple last does not part
+// from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where there is a
+// clearance it parts many: triangles near by have their nearest points along nearly the same
+// direction.
+static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                                 nsvcd__block *fixed, size_t ends,
+                                                 const nsvcd__span *span, float margin,
+                                                 uint32_t met) {
+  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.parting));
+  NSVCD__EACH_SLICE(s) {
+    uint32_t below;
+    if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+    const uint32_t apart =
+        nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+    met &= ~apart;
+  }
+  (void)i;
+  (void)j;
+  return met;
+}
+
+// Of these lanes of the moving block, those that the plane which parted a couple last does not part
+// from all of a fixed block, by more than `margin`, at `ends` poses.
+static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                       nsvcd__block *fixed, size_t ends,
+                                                       const nsvcd__span *span, float margin,
+                                                       uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+  const nsvcd__v3 normal = nsvcd__v3_set(last);
+  if (!(p->ask.clearance > 0) || !lanes) return lanes;
+  float lowest = HUGE_VALF;  // of the fixed block's heights, negated
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(s) {
+      const nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(fixed->corners[k], s));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_negate(height)));
+    }
+  }
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);
+  uint32_t apart = 0;
+  NSVCD__EACH_SLICE(s) {
+    nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(p->posed[0][0], s));
+    for (size_t k = 1; k < 3 * ends; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[k / 3][k % 3], s);
+      height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
+    }
+    apart |= nsvcd__v_lt(limit, height) << s;
+  }
+  apart &= lanes;
+  for (uint32_t told = span ? apart : 0; told; told &= told - 1) {
+    NSVCD__EACH_SLICE(s)
+    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, span, NSVCD__SLICE_MASK << s, s,
+                         &normal, 0);
+  }
+  (void)i;
+  (void)j;
+  return lanes & ~apart;
+}
+
 // Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
 // `ends` poses. span: of patches i and j, for the certificates; NULL for none.
 static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
@@ -10740,6 +10800,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
   if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (p->ask.clearance > 0)
+    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
@@ -11060,12 +11122,15 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
-  uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  uint32_t lanes = nsvcd__lanes_left_by_last(p, i, j, fixed, 1, NULL, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     p->work++;
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
+      if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
+      if (!met) break;
       const size_t listing = p->moving_block.first + l;
       const nsvcd__couple couple =
           nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
@@ -11082,7 +11147,11 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       } else {
         if (!(clearance > 0)) continue;
         nearest = nsvcd__nearest_of(posed, couple.fixed);
-        if (!(nearest.square <= clearance * clearance)) continue;
+        if (!(nearest.square <= clearance * clearance)) {
+          const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+          p->memo.parting = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          continue;
+        }
       }
       if (p->ask.gathers == NSVCD__TOUCHING) {
         nsvcd__gather_contact(p, &couple, posed);
@@ -11176,20 +11245,13 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  uint32_t below = 0;
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
         quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
-    NSVCD__EACH_SLICE(s) {
-      const nsvcd__v3 normal = nsvcd__v3_set(last);
-      const uint32_t apart =
-          nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
-      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
-      met &= ~apart;
-    }
+    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
@@ -11221,14 +11283,16 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
       for (size_t n = 0; n < p->memo.window; n++) {
-        const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+        nsvcd__block *fixed = &p->fixed_blocks[n];
+        const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+        const uint32_t lanes =
+            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
         p->work++;
         if (nsvcd__is_spent(p)) return NSVCD__SPENT;
         for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(lanes >> l & 1)) {
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
-            continue;
-          }
+          if (!(nearby >> l & 1))
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
+          if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
           if (row != NSVCD__SETTLED) return row;
@@ -12287,32 +12351,86 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     from = NSVCD__GROUP * nearest;
     count = NSVCD__GROUP;
   }
-  for (size_t n = from; n < from + count && n < body->patches; n++) {
-    const float distance = nsvcd__f3_length(nsvcd__f3_sub(nsvcd__facet_centre(f, n), place));
-    if (f->hull_counts[n] == 0 || distance >= least) continue;
-    least = distance;
-    patch = n;
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  for (size_t first = from; first < from + count; first += NSVCD__LANES) {
+    float squares[NSVCD__LANES];
+    uint32_t nearer = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 off =
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(place));
+      const nsvcd__v square = nsvcd__v3_dot(off, off);
+      nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
+      nsvcd__v_store(squares + l, square);
+    }
+    for (; nearer; nearer &= nearer - 1) {
+      const size_t n = first + nsvcd__low_bit(nearer);
+      if (n >= body->patches || f->hull_counts[n] == 0) continue;
+      if (squares[n - first] >= least) continue;
+      least = squares[n - first];
+      patch = n;
+    }
   }
   return patch;
 }
 
-// The moving body's placement at the ends of the segments: the one where the centres are nearest.
-static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
-                                                 const nsvcd__search *search) {
-  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
-  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
-  double least = HUGE_VAL;
-  nsvcd__placement nearest;
-  memset(&nearest, 0, sizeof nearest);
-  for (size_t s = 0; s <= search->segments; s++) {
-    double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, (double)search->begin[s], &u);
-    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
-    if (square < least) nearest = at;
-    least = nsvcd__min(least, square);
+// When the sphere of the moving body whose chords are search->group comes nearest to one of the
+// fixed body, in ticks, if that is nearer than `gap`, metres, which becomes how near. Returns 1 if
+// it is.
+static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
+                               double *tick) {
+  int found = 0;
+  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
+    const nsvcd__chords *c = &search->group[b];
+    float gaps[NSVCD__LANES], share[NSVCD__LANES];
+    uint32_t nearer = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 d =
+          nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
+      const nsvcd__v tau = nsvcd__v_clamp(
+          nsvcd__v_mul(nsvcd__v3_dot(d, way), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 off = nsvcd__v3_fma(tau, way, d);
+      const nsvcd__v between =
+          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
+      nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
+      nsvcd__v_store(gaps + l, between);
+      nsvcd__v_store(share + l, tau);
+    }
+    for (; nearer; nearer &= nearer - 1) {
+      const size_t l = nsvcd__low_bit(nearer);
+      const size_t s = NSVCD__LANES * b + l;
+      if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
+      *gap = gaps[l] - fixed.radius;
+      *tick = (double)search->begin[s];
+      *tick += (double)share[l] * ((double)search->begin[s + 1] - *tick);
+      found = 1;
+    }
   }
-  return nearest;
+  return found;
+}
+
+// When two groups come nearest, in ticks, and which resting one that is; of large bodies, when the
+// bodies do.
+static double nsvcd__groups_nearest(const nsvcd__proof *p, nsvcd__search *search,
+                                    nsvcd__sphere *resting) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  float gap = HUGE_VALF;
+  double tick = 0;
+  *resting = nsvcd__body_sphere(fixed);
+  if (nsvcd__is_tiled(moving, fixed)) {
+    nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
+    (void)nsvcd__nearest_tick(search, *resting, &gap, &tick);
+    return tick;
+  }
+  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
+    nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(moving), g));
+    for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+      const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(fixed), h);
+      if (nsvcd__nearest_tick(search, group, &gap, &tick)) *resting = group;
+    }
+  }
+  return tick;
 }
 
 // The least distance between the hulls' vertices of patch i of the moving body and patch j of the
@@ -12336,27 +12454,40 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 }
 
 // How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
-                                                  const nsvcd__search *search) {
-  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
-  const nsvcd__transform pose = nsvcd__transform_of(&at);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
-  nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
-  size_t i = 0;
-  size_t j = 0;
-  // from one body to the other, and again
-  for (size_t round = 0; round < 2; round++) {
-    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
-    i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
-    const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
-    j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, centre));
-    target = nsvcd__facet_centre(&p->fixed, j);
+// of two patches, when and where these are nearest to each other. They are found in turns: which
+// are the nearest at a time, and when they are nearest. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
+  nsvcd__sphere fixed;
+  double tick = nsvcd__groups_nearest(p, search, &fixed);
+  double least = HUGE_VAL;
+  for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
+    double u;
+    if (turn > 0) {
+      float gap = HUGE_VALF;
+      nsvcd__chords_in_all(search, moving);
+      (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
+    }
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
+    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const nsvcd__transform pose = nsvcd__transform_of(&at);
+    const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
+    size_t i = 0;
+    size_t j = 0;
+    for (size_t round = 0; round < 2; round++) {
+      const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
+      i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+      moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
+      j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
+    }
+    const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+    const double rounding =
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+    const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+    least = nsvcd__min(least, apart);
   }
-  const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
-  const double rounding =
-      (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
-  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+  return least;
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
@@ -15333,6 +15464,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gradient NSVCD__AT(gradient)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
+#define nsvcd__groups_nearest NSVCD__AT(groups_nearest)
 #define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
 #define nsvcd__hair NSVCD__AT(hair)
 #define nsvcd__height NSVCD__AT(height)
@@ -15377,6 +15509,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__known NSVCD__AT(known)
 #define nsvcd__lane_of NSVCD__AT(lane_of)
 #define nsvcd__lane_set NSVCD__AT(lane_set)
+#define nsvcd__lanes_left_by_last NSVCD__AT(lanes_left_by_last)
 #define nsvcd__lanes_near NSVCD__AT(lanes_near)
 #define nsvcd__lanes_of_slice NSVCD__AT(lanes_of_slice)
 #define nsvcd__lanes_on_ray NSVCD__AT(lanes_on_ray)
@@ -15386,6 +15519,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__layer_of NSVCD__AT(layer_of)
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
 #define nsvcd__least_of NSVCD__AT(least_of)
+#define nsvcd__left_by_last NSVCD__AT(left_by_last)
 #define nsvcd__leg NSVCD__AT(leg)
 #define nsvcd__leg_at NSVCD__AT(leg_at)
 #define nsvcd__leg_init NSVCD__AT(leg_init)
@@ -15426,7 +15560,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
 #define nsvcd__nearest_of NSVCD__AT(nearest_of)
-#define nsvcd__nearest_placement NSVCD__AT(nearest_placement)
+#define nsvcd__nearest_tick NSVCD__AT(nearest_tick)
 #define nsvcd__needs NSVCD__AT(needs)
 #define nsvcd__needs_of NSVCD__AT(needs_of)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)

@@ -51,7 +51,10 @@ block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) 
 block without clearance|(span->rounding + span->drift) + nsvcd__clearance(p) +|(span->rounding + span->drift) +
 block without bulge|nsvcd__clearance(p) + span->bulge * reach;|nsvcd__clearance(p) + 0 * reach;
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
-parting plane at the start only|nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below)|nsvcd__normals_part(p, l, fixed, s, 1, along, normal, &below)
+parting plane at the start only|nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met)|nsvcd__left_by_last(p, i, j, l, fixed, 1, span, along, met)
+lanes parted at the start only|nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby)|nsvcd__lanes_left_by_last(p, i, j, fixed, 1, span, margin, nearby)
+lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);|nsvcd__v_set(-lowest);
+rows parted by half the margin|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met)|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, 0.5f * margin, met)
 parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance(p) + 0 * reach;
 parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
@@ -93,7 +96,7 @@ every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
 a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
-half the first distance|return 1.0001 * nsvcd__vertices_apart(|return 0.5 * nsvcd__vertices_apart(
+half the first distance|const double apart = 1.0001 * nsvcd__vertices_apart(|const double apart = 0.5 * nsvcd__vertices_apart(
 distance without tolerance|p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);|p->ask.clearance = nsvcd__max(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(

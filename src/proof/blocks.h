@@ -238,6 +238,65 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
+// Of these lanes of a fixed block, those that the plane which parted a couple last does not part
+// from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where there is a
+// clearance it parts many: triangles near by have their nearest points along nearly the same
+// direction.
+static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                                 nsvcd__block *fixed, size_t ends,
+                                                 const nsvcd__span *span, float margin,
+                                                 uint32_t met) {
+  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.parting));
+  NSVCD__EACH_SLICE(s) {
+    uint32_t below;
+    if (!(met >> s & NSVCD__SLICE_MASK)) continue;
+    const uint32_t apart =
+        nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+    if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
+    met &= ~apart;
+  }
+  (void)i;
+  (void)j;
+  return met;
+}
+
+// Of these lanes of the moving block, those that the plane which parted a couple last does not part
+// from all of a fixed block, by more than `margin`, at `ends` poses.
+static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                       nsvcd__block *fixed, size_t ends,
+                                                       const nsvcd__span *span, float margin,
+                                                       uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+  const nsvcd__v3 normal = nsvcd__v3_set(last);
+  if (!(p->ask.clearance > 0) || !lanes) return lanes;
+  float lowest = HUGE_VALF;  // of the fixed block's heights, negated
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(s) {
+      const nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(fixed->corners[k], s));
+      lowest = nsvcd__least_of(lowest, nsvcd__v_least(nsvcd__v_negate(height)));
+    }
+  }
+  const nsvcd__v limit = nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);
+  uint32_t apart = 0;
+  NSVCD__EACH_SLICE(s) {
+    nsvcd__v height = nsvcd__v3_dot(normal, nsvcd__v3_load(p->posed[0][0], s));
+    for (size_t k = 1; k < 3 * ends; k++) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->posed[k / 3][k % 3], s);
+      height = nsvcd__v_min(height, nsvcd__v3_dot(normal, corner));
+    }
+    apart |= nsvcd__v_lt(limit, height) << s;
+  }
+  apart &= lanes;
+  for (uint32_t told = span ? apart : 0; told; told &= told - 1) {
+    NSVCD__EACH_SLICE(s)
+    NSVCD__CERTIFY_BLOCK(p, i, j, nsvcd__low_bit(told), fixed, span, NSVCD__SLICE_MASK << s, s,
+                         &normal, 0);
+  }
+  (void)i;
+  (void)j;
+  return lanes & ~apart;
+}
+
 // Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
 // `ends` poses. span: of patches i and j, for the certificates; NULL for none.
 static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
@@ -245,6 +304,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
                                              const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
   if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
+  if (p->ask.clearance > 0)
+    met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met);
   for (size_t k = 0; met && k < NSVCD__NORMALS; k++) {
     NSVCD__EACH_SLICE(s) {
       uint32_t below;

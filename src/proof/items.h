@@ -15,20 +15,13 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   const float reach = p->moving.body->extent + p->moving.quanta[i];
-  uint32_t below = 0;
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
         quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
-    NSVCD__EACH_SLICE(s) {
-      const nsvcd__v3 normal = nsvcd__v3_set(last);
-      const uint32_t apart =
-          nsvcd__normals_part(p, l, fixed, s, 2, along, normal, &below) << s & met;
-      NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
-      met &= ~apart;
-    }
+    met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     const size_t listing = p->moving_block.first + l;
@@ -60,14 +53,16 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
       for (size_t n = 0; n < p->memo.window; n++) {
-        const uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+        nsvcd__block *fixed = &p->fixed_blocks[n];
+        const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+        const uint32_t lanes =
+            nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
         p->work++;
         if (nsvcd__is_spent(p)) return NSVCD__SPENT;
         for (size_t l = 0; l < p->moving_block.count; l++) {
-          if (!(lanes >> l & 1)) {
-            NSVCD__CERTIFY_BLOCK(p, i, j, l, &p->fixed_blocks[n], span, 0xffff, 0, NULL, 0);
-            continue;
-          }
+          if (!(nearby >> l & 1))
+            NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
+          if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
               nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
           if (row != NSVCD__SETTLED) return row;

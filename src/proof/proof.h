@@ -100,6 +100,7 @@
 #define NSVCD__LONG 6000
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
+#define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin

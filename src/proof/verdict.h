@@ -190,32 +190,86 @@ static size_t nsvcd__patch_towards(const nsvcd__facets *f, nsvcd__f3 place) {
     from = NSVCD__GROUP * nearest;
     count = NSVCD__GROUP;
   }
-  for (size_t n = from; n < from + count && n < body->patches; n++) {
-    const float distance = nsvcd__f3_length(nsvcd__f3_sub(nsvcd__facet_centre(f, n), place));
-    if (f->hull_counts[n] == 0 || distance >= least) continue;
-    least = distance;
-    patch = n;
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  for (size_t first = from; first < from + count; first += NSVCD__LANES) {
+    float squares[NSVCD__LANES];
+    uint32_t nearer = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 off =
+          nsvcd__v3_sub(nsvcd__v3_centres(patches, first + l), nsvcd__v3_set(place));
+      const nsvcd__v square = nsvcd__v3_dot(off, off);
+      nearer |= nsvcd__v_lt(square, nsvcd__v_set(least)) << l;
+      nsvcd__v_store(squares + l, square);
+    }
+    for (; nearer; nearer &= nearer - 1) {
+      const size_t n = first + nsvcd__low_bit(nearer);
+      if (n >= body->patches || f->hull_counts[n] == 0) continue;
+      if (squares[n - first] >= least) continue;
+      least = squares[n - first];
+      patch = n;
+    }
   }
   return patch;
 }
 
-// The moving body's placement at the ends of the segments: the one where the centres are nearest.
-static nsvcd__placement nsvcd__nearest_placement(nsvcd__proof *p,
-                                                 const nsvcd__search *search) {
-  const nsvcd__d3 moving = nsvcd__d3_load(p->moving.body->centre);
-  const nsvcd__d3 fixed = nsvcd__d3_load(p->fixed.body->centre);
-  double least = HUGE_VAL;
-  nsvcd__placement nearest;
-  memset(&nearest, 0, sizeof nearest);
-  for (size_t s = 0; s <= search->segments; s++) {
-    double u;
-    const uint32_t first = nsvcd__arc_of(p->ask.motion, (double)search->begin[s], &u);
-    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
-    const double square = nsvcd__d3_distance2(nsvcd__place_point(&at, moving), fixed);
-    if (square < least) nearest = at;
-    least = nsvcd__min(least, square);
+// When the sphere of the moving body whose chords are search->group comes nearest to one of the
+// fixed body, in ticks, if that is nearer than `gap`, metres, which becomes how near. Returns 1 if
+// it is.
+static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed, float *gap,
+                               double *tick) {
+  int found = 0;
+  for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
+    const nsvcd__chords *c = &search->group[b];
+    float gaps[NSVCD__LANES], share[NSVCD__LANES];
+    uint32_t nearer = 0;
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 way = nsvcd__chords_way(c, l);
+      const nsvcd__v3 d =
+          nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(fixed.centre));
+      const nsvcd__v tau = nsvcd__v_clamp(
+          nsvcd__v_mul(nsvcd__v3_dot(d, way), nsvcd__v_load(c->inverse + l)), 0, 1);
+      const nsvcd__v3 off = nsvcd__v3_fma(tau, way, d);
+      const nsvcd__v between =
+          nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
+      nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
+      nsvcd__v_store(gaps + l, between);
+      nsvcd__v_store(share + l, tau);
+    }
+    for (; nearer; nearer &= nearer - 1) {
+      const size_t l = nsvcd__low_bit(nearer);
+      const size_t s = NSVCD__LANES * b + l;
+      if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
+      *gap = gaps[l] - fixed.radius;
+      *tick = (double)search->begin[s];
+      *tick += (double)share[l] * ((double)search->begin[s + 1] - *tick);
+      found = 1;
+    }
   }
-  return nearest;
+  return found;
+}
+
+// When two groups come nearest, in ticks, and which resting one that is; of large bodies, when the
+// bodies do.
+static double nsvcd__groups_nearest(const nsvcd__proof *p, nsvcd__search *search,
+                                    nsvcd__sphere *resting) {
+  const nsvcd_body *moving = p->moving.body;
+  const nsvcd_body *fixed = p->fixed.body;
+  float gap = HUGE_VALF;
+  double tick = 0;
+  *resting = nsvcd__body_sphere(fixed);
+  if (nsvcd__is_tiled(moving, fixed)) {
+    nsvcd__chords_in_all(search, nsvcd__body_sphere(moving));
+    (void)nsvcd__nearest_tick(search, *resting, &gap, &tick);
+    return tick;
+  }
+  for (size_t g = 0; g < nsvcd__body_groups(moving); g++) {
+    nsvcd__chords_in_all(search, nsvcd__sphere_of(nsvcd__groups_of(moving), g));
+    for (size_t h = 0; h < nsvcd__body_groups(fixed); h++) {
+      const nsvcd__sphere group = nsvcd__sphere_of(nsvcd__groups_of(fixed), h);
+      if (nsvcd__nearest_tick(search, group, &gap, &tick)) *resting = group;
+    }
+  }
+  return tick;
 }
 
 // The least distance between the hulls' vertices of patch i of the moving body and patch j of the
@@ -239,27 +293,40 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 }
 
 // How near the bodies come for certain, and a little more: the least distance between the vertices
-// of two patches that are near each other at a time when the bodies are. Where `measure` begins.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p,
-                                                  const nsvcd__search *search) {
-  const nsvcd__placement at = nsvcd__nearest_placement(p, search);
-  const nsvcd__transform pose = nsvcd__transform_of(&at);
-  const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
-  nsvcd__f3 target = nsvcd__f3_load(p->fixed.body->centre);
-  size_t i = 0;
-  size_t j = 0;
-  // from one body to the other, and again
-  for (size_t round = 0; round < 2; round++) {
-    const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(target));
-    i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
-    const nsvcd__f3 centre = nsvcd__facet_centre(&p->moving, i);
-    j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, centre));
-    target = nsvcd__facet_centre(&p->fixed, j);
+// of two patches, when and where these are nearest to each other. They are found in turns: which
+// are the nearest at a time, and when they are nearest. Where `measure` begins.
+static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
+  nsvcd__sphere fixed;
+  double tick = nsvcd__groups_nearest(p, search, &fixed);
+  double least = HUGE_VAL;
+  for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
+    double u;
+    if (turn > 0) {
+      float gap = HUGE_VALF;
+      nsvcd__chords_in_all(search, moving);
+      (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
+    }
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
+    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const nsvcd__transform pose = nsvcd__transform_of(&at);
+    const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
+    size_t i = 0;
+    size_t j = 0;
+    for (size_t round = 0; round < 2; round++) {
+      const nsvcd__d3 seen = nsvcd__place_point(&back, nsvcd__d3_widen(fixed.centre));
+      i = nsvcd__patch_towards(&p->moving, nsvcd__f3_round(seen));
+      moving = nsvcd__sphere_of(nsvcd__body_patches(p->moving.body), i);
+      j = nsvcd__patch_towards(&p->fixed, nsvcd__f3_transform(&pose, moving.centre));
+      fixed = nsvcd__sphere_of(nsvcd__body_patches(p->fixed.body), j);
+    }
+    const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
+    const double rounding =
+        (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
+    const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+    least = nsvcd__min(least, apart);
   }
-  const float lengths = p->given.lengths + nsvcd__f3_length(pose.position);
-  const double rounding =
-      (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
-  return 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
+  return least;
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was

@@ -139,12 +139,15 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
-  uint32_t lanes = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  const uint32_t nearby = nsvcd__lanes_near(&p->moving_block, p->bounds[n], margin);
+  uint32_t lanes = nsvcd__lanes_left_by_last(p, i, j, fixed, 1, NULL, margin, nearby);
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     p->work++;
     uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 1, NULL, margin);
     for (; met; met &= met - 1) {
+      if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
+      if (!met) break;
       const size_t listing = p->moving_block.first + l;
       const nsvcd__couple couple =
           nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
@@ -161,7 +164,11 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       } else {
         if (!(clearance > 0)) continue;
         nearest = nsvcd__nearest_of(posed, couple.fixed);
-        if (!(nearest.square <= clearance * clearance)) continue;
+        if (!(nearest.square <= clearance * clearance)) {
+          const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+          p->memo.parting = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          continue;
+        }
       }
       if (p->ask.gathers == NSVCD__TOUCHING) {
         nsvcd__gather_contact(p, &couple, posed);
