@@ -520,7 +520,11 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 #ifndef NSVCD_NO_PROOF
 // Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
 // of a point, a segment, a box or points and options.round. Where time matters they are better than
-// meshes of many triangles: a capsule is one segment.
+// meshes of many triangles: a capsule is one segment. Voxels are a cloud of their centres: with a
+// radius of 0.8661 edges it contains the cubes, with half an edge it is within them; exact are only
+// their faces, as a mesh. A map that changes is best kept in chunks of some 16 x 16 x 16 cells, a
+// body each, of which only those with changes are encoded anew; nsvcd_sweep_batch asks all that are
+// near.
 //   radius, round   metres, > 0; that of a box may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
 //   half            half of what the box measures, round edges and all, not NULL, metres; none is
@@ -3682,6 +3686,8 @@ typedef struct nsvcd__pieces {
   double longest_edge;
   // metres, added to all bounds
   double margin;
+  // metres: discs need not be thinner
+  double thin;
 } nsvcd__pieces;
 
 static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces,
@@ -3867,9 +3873,14 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // triangles of a run, where there are many: no more points than a hull may have
 #define NSVCD__RUN_LENGTH 16
+// runs that are worked on at a time, in memory that stays near
+#define NSVCD__RUNS_AT_ONCE 256
+// of how round a body is: where its discs are thinner, they are not made thinner still
+#define NSVCD__RUN_THIN 0.5
 
-// Is some triangle of a mesh a point or a segment?
+// Is some triangle of a mesh a point or a segment? One without indices is a cloud.
 static int nsvcd__has_points(const nsvcd_mesh *mesh) {
+  if (!mesh->indices) return 1;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *v = mesh->indices + 3 * t;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return 1;
@@ -3886,7 +3897,8 @@ static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
 }
 
 static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
-  const uint32_t *v = mesh->indices + 3 * t;
+  const uint32_t point[3] = {(uint32_t)t, (uint32_t)t, (uint32_t)t};
+  const uint32_t *v = mesh->indices ? mesh->indices + 3 * t : point;
   nsvcd__f3 sum = nsvcd__f3_row(mesh->positions, v[0]);
   sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[1]));
   sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[2]));
@@ -3907,46 +3919,46 @@ static uint64_t nsvcd__spread_bits(float from) {
 static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
   for (unsigned shift = 32; shift < 64; shift += 8) {
     size_t first[257] = {0};
-    for (size_t i = 0; i < count; i++) first[1 + (keys[i] >> shift & 0xff)]++;
+    uint64_t *from = shift & 8 ? spare : keys;
+    uint64_t *to = shift & 8 ? keys : spare;
+    for (size_t i = 0; i < count; i++) first[1 + (from[i] >> shift & 0xff)]++;
     for (size_t n = 0; n < 256; n++) first[n + 1] += first[n];
-    for (size_t i = 0; i < count; i++) spare[first[keys[i] >> shift & 0xff]++] = keys[i];
-    memcpy(keys, spare, count * sizeof *keys);
+    for (size_t i = 0; i < count; i++) to[first[from[i] >> shift & 0xff]++] = from[i];
   }
 }
 
-// The pieces of a mesh, in so many runs, of which each is a patch; region and patches are what they
-// are of. The triangles are sorted along a curve that fills space (Morton 1966). Every vertex may
-// be a component of its own. 0 without memory.
-static int nsvcd__runs_build(const nsvcd_mesh *mesh, size_t runs, nsvcd__arena *arena,
-                             nsvcd__region *region, nsvcd__patches *patches,
-                             nsvcd__pieces *pieces) {
+// A mesh along a curve that fills space (Morton 1966).
+typedef struct nsvcd__curve {
+  const nsvcd_mesh *mesh;
+  // (triangles) each number of a triangle below its code
+  uint64_t *keys;
+  // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
+  // None of a cloud, which has each once
+  uint32_t *met;
+  uint32_t met_count;
+  double greatest;  // coordinate of the mesh
+  double round;     // metres
+} nsvcd__curve;
+
+// 0 without memory.
+static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena *arena,
+                              nsvcd__curve *curve) {
   const size_t count = mesh->triangle_count;
+  memset(curve, 0, sizeof *curve);
+  curve->mesh = mesh;
+  curve->round = (double)round;
+  curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
+  curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
+  if (arena->failed) return 0;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+    curve->greatest = nsvcd__max(curve->greatest, fabs((double)mesh->positions[i]));
   nsvcd__f3 low = nsvcd__middle_of(mesh, 0);
   nsvcd__f3 high = low;
-  memset(region, 0, sizeof *region);
-  memset(patches, 0, sizeof *patches);
-  memset(pieces, 0, sizeof *pieces);
-  uint64_t *keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
-  region->mesh = *mesh;
-  region->ids = NSVCD__TAKE(arena, uint32_t, count);
-  region->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  patches->count = runs;
-  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, runs);
-  pieces->arena = arena;
-  pieces->region = region;
-  pieces->patches = patches;
-  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
-  if (arena->failed) return 0;
-  memset(region->seeds, 1, mesh->vertex_count);
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    region->greatest = fmax(region->greatest, fabs((double)mesh->positions[i]));
   for (size_t t = 0; t < count; t++) {
     const nsvcd__f3 middle = nsvcd__middle_of(mesh, t);
-    region->ids[t] = (uint32_t)t;
     low = nsvcd__f3_min(low, middle);
     high = nsvcd__f3_max(high, middle);
   }
-
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
   const float longest = fmaxf(fmaxf(size.x, size.y), size.z);
   const float cells = longest > 0 ? 1023 / longest : 0;
@@ -3955,19 +3967,81 @@ static int nsvcd__runs_build(const nsvcd_mesh *mesh, size_t runs, nsvcd__arena *
     const uint64_t x = nsvcd__spread_bits(cells * at.x);
     const uint64_t y = nsvcd__spread_bits(cells * at.y);
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
-    keys[t] = (x | y << 1 | z << 2) << 32 | t;
+    curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  nsvcd__sort_by_code(keys, keys + count, count);
+  nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
+  return 1;
+}
 
-  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
+// The first triangle of a run, none of which is empty.
+static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
+  return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
+}
+
+// Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
+// pieces of. A block's triangles and vertices are copied in the order of the curve: all that
+// follows reads memory from front to back. Every vertex may be a component of its own. 0 without
+// memory.
+static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
+                             nsvcd__arena *arena, nsvcd__region *block,
+                             nsvcd__patches *patches, nsvcd__pieces *pieces) {
+  const nsvcd_mesh *mesh = curve->mesh;
+  const size_t all = mesh->triangle_count;
+  const size_t begin = nsvcd__run_begin(all, first, runs);
+  const size_t count = nsvcd__run_begin(all, last, runs) - begin;
+  const uint32_t before = curve->met_count;
+  memset(block, 0, sizeof *block);
+  memset(patches, 0, sizeof *patches);
+  memset(pieces, 0, sizeof *pieces);
+  block->mesh.triangle_count = count;
+  const size_t most = 3 * count < mesh->vertex_count ? 3 * count : mesh->vertex_count;
+  block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
+  block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  block->ids = NSVCD__TAKE(arena, uint32_t, count);
+  uint32_t *origins = NSVCD__TAKE(arena, uint32_t, most);
+  block->seeds = NSVCD__TAKE(arena, uint8_t, most);
+  block->greatest = curve->greatest;
+  patches->count = last - first;
+  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, patches->count);
+  pieces->arena = arena;
+  pieces->region = block;
+  pieces->patches = patches;
+  pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
+  pieces->thin = NSVCD__RUN_THIN * curve->round;
+  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
+  if (arena->failed) return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
+  // Short loops, each of which waits for memory far away, for many places at a time.
+  size_t run = first;
+  size_t end = 0;
   for (size_t k = 0; k < count; k++) {
-    const uint32_t triangle = (uint32_t)keys[k];
-    const size_t patch = (size_t)((uint64_t)k * runs / count);
-    const nsvcd__piece piece = {NSVCD__WHOLE, triangle, (uint16_t)patch, 3, 0};
-    patches->centres[patch] = nsvcd__middle_of(mesh, triangle);
+    if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
+    const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
+    block->ids[k] = (uint32_t)curve->keys[begin + k];
+    for (size_t n = 3 * k; n < 3 * k + 3; n++) {
+      const size_t corner = 3 * (size_t)block->ids[k] + n - 3 * k;
+      block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
+    }
+  }
+  if (!mesh->indices) {
+    memcpy(origins, block->ids, count * sizeof *origins);
+    memset(block->seeds, 1, count);
+    block->mesh.vertex_count = count;
+  }
+  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    uint32_t *met = &curve->met[block->mesh.indices[n]];
+    if (*met <= before) {
+      block->seeds[block->mesh.vertex_count] = *met == 0;
+      origins[block->mesh.vertex_count++] = block->mesh.indices[n];
+      *met = ++curve->met_count;
+    }
+    block->mesh.indices[n] = *met - 1 - before;
+  }
+  for (size_t i = 0; i < block->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, origins[i]);
+    nsvcd__f3_store(at, block->mesh.positions + 3 * i);
   }
   return 1;
 }
@@ -4184,10 +4258,10 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
-// Turns a direction step by step to where the points are thinner.
-static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
+// Turns a direction step by step to where the points are thinner, until they are thin.
+static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, double thin) {
   double best = nsvcd__thickness(points, direction);
-  for (double turn = 0.16; turn > 0.005 && best > 0; turn *= 0.5) {
+  for (double turn = 0.16; turn > 0.005 && best > thin; turn *= 0.5) {
     const nsvcd__d3 u = nsvcd__any_across(direction);
     const nsvcd__d3 v = nsvcd__d3_cross(direction, u);
     const nsvcd__d3 middle = direction;
@@ -4204,11 +4278,13 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
 }
 
 // points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
-static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin) {
+// thin: metres; thinner than that is of no use.
+static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin,
+                                   double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
   if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best)) best = mean;
-  best = nsvcd__thinner(points, best);
+  best = nsvcd__thinner(points, best, thin);
   if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
 
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
@@ -4447,7 +4523,9 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
     const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
     // twice the area times the normal
     nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
-    for (size_t j = 0; j < piece->count; j++) {
+    // a point has no area, and is met once
+    const int is_point = corners[0] == corners[1] && corners[1] == corners[2];
+    for (size_t j = 0; j < piece->count && (j == 0 || !is_point); j++) {
       const uint32_t point = corners[j];
       nsvcd__number_point(sorted, point);
       // of a component that no patch has been given yet?
@@ -4478,7 +4556,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
-  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
+  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
@@ -4588,6 +4666,21 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   return !arena->failed;
 }
 
+// Makes room for more vertices and listings. 0 without memory.
+static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triangles) {
+  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
+  for (size_t k = 0; k < 3; k++) {
+    const size_t more = k == 0 ? vertices : triangles;
+    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
+    lists[k]->count = k == 0 ? s->vertex_count : s->listed;
+    if (!nsvcd__list_reserve(lists[k], more, size, s->arena)) return 0;
+  }
+  s->vertices = (int16_t *)s->vertex_list.items;
+  s->corners = (uint16_t *)s->corner_list.items;
+  s->ids = (uint32_t *)s->id_list.items;
+  return 1;
+}
+
 // Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
 // counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
 // needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
@@ -4604,7 +4697,11 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
     nsvcd__describe_patch(&sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
     s->first_triangle[i] = (uint32_t)triangles;
-    triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
+    // Where nothing is cut, and all points are the hull's, they have been counted.
+    if (pieces->corners.count == 0 && sorted.met_count == s->hull_counts[i])
+      triangles += sorted.first[i - done + 1] - sorted.first[i - done];
+    else
+      triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
     vertices += sorted.met_count;
     if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
@@ -4612,17 +4709,8 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
   }
   s->first_vertex[s->count] = (uint32_t)vertices;
   s->first_triangle[s->count] = (uint32_t)triangles;
-  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
-  for (size_t k = 0; k < 3; k++) {
-    const size_t count = k == 0 ? vertices : triangles;
-    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
-    if (!nsvcd__list_reserve(lists[k], count - lists[k]->count, size, s->arena))
-      return NSVCD_ERROR_MEMORY;
-    lists[k]->count = count;
-  }
-  s->vertices = (int16_t *)s->vertex_list.items;
-  s->corners = (uint16_t *)s->corner_list.items;
-  s->ids = (uint32_t *)s->id_list.items;
+  if (!nsvcd__surface_room(s, vertices - s->vertex_count, triangles - s->listed))
+    return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
   for (size_t i = done; i < s->count; i++) {
     if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
@@ -5179,16 +5267,39 @@ static nsvcd_body *nsvcd__body_begin(void *memory, size_t size, size_t patches, 
 }
 #endif
 
+// Do 16 spheres end nearer to a place than at a distance, but for roundings? Needs no roots, and
+// compilers do it for several at a time.
+static int nsvcd__are_within(nsvcd__spheres all, nsvcd__f3 centre, float distance) {
+  int within = 1;
+  for (size_t i = 0; i < NSVCD__GROUP; i++) {
+    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+    const float gap = distance - all.r[i];
+    within &= (gap > 0) & (nsvcd__f3_dot(offset, offset) < gap * gap);
+  }
+  return within;
+}
+
 // The distance of the farthest point of `count` spheres from a place; *farthest is the sphere that
-// has it, if it is above 0.
+// has it, if it is above 0. Before, it is a guess: the better, the sooner this is done.
 static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3 centre,
                                      size_t *farthest) {
+  const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
+  // less by more than the roundings: the farthest is never passed over
+  const float share = 0.999998f;
+  float least = share * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
   float reach = 0;
-  for (size_t i = 0; i < count; i++) {
-    const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
-    const float end = nsvcd__f3_length(offset) + all.r[i];
-    if (end > reach) *farthest = i;
-    reach = end > reach ? end : reach;
+  for (size_t first = 0; first < count; first += NSVCD__GROUP) {
+    const size_t left = count - first;
+    const size_t end = left < NSVCD__GROUP ? count : first + NSVCD__GROUP;
+    const nsvcd__spheres some = nsvcd__spheres_from(all, first);
+    if (left >= NSVCD__GROUP && nsvcd__are_within(some, centre, least)) continue;
+    for (size_t i = first; i < end; i++) {
+      const nsvcd__f3 offset = nsvcd__f3_sub(nsvcd__centre_of(all, i), centre);
+      const float to = nsvcd__f3_length(offset) + all.r[i];
+      if (to > reach) *farthest = i;
+      reach = to > reach ? to : reach;
+    }
+    least = share * reach > least ? share * reach : least;
   }
   return reach;
 }
@@ -5207,8 +5318,8 @@ static nsvcd__sphere nsvcd__cover_spheres(nsvcd__spheres all, size_t count) {
   }
   nsvcd__f3 centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
   nsvcd__sphere best = {centre, HUGE_VALF};
+  size_t farthest = 0;
   for (int step = 0; step < 32; step++) {
-    size_t farthest = 0;
     const float reach = nsvcd__reach_of_spheres(all, count, centre, &farthest);
     if (reach < best.radius) {
       best.centre = centre;
@@ -5239,8 +5350,8 @@ static void nsvcd__cover_level(nsvcd_body *body, size_t k, nsvcd__spheres below,
   }
 }
 
-// Fills the spheres above the groups, the bounding sphere, the extent and the checksum of a blob
-// whose patches and groups are in place.
+// Fills the spheres above the groups, the bounding sphere and the extent of a blob whose patches
+// and groups are in place.
 static void nsvcd__body_finish(nsvcd_body *body) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
   const nsvcd__spheres groups = nsvcd__groups_of(body);
@@ -5257,7 +5368,6 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;
-  body->checksum = nsvcd__body_checksum(body);
 }
 
 static int nsvcd__is_aligned(const void *memory) {
@@ -5327,6 +5437,7 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   if (!sound || !nsvcd__areas_are_sound(b)) return NSVCD_ERROR_NUMBER;
   nsvcd__cover_level(b, 0, nsvcd__body_patches(b), count);
   nsvcd__body_finish(b);
+  b->checksum = nsvcd__body_checksum(b);
   return b->radius < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
 }
 #endif
@@ -5625,30 +5736,33 @@ static float nsvcd__round_outward(double x) {
 }
 
 // What the members of a group extend to along a direction and across it, from the centre of the
-// group's sphere.
+// group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
 typedef struct nsvcd__slab {
   double low, high, across;
 } nsvcd__slab;
 
-static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
+static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal,
+                                        double most) {
   const size_t first = NSVCD__GROUP * g;
   const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
+    if (slab.high - slab.low >= most) break;
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
     const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__facet_origin(f, i), centre);
     const double step = (double)f->steps[i];
     const double slack = (double)f->slacks[i];
+    double farthest = 0;
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
       const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
-      const double square = nsvcd__d3_dot(v, v) - height * height;
+      farthest = nsvcd__max(farthest, nsvcd__d3_dot(v, v) - height * height);
       slab.low = nsvcd__min(slab.low, height - slack);
       slab.high = nsvcd__max(slab.high, height + slack);
-      slab.across = nsvcd__max(slab.across, sqrt(square > 0 ? square : 0) + slack);
     }
+    if (f->hull_counts[i]) slab.across = nsvcd__max(slab.across, sqrt(farthest) + slack);
   }
   return slab;
 }
@@ -5673,8 +5787,9 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     // As it is stored, and no longer than 1.
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
-    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
-    if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
+    const double most = thinnest.high - thinnest.low;
+    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit, most);
+    if (!(slab.high - slab.low < most)) continue;
     thinnest = slab;
     best = unit;
   }
@@ -5746,12 +5861,18 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const double quantum = (double)f.quanta[i];
+    nsvcd__d3 least = {32767, 32767, 32767};
+    nsvcd__d3 most = {-32767, -32767, -32767};
     for (size_t k = 0; k < vertices.count; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 at = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
-      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, at));
-      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, at));
+      least = nsvcd__d3_min(least, vertex);
+      most = nsvcd__d3_max(most, vertex);
     }
+    if (vertices.count == 0) continue;
+    least = nsvcd__d3_fma((double)f.steps[i], least, origin);
+    most = nsvcd__d3_fma((double)f.steps[i], most, origin);
+    low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, least));
+    high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, most));
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
   // float rounding
@@ -5806,8 +5927,7 @@ static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *s) {
 
 // Writes patch `to`, from patch `from` of a surface. One without surface is a point.
 static void nsvcd__patch_write(const nsvcd__surface *s, size_t from, nsvcd_body *b,
-                               size_t to) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+                               nsvcd__facets f, size_t to) {
   const size_t padded = b->padded;
   nsvcd__sphere ball = s->balls[from];
   if (s->hull_counts[from] == 0) ball.radius = 0;
@@ -5877,7 +5997,8 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
   b->triangles = (uint32_t)triangles;
   memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, i);
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, f, i);
   if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);
@@ -6155,6 +6276,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     }
     nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
     nsvcd__body_finish(b);
+    b->checksum = nsvcd__body_checksum(b);
     return;
   }
 #ifndef NSVCD_NO_PROOF
@@ -6331,21 +6453,36 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
 }
 
 #ifndef NSVCD_NO_PROOF
-// All of a mesh that has points or segments, in runs. Without latents.
+// All of a mesh that has points or segments, in runs, block by block. Without latents.
 static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
-  nsvcd__region region;
-  nsvcd__patches patches;
-  nsvcd__pieces pieces;
   const nsvcd_mesh *mesh = parts->mesh;
   const size_t triangles = mesh->triangle_count;
   const size_t wanted = parts->options->patches;
-  nsvcd__arena *arena = &parts->arena;
-  parts->count = wanted < triangles ? wanted : triangles;
-  (void)nsvcd__surface_begin(parts->count, mesh->vertex_count, arena, &parts->surface);
-  if (!nsvcd__runs_build(mesh, parts->count, arena, &region, &patches, &pieces))
-    return NSVCD_ERROR_MEMORY;
-  parts->centres = patches.centres;
-  return nsvcd__surface_add(&pieces, arena, &parts->surface);
+  const size_t runs = wanted < triangles ? wanted : triangles;
+  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
+  nsvcd__surface *surface = &parts->surface;
+  nsvcd__curve curve;
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, &parts->arena, surface);
+  ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
+  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, triangles);
+  nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  for (size_t first = 0; !result && first < runs; first = surface->done) {
+    const size_t left = runs - first;
+    const size_t last = first + (left < NSVCD__RUNS_AT_ONCE ? left : NSVCD__RUNS_AT_ONCE);
+    nsvcd__region block;
+    nsvcd__patches patches;
+    nsvcd__pieces pieces;
+    nsvcd__arena few = nsvcd__arena_of(spare.allocator);
+    ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
+    result = ok ? nsvcd__surface_add(&pieces, &few, surface) : NSVCD_ERROR_MEMORY;
+    nsvcd__arena_free(&few);
+    const double done = (double)last / (double)runs;
+    if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))
+      result = NSVCD_ERROR_CANCELLED;
+  }
+  parts->count = runs;
+  nsvcd__arena_free(&spare);
+  return result;
 }
 #endif
 
@@ -6475,7 +6612,7 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
   return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
 }
 
-// Checks mesh and options, and fills in the defaults.
+// Checks options and mesh, and fills in the defaults.
 static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
@@ -6489,22 +6626,25 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
     return NSVCD_ERROR_ARGUMENT;
   if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result checked = nsvcd__mesh_check(mesh);
+  const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
-  const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
 #ifndef NSVCD_NO_PROOF
   if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
 #endif
+  if (o->patches > 0 && o->round > 0) return NSVCD_OK;
+  const double area = nsvcd__mesh_area(mesh);
+  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory,
-                                   size_t capacity, const nsvcd_body **body) {
+// nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
+// triangle t is point t.
+static nsvcd_result nsvcd__encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                  const nsvcd_allocator *allocator, void *memory,
+                                  size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_encode_options o;
@@ -6533,6 +6673,13 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   return result;
 }
 
+NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                   const nsvcd_allocator *allocator, void *memory,
+                                   size_t capacity, const nsvcd_body **body) {
+  if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
+  return nsvcd__encode(mesh, options, allocator, memory, capacity, body);
+}
+
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
   void *memory;
   // a cast would take away a const
@@ -6552,7 +6699,7 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
+  return nsvcd__encode(mesh, &options, allocator, NULL, 0, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
@@ -6598,16 +6745,12 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_body **body) {
   nsvcd_mesh mesh = {NULL, NULL, count, count};
   if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  const size_t bytes = 3 * count * sizeof *mesh.indices;
+  if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   // a cast would take away a const; nothing is written
   memcpy(&mesh.positions, &points, sizeof points);
-  mesh.indices = (uint32_t *)nsvcd__alloc(allocator, bytes);
-  if (!mesh.indices) return count ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_EMPTY;
-  for (size_t i = 0; i < 3 * count; i++) mesh.indices[i] = (uint32_t)(i / 3);
-  const nsvcd_result result = nsvcd__encode_round(&mesh, radius, allocator, body);
-  nsvcd__free(allocator, mesh.indices);
-  return result;
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
 }
 #endif
 

@@ -83,21 +83,36 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
 }
 
 #ifndef NSVCD_NO_PROOF
-// All of a mesh that has points or segments, in runs. Without latents.
+// All of a mesh that has points or segments, in runs, block by block. Without latents.
 static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
-  nsvcd__region region;
-  nsvcd__patches patches;
-  nsvcd__pieces pieces;
   const nsvcd_mesh *mesh = parts->mesh;
   const size_t triangles = mesh->triangle_count;
   const size_t wanted = parts->options->patches;
-  nsvcd__arena *arena = &parts->arena;
-  parts->count = wanted < triangles ? wanted : triangles;
-  (void)nsvcd__surface_begin(parts->count, mesh->vertex_count, arena, &parts->surface);
-  if (!nsvcd__runs_build(mesh, parts->count, arena, &region, &patches, &pieces))
-    return NSVCD_ERROR_MEMORY;
-  parts->centres = patches.centres;
-  return nsvcd__surface_add(&pieces, arena, &parts->surface);
+  const size_t runs = wanted < triangles ? wanted : triangles;
+  nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
+  nsvcd__surface *surface = &parts->surface;
+  nsvcd__curve curve;
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, &parts->arena, surface);
+  ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
+  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, triangles);
+  nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  for (size_t first = 0; !result && first < runs; first = surface->done) {
+    const size_t left = runs - first;
+    const size_t last = first + (left < NSVCD__RUNS_AT_ONCE ? left : NSVCD__RUNS_AT_ONCE);
+    nsvcd__region block;
+    nsvcd__patches patches;
+    nsvcd__pieces pieces;
+    nsvcd__arena few = nsvcd__arena_of(spare.allocator);
+    ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
+    result = ok ? nsvcd__surface_add(&pieces, &few, surface) : NSVCD_ERROR_MEMORY;
+    nsvcd__arena_free(&few);
+    const double done = (double)last / (double)runs;
+    if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))
+      result = NSVCD_ERROR_CANCELLED;
+  }
+  parts->count = runs;
+  nsvcd__arena_free(&spare);
+  return result;
 }
 #endif
 
@@ -227,7 +242,7 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
   return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
 }
 
-// Checks mesh and options, and fills in the defaults.
+// Checks options and mesh, and fills in the defaults.
 static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
@@ -241,22 +256,25 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
     return NSVCD_ERROR_ARGUMENT;
   if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
   if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
-  const nsvcd_result checked = nsvcd__mesh_check(mesh);
+  const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
-  const double area = nsvcd__mesh_area(mesh);
-  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
 #ifndef NSVCD_NO_PROOF
   if (o->patches == 0 && o->round > 0 && nsvcd__has_points(mesh))
     o->patches = nsvcd__runs_for(mesh);
 #endif
+  if (o->patches > 0 && o->round > 0) return NSVCD_OK;
+  const double area = nsvcd__mesh_area(mesh);
+  if (!(area > 0) && !(o->round > 0)) return NSVCD_ERROR_EMPTY;
   if (o->patches == 0)
     o->patches = nsvcd__patches_for(mesh, o->patch_radius, area, !o->no_triangles);
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                   const nsvcd_allocator *allocator, void *memory,
-                                   size_t capacity, const nsvcd_body **body) {
+// nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
+// triangle t is point t.
+static nsvcd_result nsvcd__encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                  const nsvcd_allocator *allocator, void *memory,
+                                  size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_encode_options o;
@@ -283,6 +301,13 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
   if (result && !memory) nsvcd__free(allocator, to);
   nsvcd__arena_free(&parts.arena);
   return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
+                                   const nsvcd_allocator *allocator, void *memory,
+                                   size_t capacity, const nsvcd_body **body) {
+  if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
+  return nsvcd__encode(mesh, options, allocator, memory, capacity, body);
 }
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {

@@ -234,30 +234,33 @@ static float nsvcd__round_outward(double x) {
 }
 
 // What the members of a group extend to along a direction and across it, from the centre of the
-// group's sphere.
+// group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
 typedef struct nsvcd__slab {
   double low, high, across;
 } nsvcd__slab;
 
-static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal) {
+static nsvcd__slab nsvcd__slab_of_group(const nsvcd__facets *f, size_t g, nsvcd__d3 normal,
+                                        double most) {
   const size_t first = NSVCD__GROUP * g;
   const nsvcd__spheres groups = nsvcd__groups_of(f->body);
   const nsvcd__d3 centre = nsvcd__d3_widen(nsvcd__centre_of(groups, g));
   nsvcd__slab slab = {HUGE_VAL, -HUGE_VAL, 0};
   for (size_t i = first; i < first + NSVCD__GROUP && i < f->body->patches; i++) {
+    if (slab.high - slab.low >= most) break;
     const nsvcd__vertices vertices = nsvcd__vertices_of(f, i);
     const nsvcd__d3 own = nsvcd__d3_sub(nsvcd__facet_origin(f, i), centre);
     const double step = (double)f->steps[i];
     const double slack = (double)f->slacks[i];
+    double farthest = 0;
     for (size_t k = 0; k < f->hull_counts[i]; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
       const nsvcd__d3 v = nsvcd__d3_fma(step, vertex, own);
       const double height = nsvcd__d3_dot(normal, v);
-      const double square = nsvcd__d3_dot(v, v) - height * height;
+      farthest = nsvcd__max(farthest, nsvcd__d3_dot(v, v) - height * height);
       slab.low = nsvcd__min(slab.low, height - slack);
       slab.high = nsvcd__max(slab.high, height + slack);
-      slab.across = nsvcd__max(slab.across, sqrt(square > 0 ? square : 0) + slack);
     }
+    if (f->hull_counts[i]) slab.across = nsvcd__max(slab.across, sqrt(farthest) + slack);
   }
   return slab;
 }
@@ -282,8 +285,9 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
     // As it is stored, and no longer than 1.
     const nsvcd__d3 shorter = nsvcd__d3_scale(normals[k], 0.9999998 / length);
     const nsvcd__d3 unit = nsvcd__d3_widen(nsvcd__f3_round(shorter));
-    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit);
-    if (!(slab.high - slab.low < thinnest.high - thinnest.low)) continue;
+    const double most = thinnest.high - thinnest.low;
+    const nsvcd__slab slab = nsvcd__slab_of_group(&f, g, unit, most);
+    if (!(slab.high - slab.low < most)) continue;
     thinnest = slab;
     best = unit;
   }
@@ -355,12 +359,18 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const double quantum = (double)f.quanta[i];
+    nsvcd__d3 least = {32767, 32767, 32767};
+    nsvcd__d3 most = {-32767, -32767, -32767};
     for (size_t k = 0; k < vertices.count; k++) {
       const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      const nsvcd__d3 at = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
-      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, at));
-      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, at));
+      least = nsvcd__d3_min(least, vertex);
+      most = nsvcd__d3_max(most, vertex);
     }
+    if (vertices.count == 0) continue;
+    least = nsvcd__d3_fma((double)f.steps[i], least, origin);
+    most = nsvcd__d3_fma((double)f.steps[i], most, origin);
+    low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, least));
+    high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, most));
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
   }
   // float rounding
@@ -415,8 +425,7 @@ static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *s) {
 
 // Writes patch `to`, from patch `from` of a surface. One without surface is a point.
 static void nsvcd__patch_write(const nsvcd__surface *s, size_t from, nsvcd_body *b,
-                               size_t to) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
+                               nsvcd__facets f, size_t to) {
   const size_t padded = b->padded;
   nsvcd__sphere ball = s->balls[from];
   if (s->hull_counts[from] == 0) ball.radius = 0;
@@ -486,7 +495,8 @@ static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
   b->triangles = (uint32_t)triangles;
   memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
   nsvcd__seeds_write(s, order, b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, i);
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, f, i);
   if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
     return NSVCD_ERROR_NUMBER;
   nsvcd__facets_finish(b);

@@ -10,7 +10,7 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  return nsvcd_encode(mesh, &options, allocator, NULL, 0, body);
+  return nsvcd__encode(mesh, &options, allocator, NULL, 0, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
@@ -56,15 +56,11 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_body **body) {
   nsvcd_mesh mesh = {NULL, NULL, count, count};
   if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
-  const size_t bytes = 3 * count * sizeof *mesh.indices;
+  if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   // a cast would take away a const; nothing is written
   memcpy(&mesh.positions, &points, sizeof points);
-  mesh.indices = (uint32_t *)nsvcd__alloc(allocator, bytes);
-  if (!mesh.indices) return count ? NSVCD_ERROR_MEMORY : NSVCD_ERROR_EMPTY;
-  for (size_t i = 0; i < 3 * count; i++) mesh.indices[i] = (uint32_t)(i / 3);
-  const nsvcd_result result = nsvcd__encode_round(&mesh, radius, allocator, body);
-  nsvcd__free(allocator, mesh.indices);
-  return result;
+  return nsvcd__encode_round(&mesh, radius, allocator, body);
 }
 #endif

@@ -259,6 +259,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     }
     nsvcd__cover_level(b, 0, nsvcd__body_patches(b), b->patches);
     nsvcd__body_finish(b);
+    b->checksum = nsvcd__body_checksum(b);
     return;
   }
 #ifndef NSVCD_NO_PROOF

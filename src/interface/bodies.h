@@ -92,7 +92,11 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 #ifndef NSVCD_NO_PROOF
 // Bodies of a shape, for the proof, exact but for the roundings of float: what nsvcd_encode makes
 // of a point, a segment, a box or points and options.round. Where time matters they are better than
-// meshes of many triangles: a capsule is one segment.
+// meshes of many triangles: a capsule is one segment. Voxels are a cloud of their centres: with a
+// radius of 0.8661 edges it contains the cubes, with half an edge it is within them; exact are only
+// their faces, as a mesh. A map that changes is best kept in chunks of some 16 x 16 x 16 cells, a
+// body each, of which only those with changes are encoded anew; nsvcd_sweep_batch asks all that are
+// near.
 //   radius, round   metres, > 0; that of a box may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
 //   half            half of what the box measures, round edges and all, not NULL, metres; none is

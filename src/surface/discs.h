@@ -82,10 +82,10 @@ static nsvcd__d3 nsvcd__least_axis(nsvcd__points points) {
   return nsvcd__d3_unit(nsvcd__longest_row(&m), nsvcd__any_across(along));
 }
 
-// Turns a direction step by step to where the points are thinner.
-static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
+// Turns a direction step by step to where the points are thinner, until they are thin.
+static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction, double thin) {
   double best = nsvcd__thickness(points, direction);
-  for (double turn = 0.16; turn > 0.005 && best > 0; turn *= 0.5) {
+  for (double turn = 0.16; turn > 0.005 && best > thin; turn *= 0.5) {
     const nsvcd__d3 u = nsvcd__any_across(direction);
     const nsvcd__d3 v = nsvcd__d3_cross(direction, u);
     const nsvcd__d3 middle = direction;
@@ -102,11 +102,13 @@ static nsvcd__d3 nsvcd__thinner(nsvcd__points points, nsvcd__d3 direction) {
 }
 
 // points: about the centre of the patch's ball. normal: the mean one of its pieces, of any length.
-static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin) {
+// thin: metres; thinner than that is of no use.
+static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, double margin,
+                                   double thin) {
   nsvcd__d3 best = nsvcd__least_axis(points);
   const nsvcd__d3 mean = nsvcd__d3_unit(normal, best);
   if (nsvcd__thickness(points, mean) < nsvcd__thickness(points, best)) best = mean;
-  best = nsvcd__thinner(points, best);
+  best = nsvcd__thinner(points, best, thin);
   if (nsvcd__d3_dot(best, normal) < 0) best = nsvcd__d3_scale(best, -1);
 
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.

@@ -146,6 +146,8 @@ typedef struct nsvcd__pieces {
   double longest_edge;
   // metres, added to all bounds
   double margin;
+  // metres: discs need not be thinner
+  double thin;
 } nsvcd__pieces;
 
 static const uint32_t *nsvcd__triangle_corners(const nsvcd__pieces *pieces,

@@ -6,9 +6,14 @@
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // triangles of a run, where there are many: no more points than a hull may have
 #define NSVCD__RUN_LENGTH 16
+// runs that are worked on at a time, in memory that stays near
+#define NSVCD__RUNS_AT_ONCE 256
+// of how round a body is: where its discs are thinner, they are not made thinner still
+#define NSVCD__RUN_THIN 0.5
 
-// Is some triangle of a mesh a point or a segment?
+// Is some triangle of a mesh a point or a segment? One without indices is a cloud.
 static int nsvcd__has_points(const nsvcd_mesh *mesh) {
+  if (!mesh->indices) return 1;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *v = mesh->indices + 3 * t;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return 1;
@@ -25,7 +30,8 @@ static size_t nsvcd__runs_for(const nsvcd_mesh *mesh) {
 }
 
 static nsvcd__f3 nsvcd__middle_of(const nsvcd_mesh *mesh, size_t t) {
-  const uint32_t *v = mesh->indices + 3 * t;
+  const uint32_t point[3] = {(uint32_t)t, (uint32_t)t, (uint32_t)t};
+  const uint32_t *v = mesh->indices ? mesh->indices + 3 * t : point;
   nsvcd__f3 sum = nsvcd__f3_row(mesh->positions, v[0]);
   sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[1]));
   sum = nsvcd__f3_add(sum, nsvcd__f3_row(mesh->positions, v[2]));
@@ -46,46 +52,46 @@ static uint64_t nsvcd__spread_bits(float from) {
 static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
   for (unsigned shift = 32; shift < 64; shift += 8) {
     size_t first[257] = {0};
-    for (size_t i = 0; i < count; i++) first[1 + (keys[i] >> shift & 0xff)]++;
+    uint64_t *from = shift & 8 ? spare : keys;
+    uint64_t *to = shift & 8 ? keys : spare;
+    for (size_t i = 0; i < count; i++) first[1 + (from[i] >> shift & 0xff)]++;
     for (size_t n = 0; n < 256; n++) first[n + 1] += first[n];
-    for (size_t i = 0; i < count; i++) spare[first[keys[i] >> shift & 0xff]++] = keys[i];
-    memcpy(keys, spare, count * sizeof *keys);
+    for (size_t i = 0; i < count; i++) to[first[from[i] >> shift & 0xff]++] = from[i];
   }
 }
 
-// The pieces of a mesh, in so many runs, of which each is a patch; region and patches are what they
-// are of. The triangles are sorted along a curve that fills space (Morton 1966). Every vertex may
-// be a component of its own. 0 without memory.
-static int nsvcd__runs_build(const nsvcd_mesh *mesh, size_t runs, nsvcd__arena *arena,
-                             nsvcd__region *region, nsvcd__patches *patches,
-                             nsvcd__pieces *pieces) {
+// A mesh along a curve that fills space (Morton 1966).
+typedef struct nsvcd__curve {
+  const nsvcd_mesh *mesh;
+  // (triangles) each number of a triangle below its code
+  uint64_t *keys;
+  // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
+  // None of a cloud, which has each once
+  uint32_t *met;
+  uint32_t met_count;
+  double greatest;  // coordinate of the mesh
+  double round;     // metres
+} nsvcd__curve;
+
+// 0 without memory.
+static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena *arena,
+                              nsvcd__curve *curve) {
   const size_t count = mesh->triangle_count;
+  memset(curve, 0, sizeof *curve);
+  curve->mesh = mesh;
+  curve->round = (double)round;
+  curve->keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
+  curve->met = NSVCD__TAKE(arena, uint32_t, mesh->indices ? mesh->vertex_count : 0);
+  if (arena->failed) return 0;
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+    curve->greatest = nsvcd__max(curve->greatest, fabs((double)mesh->positions[i]));
   nsvcd__f3 low = nsvcd__middle_of(mesh, 0);
   nsvcd__f3 high = low;
-  memset(region, 0, sizeof *region);
-  memset(patches, 0, sizeof *patches);
-  memset(pieces, 0, sizeof *pieces);
-  uint64_t *keys = NSVCD__TAKE(arena, uint64_t, 2 * count);
-  region->mesh = *mesh;
-  region->ids = NSVCD__TAKE(arena, uint32_t, count);
-  region->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
-  patches->count = runs;
-  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, runs);
-  pieces->arena = arena;
-  pieces->region = region;
-  pieces->patches = patches;
-  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
-  if (arena->failed) return 0;
-  memset(region->seeds, 1, mesh->vertex_count);
-  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
-    region->greatest = fmax(region->greatest, fabs((double)mesh->positions[i]));
   for (size_t t = 0; t < count; t++) {
     const nsvcd__f3 middle = nsvcd__middle_of(mesh, t);
-    region->ids[t] = (uint32_t)t;
     low = nsvcd__f3_min(low, middle);
     high = nsvcd__f3_max(high, middle);
   }
-
   const nsvcd__f3 size = nsvcd__f3_sub(high, low);
   const float longest = fmaxf(fmaxf(size.x, size.y), size.z);
   const float cells = longest > 0 ? 1023 / longest : 0;
@@ -94,19 +100,81 @@ static int nsvcd__runs_build(const nsvcd_mesh *mesh, size_t runs, nsvcd__arena *
     const uint64_t x = nsvcd__spread_bits(cells * at.x);
     const uint64_t y = nsvcd__spread_bits(cells * at.y);
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
-    keys[t] = (x | y << 1 | z << 2) << 32 | t;
+    curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  nsvcd__sort_by_code(keys, keys + count, count);
+  nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
+  return 1;
+}
 
-  pieces->margin = NSVCD__SURFACE_MARGIN * region->greatest + NSVCD__SURFACE_TINY;
+// The first triangle of a run, none of which is empty.
+static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
+  return (size_t)(((uint64_t)triangles * run + runs - 1) / runs);
+}
+
+// Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
+// pieces of. A block's triangles and vertices are copied in the order of the curve: all that
+// follows reads memory from front to back. Every vertex may be a component of its own. 0 without
+// memory.
+static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
+                             nsvcd__arena *arena, nsvcd__region *block,
+                             nsvcd__patches *patches, nsvcd__pieces *pieces) {
+  const nsvcd_mesh *mesh = curve->mesh;
+  const size_t all = mesh->triangle_count;
+  const size_t begin = nsvcd__run_begin(all, first, runs);
+  const size_t count = nsvcd__run_begin(all, last, runs) - begin;
+  const uint32_t before = curve->met_count;
+  memset(block, 0, sizeof *block);
+  memset(patches, 0, sizeof *patches);
+  memset(pieces, 0, sizeof *pieces);
+  block->mesh.triangle_count = count;
+  const size_t most = 3 * count < mesh->vertex_count ? 3 * count : mesh->vertex_count;
+  block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
+  block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  block->ids = NSVCD__TAKE(arena, uint32_t, count);
+  uint32_t *origins = NSVCD__TAKE(arena, uint32_t, most);
+  block->seeds = NSVCD__TAKE(arena, uint8_t, most);
+  block->greatest = curve->greatest;
+  patches->count = last - first;
+  patches->centres = NSVCD__TAKE(arena, nsvcd__f3, patches->count);
+  pieces->arena = arena;
+  pieces->region = block;
+  pieces->patches = patches;
+  pieces->margin = NSVCD__SURFACE_MARGIN * block->greatest + NSVCD__SURFACE_TINY;
+  pieces->thin = NSVCD__RUN_THIN * curve->round;
+  if (!nsvcd__list_reserve(&pieces->list, count, sizeof(nsvcd__piece), arena)) return 0;
+  if (arena->failed) return 0;
   nsvcd__piece *out = (nsvcd__piece *)pieces->list.items;
   pieces->list.count = count;
+  // Short loops, each of which waits for memory far away, for many places at a time.
+  size_t run = first;
+  size_t end = 0;
   for (size_t k = 0; k < count; k++) {
-    const uint32_t triangle = (uint32_t)keys[k];
-    const size_t patch = (size_t)((uint64_t)k * runs / count);
-    const nsvcd__piece piece = {NSVCD__WHOLE, triangle, (uint16_t)patch, 3, 0};
-    patches->centres[patch] = nsvcd__middle_of(mesh, triangle);
+    if (k == end) end = nsvcd__run_begin(all, ++run, runs) - begin;
+    const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
+    block->ids[k] = (uint32_t)curve->keys[begin + k];
+    for (size_t n = 3 * k; n < 3 * k + 3; n++) {
+      const size_t corner = 3 * (size_t)block->ids[k] + n - 3 * k;
+      block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
+    }
+  }
+  if (!mesh->indices) {
+    memcpy(origins, block->ids, count * sizeof *origins);
+    memset(block->seeds, 1, count);
+    block->mesh.vertex_count = count;
+  }
+  for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    uint32_t *met = &curve->met[block->mesh.indices[n]];
+    if (*met <= before) {
+      block->seeds[block->mesh.vertex_count] = *met == 0;
+      origins[block->mesh.vertex_count++] = block->mesh.indices[n];
+      *met = ++curve->met_count;
+    }
+    block->mesh.indices[n] = *met - 1 - before;
+  }
+  for (size_t i = 0; i < block->mesh.vertex_count; i++) {
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, origins[i]);
+    nsvcd__f3_store(at, block->mesh.positions + 3 * i);
   }
   return 1;
 }

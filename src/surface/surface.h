@@ -102,7 +102,9 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
     const nsvcd__d3 from = nsvcd__point_at(pieces, corners[0]);
     // twice the area times the normal
     nsvcd__d3 area = nsvcd__d3_of(0, 0, 0);
-    for (size_t j = 0; j < piece->count; j++) {
+    // a point has no area, and is met once
+    const int is_point = corners[0] == corners[1] && corners[1] == corners[2];
+    for (size_t j = 0; j < piece->count && (j == 0 || !is_point); j++) {
       const uint32_t point = corners[j];
       nsvcd__number_point(sorted, point);
       // of a component that no patch has been given yet?
@@ -133,7 +135,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   for (size_t j = 0; j < about.count; j++)
     radius = nsvcd__max(radius, nsvcd__d3_length(about.at[j]));
   ball->radius = nsvcd__float_above(radius + pieces->margin);
-  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin);
+  s->discs[to] = nsvcd__fit_disc(about, normal, pieces->margin, pieces->thin);
 
   size_t chosen[NSVCD__HULL];
   double farthest;
@@ -243,6 +245,21 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   return !arena->failed;
 }
 
+// Makes room for more vertices and listings. 0 without memory.
+static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triangles) {
+  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
+  for (size_t k = 0; k < 3; k++) {
+    const size_t more = k == 0 ? vertices : triangles;
+    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
+    lists[k]->count = k == 0 ? s->vertex_count : s->listed;
+    if (!nsvcd__list_reserve(lists[k], more, size, s->arena)) return 0;
+  }
+  s->vertices = (int16_t *)s->vertex_list.items;
+  s->corners = (uint16_t *)s->corner_list.items;
+  s->ids = (uint32_t *)s->id_list.items;
+  return 1;
+}
+
 // Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
 // counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
 // needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
@@ -259,7 +276,11 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
     nsvcd__describe_patch(&sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
     s->first_triangle[i] = (uint32_t)triangles;
-    triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
+    // Where nothing is cut, and all points are the hull's, they have been counted.
+    if (pieces->corners.count == 0 && sorted.met_count == s->hull_counts[i])
+      triangles += sorted.first[i - done + 1] - sorted.first[i - done];
+    else
+      triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
     vertices += sorted.met_count;
     if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
@@ -267,17 +288,8 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
   }
   s->first_vertex[s->count] = (uint32_t)vertices;
   s->first_triangle[s->count] = (uint32_t)triangles;
-  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
-  for (size_t k = 0; k < 3; k++) {
-    const size_t count = k == 0 ? vertices : triangles;
-    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
-    if (!nsvcd__list_reserve(lists[k], count - lists[k]->count, size, s->arena))
-      return NSVCD_ERROR_MEMORY;
-    lists[k]->count = count;
-  }
-  s->vertices = (int16_t *)s->vertex_list.items;
-  s->corners = (uint16_t *)s->corner_list.items;
-  s->ids = (uint32_t *)s->id_list.items;
+  if (!nsvcd__surface_room(s, vertices - s->vertex_count, triangles - s->listed))
+    return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
   for (size_t i = done; i < s->count; i++) {
     if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
