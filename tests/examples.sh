@@ -41,6 +41,20 @@ test "$(tail -1 "$dir/out")" = ' 0.00  0.50  0.00' || fail "plan ends at: $(tail
 (cd "$dir" && "$OLDPWD/build/plan") 2>"$dir/err" && fail "plan without its meshes ends with 0"
 grep -q 'mug.obj:0: the file is missing' "$dir/err" || fail "plan without its meshes says: $(cat "$dir/err")"
 
+# The game: no two things overlap by the oracle's word (the exit status), the character arrives, and the pile sleeps.
+rm -f build/game.svg
+expect 0 '' build/game --frames 540 --check
+grep -q '^overlaps: 0 of [0-9]* pairs' "$dir/out" || fail "the game says: $(cat "$dir/out")"
+grep -q 'the character is past 5 of 5 stops' "$dir/out" || fail "the character does not arrive: $(sed -n 3p "$dir/out")"
+asleep=$(sed -n 's/^\([0-9]*\) of 50 props asleep.*/\1/p' "$dir/out")
+test "${asleep:-0}" -ge 35 || fail "the game's pile does not sleep: $(sed -n 3p "$dir/out")"
+tail -1 build/game.svg | grep -q '^</svg>$' || fail "build/game.svg is not whole"
+expect 1 'cannot be written there' build/game --problems "$dir/none"
+for bad in '--frames 0' '--frames' '--seed x' '--speed 3' '--problems'; do
+  # shellcheck disable=SC2086
+  expect 2 'what is that' build/game $bad
+done
+
 # The planners: free motions by the oracle's word (the exit status), and a whole picture.
 for planner in dish_insertion bimanual_insertion mining_site; do
   rm -f build/$planner.svg

@@ -93,6 +93,31 @@ SHAPES_DEF void level_arch(shapes_mesh *mesh, double radius, double thickness, i
               0);
 }
 
+// Stairs up along x from the origin, a landing as long as four of them, and a ramp of two in five
+// down to the ground again: all in one, its foot a metre below.
+SHAPES_DEF void level_stairs(shapes_mesh *mesh, double width, double run, double rise, int steps) {
+  const double upright[4] = {sqrt(0.5), 0, 0, sqrt(0.5)};
+  const size_t first = mesh->vertices;
+  const double top = rise * steps;
+  const double landing = run * (steps + 4);
+  double p[SHAPES_MAX_POLYGON][2] = {{0, -1}, {landing + 2.5 * (top + 0.5), -1}};
+  int count = 2;
+  if (steps > 60) steps = 60;
+  p[count][0] = landing + 2.5 * (top + 0.5);
+  p[count++][1] = -0.5;
+  p[count][0] = landing;
+  p[count++][1] = top;
+  for (int k = steps; k-- > 0;) {
+    p[count][0] = run * k;
+    p[count++][1] = rise * (k + 1);
+    if (k == 0) break;
+    p[count][0] = run * k;
+    p[count++][1] = rise * k;
+  }
+  shapes_extrude(mesh, (const double(*)[2])p, count, width);
+  shapes_place(mesh, first, upright, 0, 0, 0);
+}
+
 // A thing of about this many triangles, standing on the ground at the origin.
 SHAPES_DEF void level_thing(shapes_mesh *mesh, int kind, size_t triangles, shapes_rng *rng) {
   const double n = (double)triangles;
