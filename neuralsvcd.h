@@ -703,7 +703,8 @@ typedef struct nsvcd_question {
   nsvcd_mover a, b;
   nsvcd_ask ask;
   // metres. FIRST: no point of one body moves farther than this, as the other sees it, from the
-  // time that is proven free to that of the contact. DISTANCE: how wide the bracket may be. 0 (and
+  // time that is proven free to that of the contact; nor than a quarter of its way, if triangles
+  // are stored as exactly as that. DISTANCE: how wide the bracket may be. 0 (and
   // to_time 0): NSVCD_DEFAULT_TO of the smaller body. Not with HIT
   float to;
   // FIRST: the same as a share of the motion, up to 1. Where both are set, both hold
@@ -9074,6 +9075,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought, and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
@@ -9314,6 +9316,8 @@ typedef struct nsvcd__proof {
   int unclear;
   // the least distance is not known as narrowly as was asked for
   int wide;
+  // FIRST: nothing of the motion is proven free but its start
+  int starts_free;
 
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
@@ -12427,6 +12431,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
+    p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
   } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
     const double share = p->ask.share;
     p->ask.share = 0;
@@ -14289,7 +14294,8 @@ static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
-// asked for, nor longer than `share`, if that is.
+// asked for, nor longer than `share`, if that is. Of a short motion a quarter of its way, so that
+// not all of it is lost to a contact, if that is more than the hairs that a safe place is before.
 static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = share > 0 ? share : 1;
@@ -14302,7 +14308,8 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  return to < most * whole ? to / whole : most;
+  const double least = fmin(to, fmax(0.25 * whole, NSVCD__HAIRS * nsvcd__hair(p)));
+  return least < most * whole ? least / whole : most;
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
@@ -14329,7 +14336,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = 0;
+  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
@@ -14524,7 +14531,7 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
     if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (answer->time.low > 0) {
+  } else if (answer->time.low > 0 || p->starts_free) {
     answer->depth = 0;
   }
   // at the ends they are as the caller has them: nsvcd__answer_begin
@@ -14581,7 +14588,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = 3 * nsvcd__hair(p);
+    const double hairs = NSVCD__HAIRS * nsvcd__hair(p);
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }

@@ -755,8 +755,40 @@ static void asks_first_is_to_metres(void) {
   nsvcd_body_free(table, NULL);
 }
 
+// A way that is hardly longer than `to`, or shorter: some of what is free of it is known all the
+// same, and that its start is.
+static void asks_first_of_short_ways(void) {
+  shapes_rng rng = {53};
+  for (int n = 0; n < 100; n++) {
+    const nsvcd_body *table = asks_table(0, n % 2 ? 16 : 1);
+    const nsvcd_body *box = asks_standing(8 + n % 8, &rng);
+    const double hair =
+        (double)nsvcd_body_describe(table).quantum + (double)nsvcd_body_describe(box).quantum;
+    const double way = hair * pow(10, shapes_uniform(&rng, 0.7, 2.5));
+    const double share = shapes_uniform(&rng, 0.3, 0.9);
+    const nsvcd_pose path[2] = {asks_pose(0.05, 0.02, 0.002 + share * way, 0.3),
+                                asks_pose(0.05, 0.02, 0.002 - (1 - share) * way, 0.3)};
+    const nsvcd_question question = {.a = {box, path, 2, NULL, 0},
+                                     .b = {table, NULL, 0, NULL, 0},
+                                     .ask = NSVCD_ASK_FIRST,
+                                     .to = 1e-4f,
+                                     .clearance = 0.002f};
+    const nsvcd_answer answer = asks(&question);
+    const double off = 1.5 * hair / way;
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_LE((double)answer.time.low, share + off);
+    CHECK_GE((double)answer.time.high, share - off);
+    if (way * share > 4 * hair) CHECK_EQ(answer.depth, 0);
+    if (way > 16 * hair) CHECK_LE((double)(answer.time.high - answer.time.low), 0.2501 + off);
+    if (way > 1e-5) asks_check_safe(&question, &answer);
+    nsvcd_body_free(table, NULL);
+    nsvcd_body_free(box, NULL);
+  }
+}
+
 void test_asks(void) {
   RUN(asks_first_is_to_metres);
+  RUN(asks_first_of_short_ways);
   RUN(asks_manifold_holds);
   RUN(asks_manifold_has_no_ghosts);
   RUN(asks_manifold_too_deep_for_a_skin);

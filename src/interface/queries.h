@@ -86,7 +86,8 @@ typedef struct nsvcd_question {
   nsvcd_mover a, b;
   nsvcd_ask ask;
   // metres. FIRST: no point of one body moves farther than this, as the other sees it, from the
-  // time that is proven free to that of the contact. DISTANCE: how wide the bracket may be. 0 (and
+  // time that is proven free to that of the contact; nor than a quarter of its way, if triangles
+  // are stored as exactly as that. DISTANCE: how wide the bracket may be. 0 (and
   // to_time 0): NSVCD_DEFAULT_TO of the smaller body. Not with HIT
   float to;
   // FIRST: the same as a share of the motion, up to 1. Where both are set, both hold

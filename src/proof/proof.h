@@ -107,6 +107,7 @@
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
+#define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought, and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
@@ -347,6 +348,8 @@ typedef struct nsvcd__proof {
   int unclear;
   // the least distance is not known as narrowly as was asked for
   int wide;
+  // FIRST: nothing of the motion is proven free but its start
+  int starts_free;
 
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.

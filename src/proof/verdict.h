@@ -123,6 +123,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
+    p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
   } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
     const double share = p->ask.share;
     p->ask.share = 0;

@@ -46,7 +46,8 @@ static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 }
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
-// asked for, nor longer than `share`, if that is.
+// asked for, nor longer than `share`, if that is. Of a short motion a quarter of its way, so that
+// not all of it is lost to a contact, if that is more than the hairs that a safe place is before.
 static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = share > 0 ? share : 1;
@@ -59,7 +60,8 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  return to < most * whole ? to / whole : most;
+  const double least = fmin(to, fmax(0.25 * whole, NSVCD__HAIRS * nsvcd__hair(p)));
+  return least < most * whole ? least / whole : most;
 }
 
 // Makes the proof ready for a question whose motion has been prepared.
@@ -86,7 +88,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = 0;
+  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
@@ -281,7 +283,7 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
     if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (answer->time.low > 0) {
+  } else if (answer->time.low > 0 || p->starts_free) {
     answer->depth = 0;
   }
   // at the ends they are as the caller has them: nsvcd__answer_begin
@@ -338,7 +340,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = 3 * nsvcd__hair(p);
+    const double hairs = NSVCD__HAIRS * nsvcd__hair(p);
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)fmax(0, until - back);
   }
