@@ -34,7 +34,7 @@ endif
 .PHONY: all demo preview assets header help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
-.PHONY: check-one-path bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
+.PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-asks bench-casts bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
@@ -340,13 +340,19 @@ check-options: build/check_options build/check_options_fused  # every option aga
 	  $$made $(SCENES) $(SEED) build/options/random_urdfs/[0-4]*.obj >$$made.txt; status=$$?; \
 	  sed -n '/^ answers/,$$p' $$made.txt; [ $$status = 0 ] || exit 1; done
 
+# RESTING=10000 for more.
+RESTING = 300
+check-rest: build/check_rest  # what lies flat on a table: depth, lift, safe place and manifold against its own vertices
+	@mkdir -p build/options && tar xzf examples/scenery/meshes/random_urdfs.tar.gz -C build/options
+	build/check_rest $(RESTING) $(or $(SEED),1) build/options/random_urdfs/*.obj
+
 check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 	tests/bench/extremes.sh
 
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options one-path problems extremes python web
+CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
