@@ -154,7 +154,7 @@ PHYSICS_DEF physics_world *physics_new(const physics_shape *shapes, size_t most)
       sizeof(physics_thing) + sizeof(size_t) + PHYSICS_TOUCHES * sizeof(physics_touch);
   physics_world *w = (physics_world *)calloc(1, sizeof *w + 64 + workspace + most * each);
   if (!w) return NULL;
-  w->workspace = w + 1;
+  w->workspace = (void *)(((uintptr_t)(w + 1) + 15) / 16 * 16);  // for NSVCD_ALIGNMENT
   w->workspace_size = workspace;
   w->order = (size_t *)(void *)((char *)w->workspace + (workspace + 15) / 16 * 16);
   w->things = (physics_thing *)(void *)(w->order + most);

@@ -1,10 +1,11 @@
-"""Uses the page in a headless Chromium as a person does, and holds its answers against build/svcd's:
+"""Uses the pages in a headless Chromium as a person does, and holds the first one's answers against build/svcd's:
 
     python3 test_page.py build/web/index.html build/svcd build/web/page.png
 
 Drags, keys, dropped and chosen files, wrong ones among them, options, numbers out of range. The
 console must stay empty. Writes a picture of the page, and prints what a question takes there and in
-build/svcd; that time is only held to be below SLOWEST.
+build/svcd; that time is only held to be below SLOWEST. Of throw.html, which lies beside: things come
+to rest, one walks, and nothing overlaps; throw-1000.png is its picture.
 """
 
 import functools
@@ -113,11 +114,15 @@ HIGH = ("0 -0.4 0.3 0 0 0 1", "0 0.4 0.3 0 0 0 1")  # over the rack
 TITLES = {"witness": "Hit", "certified-free": "Free", "inside": "Inside", "undecided": "Undecided"}
 
 
-class Page(unittest.TestCase):
+class Hands(unittest.TestCase):
+    """Hands and eyes for one page, in a browser of its own."""
+
+    page = PAGE
+
     @classmethod
     def setUpClass(cls):
         cls.browser = start_browser()
-        cls.address = serve(PAGE.parent) + "/" + PAGE.name
+        cls.address = serve(PAGE.parent) + "/" + cls.page.name
 
     @classmethod
     def tearDownClass(cls):
@@ -128,12 +133,6 @@ class Page(unittest.TestCase):
 
     def tearDown(self):
         self.assertEqual(self.browser.get_log("browser"), [])
-
-    # ---- hands and eyes
-
-    def open(self, address: str):
-        self.browser.get(address)
-        self.until(lambda: self.text("verdict-title") != "Loading")
 
     def until(self, condition, seconds=10):
         end = time.monotonic() + seconds
@@ -152,16 +151,26 @@ class Page(unittest.TestCase):
         self.browser.execute_async_script(
             "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(arguments[0])))")
 
+    def click(self, selector: str):
+        self.browser.find_element(By.CSS_SELECTOR, selector).click()
+        self.frames()
+
+    def other(self) -> str:
+        """The address of the other page."""
+        return self.browser.find_element(By.CSS_SELECTOR, "header a").get_attribute("href")
+
+
+class Page(Hands):
+    def open(self, address: str):
+        self.browser.get(address)
+        self.until(lambda: self.text("verdict-title") != "Loading")
+
     def set(self, name: str, value, event="input", wait=True):
         self.browser.execute_script(
             "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event(arguments[2], {bubbles: true}))",
             self.find(name) if isinstance(name, str) else name, str(value), event)
         if wait:
             self.frames()
-
-    def click(self, selector: str):
-        self.browser.find_element(By.CSS_SELECTOR, selector).click()
-        self.frames()
 
     def poses(self) -> tuple:
         self.frames()
@@ -222,6 +231,7 @@ class Page(unittest.TestCase):
     def test_opens_from_a_file(self):
         self.open(PAGE.as_uri())
         self.assert_native(native([self.poses()], "--first", "0.01")[0])
+        self.assertEqual(self.other(), PAGE.with_name("throw.html").as_uri())
 
     def test_drags(self):
         grip = self.find("grip-1")
@@ -439,6 +449,69 @@ class Page(unittest.TestCase):
         self.browser.set_window_size(1000, 800)
         self.assertLessEqual(wide, 0, "nothing sticks out sideways")
         self.assertGreater(scene, 400)
+
+
+class Throw(Hands):
+    page = PAGE.with_name("throw.html")
+
+    def open(self, address: str):
+        self.look(300, 400)  # without a graphics card, all is slow
+        self.browser.get(address)
+        self.until(lambda: self.number("count") == 12)
+
+    def look(self, width: int, height: int):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+    def number(self, name: str) -> int:
+        return int(self.text(name))
+
+    def place(self) -> list:
+        return [float(x) for x in re.findall(r"-?\d+\.\d\d", self.text("walker"))]
+
+    def press(self, keys: str):
+        self.browser.find_element(By.TAG_NAME, "body").send_keys(keys)
+
+    def throw(self, x: int, y: int):
+        canvas = self.find("canvas")
+        ActionChains(self.browser, duration=20).move_to_element_with_offset(canvas, x, y).click().perform()
+
+    def test_walks_throws_and_comes_to_rest(self):
+        x, y, z = self.place()
+        ActionChains(self.browser).key_down("d").perform()
+        self.until(lambda: self.place()[2] > z + 0.5)  # up the stairs
+        ActionChains(self.browser).key_up("d").perform()
+        self.assertGreater(self.place()[0], x + 0.5)
+        self.assertAlmostEqual(self.place()[1], y, delta=0.3)
+        before = self.find("canvas").screenshot_as_base64
+        self.press("5")
+        self.assertEqual(self.browser.execute_script("return document.querySelector(':checked').value"), "chair")
+        self.throw(60, 20)
+        self.until(lambda: self.number("count") == 13 and self.number("asleep") < 13)
+        self.until(lambda: self.number("questions") > 13 and self.number("contacts") > 0)
+        self.until(lambda: self.number("asleep") == 13, 30)
+        self.until(lambda: self.number("questions") < 13)
+        self.assertNotEqual(self.find("canvas").screenshot_as_base64, before)
+        self.assertEqual(self.number("overlaps"), 0)
+        self.press("r")
+        self.until(lambda: self.number("count") == 12 and self.number("asleep") < 12)
+        self.assertEqual(self.other(), self.address.replace("throw", "index"))
+
+    def test_pictures(self):
+        for n in range(8):
+            self.press(str(n % 9 + 1))
+            self.throw(30 * (n % 6) - 70, 30 * (n % 3) - 20)
+        self.press(" ")
+        self.until(lambda: self.number("count") > 16 and not self.text("error"))
+        for width in (390, 1000):
+            self.look(width, 800)
+            self.frames()
+            wide = self.browser.execute_script("return document.documentElement.scrollWidth")
+            self.assertLessEqual(wide, width, "nothing sticks out sideways")
+            self.assertGreater(len(self.find("canvas").screenshot_as_png), 10000, "a blank one is smaller")
+            self.browser.save_screenshot(str(PICTURE.with_name(f"throw-{width}.png")))
+        print("test_page: throw.html:", self.text("figures").replace("\n", " "), flush=True)
+        self.assertEqual(self.number("overlaps"), 0)
 
 
 if __name__ == "__main__":
