@@ -9076,7 +9076,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
-#define NSVCD__AROUND 8       // directions along which contact points are sought, and
+#define NSVCD__AROUND 8       // directions along which contact points are sought,
+#define NSVCD__PLACES 10      // and two across what these span,
+#define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
 #define NSVCD__NEVER 1e300    // ticks
@@ -9167,14 +9169,14 @@ typedef struct nsvcd__touch {
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
-  nsvcd__d3 normal, along[NSVCD__AROUND];
+  nsvcd__d3 normal, along[NSVCD__PLACES];
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
-  // the farthest along each: how far that is, -HUGE_VAL: there is none; and the number of the
-  // corner or the edges
-  nsvcd__contact supports[NSVCD__AROUND];
-  double farthest[NSVCD__AROUND];
-  uint32_t numbers[NSVCD__AROUND];
+  // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
+  // sought; and the number of the corner or the edges
+  nsvcd__contact supports[NSVCD__PLACES];
+  double farthest[NSVCD__PLACES];
+  uint32_t numbers[NSVCD__PLACES];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
@@ -10971,7 +10973,8 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 // points that hold the body: those that span the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such places the farthest along eight directions are kept, and of these the best four. Where two
+// such places the farthest along eight directions are kept, of what is slim those across it as well,
+// and of these the best four. Where two
 // are as far, the one with the lower number is: so the same are chosen again when little has moved.
 // Only normals that are much like the contact's count: where a side rises from the floor, corners
 // of the floor's triangles are near the side as well, but it is not what the body stands on.
@@ -10994,6 +10997,34 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, doub
     m->farthest[k] = -HUGE_VAL;
     along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
   }
+  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) m->farthest[k] = HUGE_VAL;
+}
+
+// Where what has been found spans little, for how long it is, prepares to look across it, both
+// ways, for what is between the eight directions. area: twice what is spanned. Returns 1 if so.
+static int nsvcd__look_across(nsvcd__manifold *m, double area) {
+  nsvcd__d3 longest = {0, 0, 0};
+  for (int k = 0; k < NSVCD__AROUND; k++) {
+    for (int n = 0; n < k && m->farthest[k] > -HUGE_VAL && m->farthest[n] > -HUGE_VAL; n++) {
+      const nsvcd__d3 way = nsvcd__d3_sub(m->supports[k].point, m->supports[n].point);
+      if (nsvcd__d3_dot(way, way) > nsvcd__d3_dot(longest, longest)) longest = way;
+    }
+  }
+  const double square = nsvcd__d3_dot(longest, longest);
+  if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
+  const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
+  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) {
+    m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
+    m->farthest[k] = -HUGE_VAL;
+    for (int n = 0; n < NSVCD__AROUND; n++) {
+      const double place = nsvcd__d3_dot(m->along[k], m->supports[n].point);
+      if (!(m->farthest[n] > -HUGE_VAL) || !(place > m->farthest[k])) continue;
+      m->farthest[k] = place;
+      m->supports[k] = m->supports[n];
+      m->numbers[k] = m->numbers[n];
+    }
+  }
+  return 1;
 }
 
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
@@ -11011,7 +11042,7 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
-  for (int k = 0; k < NSVCD__AROUND; k++) {
+  for (int k = 0; k < NSVCD__PLACES; k++) {
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
@@ -11043,7 +11074,7 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
   const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
-  for (int k = 0; k < NSVCD__AROUND && !farther; k++) {
+  for (int k = 0; k < NSVCD__PLACES && !farther; k++) {
     for (int i = 0; i < 3; i++)
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
@@ -11095,12 +11126,12 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 // how many.
 static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                            double *area) {
-  int kept[NSVCD__AROUND];
+  int kept[NSVCD__PLACES];
   int count = 0;
   // each place once, those with lower numbers first
-  for (int k = 0; k < NSVCD__AROUND; k++) {
+  for (int k = 0; k < NSVCD__PLACES; k++) {
     int at = count;
-    int is_new = m->farthest[k] > -HUGE_VAL;
+    int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
     for (int n = 0; n < count; n++) {
       const nsvcd__d3 other = m->supports[kept[n]].point;
       is_new &= nsvcd__d3_distance2(m->supports[k].point, other) > m->same * m->same;
@@ -11116,7 +11147,7 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
   for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__AROUND];
+    int four[NSVCD__PLACES];
     int size = 0;
     for (int n = 0; n < count; n++)
       if (all >> n & 1) four[size++] = kept[n];
@@ -11696,14 +11727,14 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
 }
 
 // How far places on both patches of an item, the moving one posed, can at most be along each
-// direction of a manifold: they are within both hulls.
+// of these directions of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__item *item, float *most) {
+                            const nsvcd__item *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
   const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
   const float fixed_more = p->fixed.slacks[item->fixed];
-  for (int k = 0; k < NSVCD__AROUND; k++) {
+  for (int k = first; k < last; k++) {
     const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
     float by_moving = HUGE_VALF;
     float by_fixed = HUGE_VALF;
@@ -11718,36 +11749,37 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
   }
 }
 
-// The manifold of the items that were gathered: first of those that may be farthest along some
-// direction, then of what may still be farther. Where bodies are deep in each other there are many,
-// and few of their places are like a contact: so many are looked at, and no more.
-static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p) {
+// The manifold of the items that were gathered, in directions first to last - 1: at first of those
+// that may be farthest along one, then of what may still be farther. Where bodies are deep in each
+// other there are many, and few of their places are like a contact: so many are looked at, and no
+// more.
+static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
-  float farthest[NSVCD__AROUND];
-  size_t best[NSVCD__AROUND] = {0};
-  float most[NSVCD__AROUND];
-  for (int k = 0; k < NSVCD__AROUND; k++) farthest[k] = -HUGE_VALF;
+  float farthest[NSVCD__PLACES];
+  size_t best[NSVCD__PLACES] = {0};
+  float most[NSVCD__PLACES];
+  for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
     items[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &items[n], most);
-    for (int k = 0; k < NSVCD__AROUND; k++) {
+    nsvcd__bound_of(p, &pose, &items[n], first, last, most);
+    for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
     }
   }
-  for (size_t n = 0; n < NSVCD__AROUND + p->count && p->count > 0; n++) {
-    const size_t which = n < NSVCD__AROUND ? best[n] : n - NSVCD__AROUND;
+  const size_t count = (size_t)(last - first);
+  for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
+    const size_t which = n < count ? best[(size_t)first + n] : n - count;
     nsvcd__item *item = &items[which];
     int matters = 0;
-    nsvcd__bound_of(p, &pose, item, most);
-    for (int k = 0; k < NSVCD__AROUND; k++)
-      matters |= (double)most[k] > m->farthest[k] + m->same;
+    nsvcd__bound_of(p, &pose, item, first, last, most);
+    for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
-    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[0] > -HUGE_VAL)))
+    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[first] > -HUGE_VAL)))
       break;
     item->sought = 1;
     looks++;
@@ -12607,6 +12639,8 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
+  // they may not have been: bodies that never come near are told apart without
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
@@ -14502,8 +14536,12 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
     nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
-    nsvcd__seek_places(p);
-    const int count = nsvcd__choose_four(m, chosen, &area);
+    nsvcd__seek_places(p, 0, NSVCD__AROUND);
+    int count = nsvcd__choose_four(m, chosen, &area);
+    if (nsvcd__look_across(&p->of.kept.manifold, area)) {
+      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__PLACES);
+      count = nsvcd__choose_four(m, chosen, &area);
+    }
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
@@ -15680,6 +15718,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
+#define nsvcd__look_across NSVCD__AT(look_across)
 #define nsvcd__manifold NSVCD__AT(manifold)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)

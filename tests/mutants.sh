@@ -157,6 +157,7 @@ asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
 asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*area > 0) continue;
 asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;|int tries = 1;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
+asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
 LIST
 

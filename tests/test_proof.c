@@ -1505,6 +1505,8 @@ static void proof_check_measure(attack *a, float tolerance, timing_sum *sum) {
   if (w->inside) return;
   if (w->distance.low > 0)
     sum->wrong += proof_comes_within(a, (double)w->distance.low, 1, 1e-6 * size);
+  // they do come as near as that, also where no triangles are named
+  sum->wrong += proof_first_approach(a, (double)w->distance.high + 2e-6 * size, 1e-6 * size) > 1;
   const double moved = proof_speed_bound(a, (double)w->nearest.time, 6e-8);
   if (w->nearest.triangle_a != NSVCD_NO_TRIANGLE) {
     CHECK_LE(proof_distance_at(a, (double)w->nearest.time),

@@ -319,14 +319,14 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
 }
 
 // How far places on both patches of an item, the moving one posed, can at most be along each
-// direction of a manifold: they are within both hulls.
+// of these directions of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__item *item, float *most) {
+                            const nsvcd__item *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
   const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
   const float fixed_more = p->fixed.slacks[item->fixed];
-  for (int k = 0; k < NSVCD__AROUND; k++) {
+  for (int k = first; k < last; k++) {
     const nsvcd__v3 back = nsvcd__v3_set(nsvcd__d3_narrow(nsvcd__d3_scale(m->along[k], -1)));
     float by_moving = HUGE_VALF;
     float by_fixed = HUGE_VALF;
@@ -341,36 +341,37 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
   }
 }
 
-// The manifold of the items that were gathered: first of those that may be farthest along some
-// direction, then of what may still be farther. Where bodies are deep in each other there are many,
-// and few of their places are like a contact: so many are looked at, and no more.
-static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p) {
+// The manifold of the items that were gathered, in directions first to last - 1: at first of those
+// that may be farthest along one, then of what may still be farther. Where bodies are deep in each
+// other there are many, and few of their places are like a contact: so many are looked at, and no
+// more.
+static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   nsvcd__item *items = p->of.kept.items;
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
-  float farthest[NSVCD__AROUND];
-  size_t best[NSVCD__AROUND] = {0};
-  float most[NSVCD__AROUND];
-  for (int k = 0; k < NSVCD__AROUND; k++) farthest[k] = -HUGE_VALF;
+  float farthest[NSVCD__PLACES];
+  size_t best[NSVCD__PLACES] = {0};
+  float most[NSVCD__PLACES];
+  for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
     items[n].sought = 0;
-    nsvcd__bound_of(p, &pose, &items[n], most);
-    for (int k = 0; k < NSVCD__AROUND; k++) {
+    nsvcd__bound_of(p, &pose, &items[n], first, last, most);
+    for (int k = first; k < last; k++) {
       if (most[k] > farthest[k]) best[k] = n;
       farthest[k] = fmaxf(farthest[k], most[k]);
     }
   }
-  for (size_t n = 0; n < NSVCD__AROUND + p->count && p->count > 0; n++) {
-    const size_t which = n < NSVCD__AROUND ? best[n] : n - NSVCD__AROUND;
+  const size_t count = (size_t)(last - first);
+  for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
+    const size_t which = n < count ? best[(size_t)first + n] : n - count;
     nsvcd__item *item = &items[which];
     int matters = 0;
-    nsvcd__bound_of(p, &pose, item, most);
-    for (int k = 0; k < NSVCD__AROUND; k++)
-      matters |= (double)most[k] > m->farthest[k] + m->same;
+    nsvcd__bound_of(p, &pose, item, first, last, most);
+    for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
     if (item->sought || !matters) continue;
-    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[0] > -HUGE_VAL)))
+    if (looks == NSVCD__HOLDS || (looks == NSVCD__HOPE && !(m->farthest[first] > -HUGE_VAL)))
       break;
     item->sought = 1;
     looks++;

@@ -299,6 +299,8 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
+  // they may not have been: bodies that never come near are told apart without
+  nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {

@@ -254,8 +254,12 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
     nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
-    nsvcd__seek_places(p);
-    const int count = nsvcd__choose_four(m, chosen, &area);
+    nsvcd__seek_places(p, 0, NSVCD__AROUND);
+    int count = nsvcd__choose_four(m, chosen, &area);
+    if (nsvcd__look_across(&p->of.kept.manifold, area)) {
+      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__PLACES);
+      count = nsvcd__choose_four(m, chosen, &area);
+    }
     if (count == 0 || !(area > 1.001 * widest)) continue;
     widest = area;
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
