@@ -9077,7 +9077,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought,
-#define NSVCD__PLACES 10      // and two across what these span,
+#define NSVCD__SUPPORTS 10    // and two across what these span,
 #define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
@@ -9169,14 +9169,14 @@ typedef struct nsvcd__touch {
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
-  nsvcd__d3 normal, along[NSVCD__PLACES];
+  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
-  nsvcd__contact supports[NSVCD__PLACES];
-  double farthest[NSVCD__PLACES];
-  uint32_t numbers[NSVCD__PLACES];
+  nsvcd__contact supports[NSVCD__SUPPORTS];
+  double farthest[NSVCD__SUPPORTS];
+  uint32_t numbers[NSVCD__SUPPORTS];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
@@ -10973,7 +10973,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 // points that hold the body: those that span the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such places the farthest along eight directions are kept, of what is slim those across it as well,
+// such places the farthest along eight directions are kept, of what is slim those across it too,
 // and of these the best four. Where two
 // are as far, the one with the lower number is: so the same are chosen again when little has moved.
 // Only normals that are much like the contact's count: where a side rises from the floor, corners
@@ -10997,7 +10997,7 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, doub
     m->farthest[k] = -HUGE_VAL;
     along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
   }
-  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) m->farthest[k] = HUGE_VAL;
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
 // Where what has been found spans little, for how long it is, prepares to look across it, both
@@ -11013,7 +11013,7 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   const double square = nsvcd__d3_dot(longest, longest);
   if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
   const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
-  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) {
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
     m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
     m->farthest[k] = -HUGE_VAL;
     for (int n = 0; n < NSVCD__AROUND; n++) {
@@ -11042,7 +11042,7 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
-  for (int k = 0; k < NSVCD__PLACES; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
@@ -11074,7 +11074,7 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
   const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
-  for (int k = 0; k < NSVCD__PLACES && !farther; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
@@ -11126,10 +11126,10 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 // how many.
 static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                            double *area) {
-  int kept[NSVCD__PLACES];
+  int kept[NSVCD__SUPPORTS];
   int count = 0;
   // each place once, those with lower numbers first
-  for (int k = 0; k < NSVCD__PLACES; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
     for (int n = 0; n < count; n++) {
@@ -11147,7 +11147,7 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
   for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__PLACES];
+    int four[NSVCD__SUPPORTS];
     int size = 0;
     for (int n = 0; n < count; n++)
       if (all >> n & 1) four[size++] = kept[n];
@@ -11759,9 +11759,9 @@ static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
-  float farthest[NSVCD__PLACES];
-  size_t best[NSVCD__PLACES] = {0};
-  float most[NSVCD__PLACES];
+  float farthest[NSVCD__SUPPORTS];
+  size_t best[NSVCD__SUPPORTS] = {0};
+  float most[NSVCD__SUPPORTS];
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
     items[n].sought = 0;
@@ -14539,7 +14539,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__seek_places(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__look_across(&p->of.kept.manifold, area)) {
-      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__PLACES);
+      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;

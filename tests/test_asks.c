@@ -554,6 +554,43 @@ static void asks_manifold_holds(void) {
   nsvcd_body_free(tables[1], NULL);
 }
 
+// A slim foot comes down, a triangle of which one corner is a little beside the line of the others,
+// however it is turned: all three are told, and between which of the directions they are does not
+// matter.
+static void asks_manifold_of_what_is_slim(void) {
+  const nsvcd_body *table = asks_table(0, 4);
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_cone(&shape, 0.1, 0.02, 0.05, 3);  // on three corners
+  double low[3], high[3];
+  shapes_bounds(&shape, low, high);
+  for (size_t i = 0; i < shape.vertices; i++) {
+    shape.positions[3 * i + 1] *= 0.15;
+    shape.positions[3 * i + 2] -= low[2];
+  }
+  const nsvcd_body *body = asks_body(&shape, 0);
+  for (int n = 0; n < 90; n++) {
+    const nsvcd_pose path[2] = {asks_pose(0.03, 0.02, 0.03, 0.07 * n),
+                                asks_pose(0.03, 0.02, -0.02, 0.07 * n)};
+    nsvcd_question question = question_of(body, path, 2, table, NULL, NULL);
+    question.ask = NSVCD_ASK_FIRST;
+    question.manifold = 1;
+    question.to = 5e-4f;
+    const nsvcd_answer answer = asks(&question);
+    double area = 0;
+    for (size_t k = 0; k < answer.contact_count; k++) {
+      const float *a = answer.contacts[0].point;
+      const float *b = answer.contacts[k].point;
+      const float *c = answer.contacts[(k + 1) % answer.contact_count].point;
+      area += fabs((double)((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))) / 2;
+    }
+    // of the whole: an equilateral triangle in a circle, pressed flat
+    CHECK_NEAR(area, 0.75 * sqrt(3) * 0.01 * 0.15, 2e-5);
+  }
+  nsvcd_body_free(body, NULL);
+  nsvcd_body_free(table, NULL);
+}
+
 // A finely cut plate comes down on the end of a post, or a post on a plate, so that corners of the
 // plate's triangles are just beside the sides of the post: those are no contacts, but the corners of
 // its end are.
@@ -790,6 +827,7 @@ void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_first_of_short_ways);
   RUN(asks_manifold_holds);
+  RUN(asks_manifold_of_what_is_slim);
   RUN(asks_manifold_has_no_ghosts);
   RUN(asks_manifold_too_deep_for_a_skin);
   RUN(asks_safe_with_a_distance);

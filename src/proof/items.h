@@ -351,9 +351,9 @@ static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last
   const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
-  float farthest[NSVCD__PLACES];
-  size_t best[NSVCD__PLACES] = {0};
-  float most[NSVCD__PLACES];
+  float farthest[NSVCD__SUPPORTS];
+  size_t best[NSVCD__SUPPORTS] = {0};
+  float most[NSVCD__SUPPORTS];
   for (int k = first; k < last; k++) farthest[k] = -HUGE_VALF;
   for (size_t n = 0; n < p->count; n++) {
     items[n].sought = 0;

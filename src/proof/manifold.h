@@ -2,7 +2,7 @@
 // points that hold the body: those that span the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
-// such places the farthest along eight directions are kept, of what is slim those across it as well,
+// such places the farthest along eight directions are kept, of what is slim those across it too,
 // and of these the best four. Where two
 // are as far, the one with the lower number is: so the same are chosen again when little has moved.
 // Only normals that are much like the contact's count: where a side rises from the floor, corners
@@ -28,7 +28,7 @@ static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, doub
     m->farthest[k] = -HUGE_VAL;
     along = nsvcd__d3_scale(nsvcd__d3_add(along, nsvcd__d3_cross(n, along)), sqrt(0.5));
   }
-  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) m->farthest[k] = HUGE_VAL;
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) m->farthest[k] = HUGE_VAL;
 }
 
 // Where what has been found spans little, for how long it is, prepares to look across it, both
@@ -44,7 +44,7 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   const double square = nsvcd__d3_dot(longest, longest);
   if (!(square > m->same * m->same) || area > NSVCD__SLIM * square) return 0;
   const nsvcd__d3 across = nsvcd__d3_unit(nsvcd__d3_cross(m->normal, longest), m->along[0]);
-  for (int k = NSVCD__AROUND; k < NSVCD__PLACES; k++) {
+  for (int k = NSVCD__AROUND; k < NSVCD__SUPPORTS; k++) {
     m->along[k] = nsvcd__d3_scale(across, k == NSVCD__AROUND ? 1 : -1);
     m->farthest[k] = -HUGE_VAL;
     for (int n = 0; n < NSVCD__AROUND; n++) {
@@ -73,7 +73,7 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
-  for (int k = 0; k < NSVCD__PLACES; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
@@ -105,7 +105,7 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
   const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
-  for (int k = 0; k < NSVCD__PLACES && !farther; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
@@ -157,10 +157,10 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 // how many.
 static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
                                            double *area) {
-  int kept[NSVCD__PLACES];
+  int kept[NSVCD__SUPPORTS];
   int count = 0;
   // each place once, those with lower numbers first
-  for (int k = 0; k < NSVCD__PLACES; k++) {
+  for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     int at = count;
     int is_new = m->farthest[k] > -HUGE_VAL && m->farthest[k] < HUGE_VAL;
     for (int n = 0; n < count; n++) {
@@ -178,7 +178,7 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
   if (count > 0 && count <= 4) *area = nsvcd__spanned(m, kept);
   if (count <= 4) return count;
   for (int all = 0; all < 1 << count; all++) {
-    int four[NSVCD__PLACES];
+    int four[NSVCD__SUPPORTS];
     int size = 0;
     for (int n = 0; n < count; n++)
       if (all >> n & 1) four[size++] = kept[n];

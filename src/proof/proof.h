@@ -109,7 +109,7 @@
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought,
-#define NSVCD__PLACES 10      // and two across what these span,
+#define NSVCD__SUPPORTS 10    // and two across what these span,
 #define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
 #define NSVCD__HOLDS 64       // items that are looked at for them
 #define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
@@ -201,14 +201,14 @@ typedef struct nsvcd__touch {
 // Places where the bodies touch when a contact is: proof/manifold.
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
-  nsvcd__d3 normal, along[NSVCD__PLACES];
+  nsvcd__d3 normal, along[NSVCD__SUPPORTS];
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
-  nsvcd__contact supports[NSVCD__PLACES];
-  double farthest[NSVCD__PLACES];
-  uint32_t numbers[NSVCD__PLACES];
+  nsvcd__contact supports[NSVCD__SUPPORTS];
+  double farthest[NSVCD__SUPPORTS];
+  uint32_t numbers[NSVCD__SUPPORTS];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at

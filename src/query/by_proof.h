@@ -257,7 +257,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     nsvcd__seek_places(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__look_across(&p->of.kept.manifold, area)) {
-      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__PLACES);
+      nsvcd__seek_places(p, NSVCD__AROUND, NSVCD__SUPPORTS);
       count = nsvcd__choose_four(m, chosen, &area);
     }
     if (count == 0 || !(area > 1.001 * widest)) continue;
