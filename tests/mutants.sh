@@ -33,7 +33,7 @@ chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
-group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    const nsvcd__vertices
+group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
 held plane without deviation|lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
 groups' spheres without slack|const double radius = (double)f->slacks[i] + rounding;|const double radius = rounding;
@@ -119,7 +119,7 @@ round: as near as the skeletons|  low = fmax(low - p->given.round, 0);|
 round: points on the skeleton|fmin((double)p->fixed.round, found->distance);|0;
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.round, 0) * world.unit);|(float)(found->distance * world.unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
-round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    const uint32_t triangle = (uint32_t)keys[k];|for (size_t k = 0; k + 1 < count; k++) {\n    const uint32_t triangle = (uint32_t)keys[k];
+round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|((nsvcd__facet_counts *)counts)->round *= scale;|(void)counts;
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3

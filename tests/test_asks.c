@@ -565,7 +565,7 @@ static void asks_manifold_of_what_is_slim(void) {
   double low[3], high[3];
   shapes_bounds(&shape, low, high);
   for (size_t i = 0; i < shape.vertices; i++) {
-    shape.positions[3 * i + 1] *= 0.15;
+    shape.positions[3 * i] *= 0.15;
     shape.positions[3 * i + 2] -= low[2];
   }
   const nsvcd_body *body = asks_body(&shape, 0);

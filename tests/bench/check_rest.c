@@ -242,8 +242,9 @@ static void check_skin(const resting *r, const double *up, shapes_rng *rng, doub
   const double off = fmax(fabs((double)answer.depth - depth) - r->hair, 0);
   worst_depth = depth > 0 ? fmax(worst_depth, off / depth) : worst_depth;
   if (off > 0.01 * depth) blame(r, "depth", (double)answer.depth, depth);
-  if (fabs((double)answer.lift[0]) + fabs((double)answer.lift[1]) > 0.3 * SKIN)
-    blame(r, "lift aside", (double)answer.lift[0], 0);
+  // of a body that stands on an edge it may be along a side's normal
+  if ((double)answer.lift[2] < 0.8 * SKIN && press > -1e-7)
+    blame(r, "lift upward", (double)answer.lift[2], SKIN);
   const double above = lowest_of(r, &answer.safe.a) - clearance;
   const double kept = fmax(0.02 * SKIN, 2 * r->hair);
   if (above < -1e-7) blame(r, "safe place below", above, 0);
