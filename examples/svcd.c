@@ -650,6 +650,8 @@ static int draw_job(const sweep_job *job, const settings *options) {
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   const motion_told told = {options->from, options->to, options->rotate};
   if (options->sweep.method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
+  // a body may hold no triangles: then the network answers
+  options->encode.latents = is_body_file(options->paths[0]) || is_body_file(options->paths[1]);
   if (!load_thing(options->paths[0], scales[0], &options->encode, &job->a) ||
       !load_thing(options->paths[1], scales[1], &options->encode, &job->b))
     return REFUSED;
