@@ -3981,8 +3981,8 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
 
 // Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
 // pieces of. A block's triangles and vertices are copied in the order of the curve: all that
-// follows reads memory from front to back. Every vertex may be a component of its own. 0 without
-// memory.
+// follows reads memory from front to back. Every triangle may be of a component of its own, if none
+// of its vertices has been met. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *block,
                              nsvcd__patches *patches, nsvcd__pieces *pieces) {
@@ -4032,9 +4032,11 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     block->mesh.vertex_count = count;
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    const uint32_t *face = &block->mesh.indices[n / 3 * 3];
     uint32_t *met = &curve->met[block->mesh.indices[n]];
     if (*met <= before) {
-      block->seeds[block->mesh.vertex_count] = *met == 0;
+      block->seeds[block->mesh.vertex_count] =
+          n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
       origins[block->mesh.vertex_count++] = block->mesh.indices[n];
       *met = ++curve->met_count;
     }
@@ -9295,8 +9297,9 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  // how many blocks of a resting patch are in p->fixed_blocks
+  // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
+  int has_block;
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
@@ -9379,6 +9382,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
   memo->window = 0;
+  memo->has_block = 0;
 }
 #ifndef NSVCD__PAUSE
 #define NSVCD__PAUSE(p) ((void)0)
@@ -9567,6 +9571,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
   arc->drift = 0;
   return arc;
+}
+
+// Do all points of the moving body go along straight lines, seen from the fixed one?
+static int nsvcd__is_straight(const nsvcd__arc *arc) {
+  return !(arc->bulge > 0 || arc->drift > 0);
 }
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
@@ -10292,22 +10301,35 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
   return 0;
 }
 
+// How many corners of a triangle there are to look at: of a point or a segment, which a round body
+// has, as nsvcd_encode_sphere and nsvcd_encode_capsule list it, 1 or 2.
+static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
+  if (nsvcd__d3_distance2(t[1], t[2]) > 0) return 3;
+  return nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;
+}
+
 // The nearest points of two triangles; the distance is 0 where they meet.
 static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  const size_t corners_a = nsvcd__corners_of(a);
+  const size_t corners_b = nsvcd__corners_of(b);
+  const size_t edges_a = corners_a < 3 ? 1 : 3;
+  const size_t edges_b = corners_b < 3 ? 1 : 3;
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
-  if (nsvcd__triangles_meet(a, b, &point)) {
+  if (corners_a > 1 && corners_b > 1 && nsvcd__triangles_meet(a, b, &point)) {
     best.square = 0;
     best.on_a = point;
     best.on_b = point;
     return best;
   }
-  for (size_t k = 0; k < 3; k++) {
-    for (size_t n = 0; n < 3; n++)
+  for (size_t k = 0; k < edges_a; k++) {
+    for (size_t n = 0; n < edges_b; n++)
       nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
-    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
-    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   }
+  for (size_t k = 0; k < corners_a && corners_b == 3; k++)
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+  for (size_t k = 0; k < corners_b && corners_a == 3; k++)
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   return best;
 }
 
@@ -10546,11 +10568,26 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
   return nsvcd__nearest_of(posed, couple->fixed);
 }
 
+// A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
+// told whether it touches: a doubt. But where distances are measured, less is said, for certain:
+// these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
+// TOO_LONG; ANSWERED where it is as low as is known anyway.
+static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u0, double u1, double when) {
+  if (!(p->ask.measure > 0)) {
+    nsvcd__take_doubt(p, couple, u0, u1);
+    return NSVCD__SETTLED;
+  }
+  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  const double distance = sqrt(nearest.square);
+  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
+  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
+  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+}
+
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by
-// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
-// where distances are measured, less is said, for certain: these come no nearer than that. Then the
-// clearance is lowered and the part to be looked at again, TOO_LONG; ANSWERED where it is as low as
-// is known anyway.
+// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
                                                             const nsvcd__couple *couple,
                                                             double u0, double u1,
@@ -10567,21 +10604,62 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
-  if (has_met) {
-    nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
-    nearest.square = 0;
-    return nsvcd__take_contact(p, couple, when, &nearest);
+  if (!has_met) return nsvcd__settle_doubt(p, couple, u0, u1, when);
+  nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  nearest.square = 0;
+  return nsvcd__take_contact(p, couple, when, &nearest);
+}
+
+// Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
+// distance is a convex function of time, and no less than the plane at its nearest points says, its
+// tangent: Newton's method, from the start on, comes to the first contact and never past it.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
+                                                          const nsvcd__couple *couple,
+                                                          double u0, double u1) {
+  const nsvcd__arc *arc = &p->arc;
+  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
+  const double close = couple->slack + p->given.tolerance;
+  nsvcd__d3 *plane = &p->memo.parting;
+  double at = u0;
+  int shrunk = 0;
+  size_t steps = 0;
+  for (double u = u0;;) {  // before u it is parted
+    const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+    at = nsvcd__min(at, end);
+    p->work++;
+    NSVCD__TALLY(pairs, 1);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, at);
+    const double distance = sqrt(nearest.square);
+    const double above = distance - p->ask.clearance;
+    if (above <= couple->rounding) {
+      if (nsvcd__take_contact(p, couple, at, &nearest) == NSVCD__ANSWERED)
+        return NSVCD__ANSWERED;
+      shrunk = 1;
+      at = u;
+      continue;
+    }
+    *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double room = above - couple->slack - couple->rounding;
+    const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
+    if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
+      nsvcd__certify_couple(p, couple, u, until);
+      u = until;
+    }
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    const int is_unsure = fall > 0 ? !(at < end) : is_short;
+    if (u < end && (is_unsure || steps++ == NSVCD__HALVINGS)) {
+      // what follows is no nearer
+      const nsvcd__outcome part = nsvcd__settle_doubt(p, couple, u, at, at);
+      if (part == NSVCD__ANSWERED) return part;
+      if (part == NSVCD__SETTLED) u = end;
+    } else {
+      at = fall > 0 ? at + above / fall : 0.5 * (u + at);
+    }
   }
-  if (!(p->ask.measure > 0)) {
-    nsvcd__take_doubt(p, couple, u0, u1);
-    return NSVCD__SETTLED;
-  }
-  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
-  const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
-  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
 // Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
@@ -10592,6 +10670,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
   const nsvcd__arc *arc = &p->arc;
+  if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
   const double close = couple->slack + p->given.tolerance;
   nsvcd__d3 *plane = &p->memo.parting;
@@ -10825,11 +10904,12 @@ NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__blo
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of
-// the moving one, and of an edge of each.
+// Normal number k of those that may part two triangles at `ends` (1 or 2) poses: of the fixed ones
+// in a slice, of lane l of the moving one, and of an edge of each; of an edge without length, which
+// points and segments have, it is that corner's way that counts.
 #define NSVCD__NORMALS 11
 NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                             size_t s, size_t k) {
+                                             size_t s, size_t ends, size_t k) {
   if (k == 1) {
     const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
     const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
@@ -10845,7 +10925,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
   const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
-  const nsvcd__f3 other = nsvcd__f3_sub(after, a);
+  nsvcd__f3 other = nsvcd__f3_sub(after, a);
+  if (ends == 2 && !(nsvcd__f3_dot(other, other) > 0))
+    other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[1][moving_edge], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
@@ -10955,7 +11037,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
       if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
+      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
           nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
       if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
@@ -11345,9 +11427,12 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from listing `first` on.
+// Loads 16 triangles of moving patch i, from listing `first` on. The same are often asked for
+// again.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
+  if (p->memo.has_block && p->moving_block.first == first) return;
+  p->memo.has_block = 1;
   nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
                     &p->moving_block);
 }
@@ -11498,11 +11583,13 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   const nsvcd__motion *motion = p->ask.motion;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
+  int is_tried = 1;  // is it all of the segment?
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
     const uint32_t knot = nsvcd__next_knot(motion, first);
     at = last < knot ? last : knot;
+    is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(knot - first);
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
@@ -11510,7 +11597,10 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->span = nsvcd__span_of_arc(p, first, u, end);
-      if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
+      const int apart =
+          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
+      is_tried = 0;
+      if (apart) {
         nsvcd__certify_item(p, &p->span, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
@@ -11584,18 +11674,21 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
   return 1;
 }
 
-// Sorts items: the deeper first; with `first`, once there is a contact, the earlier.
+// Is an item to be looked at before another? The deeper; with `first` the one that is nearest
+// earlier in their segment, and once there is a contact that of the earlier segment.
+static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
+                            const nsvcd__item *b) {
+  const int in_time = p->ask.first > 0;
+  if (a->segment == b->segment) return in_time ? a->share < b->share : a->depth > b->depth;
+  return in_time && p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
+}
+
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
-  const int in_time = p->ask.first > 0 && p->known.has_contact;
   for (size_t n = 1; n < count; n++) {
     const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0; at--) {
-      const nsvcd__item *before = &items[at - 1];
-      const int by_time = in_time && item.segment != before->segment;
-      if (!(by_time ? item.segment < before->segment : item.depth > before->depth)) break;
-      items[at] = *before;
-    }
+    for (; at > 0 && nsvcd__is_before(p, &item, &items[at - 1]); at--)
+      items[at] = items[at - 1];
     items[at] = item;
   }
 }
@@ -11685,6 +11778,13 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     if (!nsvcd__matters(p, search, item->segment)) continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
+    double u;
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
+    if (p->ask.first > 0 && nsvcd__is_straight(nsvcd__arc_at(p, first))) {
+      const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
+      if (outcome != NSVCD__SETTLED) return outcome;
+      continue;
+    }
     if (p->misses >= NSVCD__HOPE) {
       const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
       const nsvcd__outcome by_triangles =
@@ -15599,6 +15699,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
 #define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
+#define nsvcd__corners_of NSVCD__AT(corners_of)
 #define nsvcd__couple NSVCD__AT(couple)
 #define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
@@ -15671,6 +15772,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
 #define nsvcd__is_around NSVCD__AT(is_around)
+#define nsvcd__is_before NSVCD__AT(is_before)
 #define nsvcd__is_clear NSVCD__AT(is_clear)
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_deep NSVCD__AT(is_deep)
@@ -15682,6 +15784,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_on_ray NSVCD__AT(is_on_ray)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
 #define nsvcd__is_spent NSVCD__AT(is_spent)
+#define nsvcd__is_straight NSVCD__AT(is_straight)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
 #define nsvcd__is_tiled NSVCD__AT(is_tiled)
 #define nsvcd__is_within NSVCD__AT(is_within)
@@ -15834,10 +15937,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
 #define nsvcd__settle_couple NSVCD__AT(settle_couple)
+#define nsvcd__settle_doubt NSVCD__AT(settle_doubt)
 #define nsvcd__settle_item NSVCD__AT(settle_item)
 #define nsvcd__settle_items NSVCD__AT(settle_items)
 #define nsvcd__settle_row NSVCD__AT(settle_row)
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
+#define nsvcd__settle_straight NSVCD__AT(settle_straight)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
 #define nsvcd__share_of NSVCD__AT(share_of)
 #define nsvcd__sift_items NSVCD__AT(sift_items)

@@ -41,6 +41,12 @@ groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) 
 held plane without slack|p->fixed.slacks[j] * length - highest;|-highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
 pair without quanta|couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;|couple.slack = 0 * moving_quantum + couple.rounding;
+round: tangents from the other side|const double fall = -nsvcd__d3_dot(*plane, moved);|const double fall = nsvcd__d3_dot(*plane, moved);
+round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
+doubts forgotten|    nsvcd__take_doubt(p, couple, u0, u1);\n    return NSVCD__SETTLED;|    return NSVCD__SETTLED;
+round: edges without length by another pose|if (ends == 2 \&\& !(nsvcd__f3_dot(other, other) > 0))|if (!(nsvcd__f3_dot(other, other) > 0))
+a block of the question before|memo->has_block = 0;|(void)memo->has_block;
+round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
 pair without bulge|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * (0 * bulge + arc->drift);
 pair without drift|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * bulge;
 doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;

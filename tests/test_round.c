@@ -23,12 +23,19 @@ typedef struct round_body {
   size_t count;
 } round_body;
 
+// An answer, and the same again, whatever the workspace held.
 static nsvcd_answer round_ask(const nsvcd_question *question) {
   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(512, 512, 64));
-  nsvcd_answer answer;
-  memset(&answer, 0, sizeof answer);
-  CHECK_EQ(nsvcd_sweep(question, workspace, sizeof workspace, &answer), NSVCD_OK);
-  return answer;
+  nsvcd_answer answers[2];
+  for (int n = 0; n < 2; n++) {
+    memset(workspace, n ? 0x41 : 0, sizeof workspace);
+    memset(&answers[n], 0, sizeof answers[n]);
+    CHECK_EQ(nsvcd_sweep(question, workspace, sizeof workspace, &answers[n]), NSVCD_OK);
+  }
+  CHECK_EQ(answers[0].work, answers[1].work);
+  CHECK_EQ(answers[0].time.low, answers[1].time.low);
+  CHECK_EQ(memcmp(answers[0].nearest.point, answers[1].nearest.point, 12), 0);
+  return answers[0];
 }
 
 // ------------------------------------------------------------------------------------------ bodies
@@ -263,10 +270,11 @@ static void round_bodies_are_exact(void) {
       for (int i = 0; i < 3; i++)
         pose.position[i] = k < 2 ? reach * (0.8 * place[i] + (k ? 0.7 : -0.7) * way[i]) : 0.1 * i;
       poses[k / 2][k % 2] = pose_rounded(&pose);
-      // not so much of a turn that it is all of the motion
+      // not so much of a turn that it is all of the motion; of every third, none
       for (int i = 0; i < 4 && k % 2; i++) {
         float *to = poses[k / 2][1].rotation;
-        to[i] = 0.3f * to[i] + 0.7f * poses[k / 2][0].rotation[i];
+        const float share = n / (KINDS * KINDS) % 3 ? 0.3f : 0;
+        to[i] = share * to[i] + (1 - share) * poses[k / 2][0].rotation[i];
       }
       float *r = poses[k / 2][k % 2].rotation;
       const float length = sqrtf(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
@@ -298,7 +306,8 @@ static void round_bodies_are_exact(void) {
   CHECK_LE(sum.undecided, 20);
 }
 
-// A sphere flies through a cloud: the nearest it comes to a point of it is known.
+// A sphere flies through a cloud: the nearest it comes to a point of it is known, and when it is so
+// near first that they touch.
 static void round_spheres_in_clouds(void) {
   enum { POINTS = 20000 };
   static float points[3 * POINTS];
@@ -309,6 +318,7 @@ static void round_spheres_in_clouds(void) {
   for (size_t i = 0; i < 3 * POINTS; i++) points[i] = (float)shapes_uniform(&rng, -1, 1);
   CHECK_EQ(nsvcd_encode_sphere(0.02f, NULL, &sphere), NSVCD_OK);
   CHECK_EQ(nsvcd_encode_cloud(points, POINTS, 0.01f, NULL, &cloud), NSVCD_OK);
+  const double quanta = (double)nsvcd_body_describe(cloud).quantum + 1e-6;
   for (int n = 0; n < 400; n++) {
     double ends[2][3];
     nsvcd_pose path[2];
@@ -324,12 +334,21 @@ static void round_spheres_in_clouds(void) {
       memcpy(path[k].rotation, unit, sizeof unit);
     }
     double least = DBL_MAX;
+    double earliest = 1;
+    double root = 0;
     double way[3];
     oracle_sub(ends[1], ends[0], way);
+    const double square = oracle_dot(way, way);
     for (size_t i = 0; i < POINTS; i++) {
       double d[3];
       for (int k = 0; k < 3; k++) d[k] = (double)points[3 * i + (size_t)k] - ends[0][k];
-      const double t = fmin(fmax(oracle_dot(d, way) / oracle_dot(way, way), 0), 1);
+      const double along = oracle_dot(d, way) / square;
+      const double t = fmin(fmax(along, 0), 1);
+      const double early = along * along - (oracle_dot(d, d) - 0.03 * 0.03) / square;
+      if (early > 0 && along + sqrt(early) > 0 && along - sqrt(early) < earliest) {
+        earliest = fmax(along - sqrt(early), 0);
+        root = sqrt(early);
+      }
       for (int k = 0; k < 3; k++) d[k] -= t * way[k];
       least = fmin(least, oracle_length(d));
     }
@@ -338,8 +357,17 @@ static void round_spheres_in_clouds(void) {
     nsvcd_answer answer;
     CHECK_EQ(nsvcd_sweep(&q, workspace, sizeof workspace, &answer), NSVCD_OK);
     if (fabs(least - 0.03) > 1e-6) CHECK_EQ(answer.verdict, least < 0.03 ? NSVCD_HIT : NSVCD_FREE);
-    q.ask = NSVCD_ASK_DISTANCE;
+    q.ask = NSVCD_ASK_FIRST;
     q.to = 1e-4f;
+    CHECK_EQ(nsvcd_sweep(&q, workspace, sizeof workspace, &answer), NSVCD_OK);
+    if (answer.verdict == NSVCD_HIT) {
+      // how long it takes to be nearer by what stored points are off: long, where they graze
+      const double off = 1e-6 + 0.03 * quanta / (square * fmax(root, 1e-3));
+      CHECK_LE((double)answer.time.low, earliest + off);
+      CHECK_LE(earliest, (double)answer.time.high + off);
+      CHECK_LE((double)answer.time.high, (double)answer.time.low + 1.001e-4 / sqrt(square) + 1e-6);
+    }
+    q.ask = NSVCD_ASK_DISTANCE;
     CHECK_EQ(nsvcd_sweep(&q, workspace, sizeof workspace, &answer), NSVCD_OK);
     CHECK_LE((double)answer.distance.low, fmax(least - 0.03, 0) + 1e-6);
     if (least > 0.03) CHECK_LE(least - 0.03, (double)answer.distance.high + 1e-6);

@@ -180,11 +180,12 @@ NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__blo
   return nsvcd__v_lt(nsvcd__v_add(high, limit), lowest) | *below;
 }
 
-// Normal number k of those that may part two triangles: of the fixed ones in a slice, of lane l of
-// the moving one, and of an edge of each.
+// Normal number k of those that may part two triangles at `ends` (1 or 2) poses: of the fixed ones
+// in a slice, of lane l of the moving one, and of an edge of each; of an edge without length, which
+// points and segments have, it is that corner's way that counts.
 #define NSVCD__NORMALS 11
 NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                             size_t s, size_t k) {
+                                             size_t s, size_t ends, size_t k) {
   if (k == 1) {
     const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][0], l);
     const nsvcd__f3 u = nsvcd__f3_sub(nsvcd__lane_of(p->posed[0][1], l), a);
@@ -200,7 +201,9 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
     return nsvcd__v3_cross(edge, nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b));
   const nsvcd__f3 a = nsvcd__lane_of(p->posed[0][moving_edge], l);
   const nsvcd__f3 after = nsvcd__lane_of(p->posed[0][(moving_edge + 1) % 3], l);
-  const nsvcd__f3 other = nsvcd__f3_sub(after, a);
+  nsvcd__f3 other = nsvcd__f3_sub(after, a);
+  if (ends == 2 && !(nsvcd__f3_dot(other, other) > 0))
+    other = nsvcd__f3_sub(nsvcd__lane_of(p->posed[1][moving_edge], l), a);
   return nsvcd__v3_cross(nsvcd__v3_set(other), edge);
 }
 
@@ -310,7 +313,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
     NSVCD__EACH_SLICE(s) {
       uint32_t below;
       if (!(met >> s & NSVCD__SLICE_MASK)) continue;
-      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, k);
+      const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
           nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
       if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);

@@ -100,22 +100,35 @@ static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__
   return 0;
 }
 
+// How many corners of a triangle there are to look at: of a point or a segment, which a round body
+// has, as nsvcd_encode_sphere and nsvcd_encode_capsule list it, 1 or 2.
+static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
+  if (nsvcd__d3_distance2(t[1], t[2]) > 0) return 3;
+  return nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;
+}
+
 // The nearest points of two triangles; the distance is 0 where they meet.
 static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  const size_t corners_a = nsvcd__corners_of(a);
+  const size_t corners_b = nsvcd__corners_of(b);
+  const size_t edges_a = corners_a < 3 ? 1 : 3;
+  const size_t edges_b = corners_b < 3 ? 1 : 3;
   nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
   nsvcd__d3 point;
-  if (nsvcd__triangles_meet(a, b, &point)) {
+  if (corners_a > 1 && corners_b > 1 && nsvcd__triangles_meet(a, b, &point)) {
     best.square = 0;
     best.on_a = point;
     best.on_b = point;
     return best;
   }
-  for (size_t k = 0; k < 3; k++) {
-    for (size_t n = 0; n < 3; n++)
+  for (size_t k = 0; k < edges_a; k++) {
+    for (size_t n = 0; n < edges_b; n++)
       nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
-    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
-    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   }
+  for (size_t k = 0; k < corners_a && corners_b == 3; k++)
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+  for (size_t k = 0; k < corners_b && corners_a == 3; k++)
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
   return best;
 }
 
@@ -354,11 +367,26 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
   return nsvcd__nearest_of(posed, couple->fixed);
 }
 
+// A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
+// told whether it touches: a doubt. But where distances are measured, less is said, for certain:
+// these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
+// TOO_LONG; ANSWERED where it is as low as is known anyway.
+static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u0, double u1, double when) {
+  if (!(p->ask.measure > 0)) {
+    nsvcd__take_doubt(p, couple, u0, u1);
+    return NSVCD__SETTLED;
+  }
+  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  const double distance = sqrt(nearest.square);
+  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
+  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
+  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
+}
+
 // What becomes of a part of the arc that is too short to be halved. Where the couple has met by
-// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt; but
-// where distances are measured, less is said, for certain: these come no nearer than that. Then the
-// clearance is lowered and the part to be looked at again, TOO_LONG; ANSWERED where it is as low as
-// is known anyway.
+// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
                                                             const nsvcd__couple *couple,
                                                             double u0, double u1,
@@ -375,21 +403,62 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
-  if (has_met) {
-    nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
-    nearest.square = 0;
-    return nsvcd__take_contact(p, couple, when, &nearest);
+  if (!has_met) return nsvcd__settle_doubt(p, couple, u0, u1, when);
+  nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  nearest.square = 0;
+  return nsvcd__take_contact(p, couple, when, &nearest);
+}
+
+// Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
+// distance is a convex function of time, and no less than the plane at its nearest points says, its
+// tangent: Newton's method, from the start on, comes to the first contact and never past it.
+static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
+                                                          const nsvcd__couple *couple,
+                                                          double u0, double u1) {
+  const nsvcd__arc *arc = &p->arc;
+  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
+  const double close = couple->slack + p->given.tolerance;
+  nsvcd__d3 *plane = &p->memo.parting;
+  double at = u0;
+  int shrunk = 0;
+  size_t steps = 0;
+  for (double u = u0;;) {  // before u it is parted
+    const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+    at = nsvcd__min(at, end);
+    p->work++;
+    NSVCD__TALLY(pairs, 1);
+    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, at);
+    const double distance = sqrt(nearest.square);
+    const double above = distance - p->ask.clearance;
+    if (above <= couple->rounding) {
+      if (nsvcd__take_contact(p, couple, at, &nearest) == NSVCD__ANSWERED)
+        return NSVCD__ANSWERED;
+      shrunk = 1;
+      at = u;
+      continue;
+    }
+    *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+    const double fall = -nsvcd__d3_dot(*plane, moved);
+    const double room = above - couple->slack - couple->rounding;
+    const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
+    if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
+      nsvcd__certify_couple(p, couple, u, until);
+      u = until;
+    }
+    const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
+    const int is_unsure = fall > 0 ? !(at < end) : is_short;
+    if (u < end && (is_unsure || steps++ == NSVCD__HALVINGS)) {
+      // what follows is no nearer
+      const nsvcd__outcome part = nsvcd__settle_doubt(p, couple, u, at, at);
+      if (part == NSVCD__ANSWERED) return part;
+      if (part == NSVCD__SETTLED) u = end;
+    } else {
+      at = fall > 0 ? at + above / fall : 0.5 * (u + at);
+    }
   }
-  if (!(p->ask.measure > 0)) {
-    nsvcd__take_doubt(p, couple, u0, u1);
-    return NSVCD__SETTLED;
-  }
-  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
-  const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
-  return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
 // Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
@@ -400,6 +469,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         const nsvcd__couple *couple, double u0,
                                                         double u1) {
   const nsvcd__arc *arc = &p->arc;
+  if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
   const double close = couple->slack + p->given.tolerance;
   nsvcd__d3 *plane = &p->memo.parting;

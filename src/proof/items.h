@@ -90,11 +90,13 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   const nsvcd__motion *motion = p->ask.motion;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
+  int is_tried = 1;  // is it all of the segment?
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
     const uint32_t knot = nsvcd__next_knot(motion, first);
     at = last < knot ? last : knot;
+    is_tried = is_tried && at == last;
     ends[0] = (double)(at - first) / (double)(knot - first);
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
@@ -102,7 +104,10 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
       const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
       if (!(u < end)) break;
       p->span = nsvcd__span_of_arc(p, first, u, end);
-      if (nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span)) {
+      const int apart =
+          !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
+      is_tried = 0;
+      if (apart) {
         nsvcd__certify_item(p, &p->span, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
@@ -176,18 +181,21 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
   return 1;
 }
 
-// Sorts items: the deeper first; with `first`, once there is a contact, the earlier.
+// Is an item to be looked at before another? The deeper; with `first` the one that is nearest
+// earlier in their segment, and once there is a contact that of the earlier segment.
+static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
+                            const nsvcd__item *b) {
+  const int in_time = p->ask.first > 0;
+  if (a->segment == b->segment) return in_time ? a->share < b->share : a->depth > b->depth;
+  return in_time && p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
+}
+
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
-  const int in_time = p->ask.first > 0 && p->known.has_contact;
   for (size_t n = 1; n < count; n++) {
     const nsvcd__item item = items[n];
     size_t at = n;
-    for (; at > 0; at--) {
-      const nsvcd__item *before = &items[at - 1];
-      const int by_time = in_time && item.segment != before->segment;
-      if (!(by_time ? item.segment < before->segment : item.depth > before->depth)) break;
-      items[at] = *before;
-    }
+    for (; at > 0 && nsvcd__is_before(p, &item, &items[at - 1]); at--)
+      items[at] = items[at - 1];
     items[at] = item;
   }
 }
@@ -277,6 +285,13 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     if (!nsvcd__matters(p, search, item->segment)) continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
+    double u;
+    const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
+    if (p->ask.first > 0 && nsvcd__is_straight(nsvcd__arc_at(p, first))) {
+      const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
+      if (outcome != NSVCD__SETTLED) return outcome;
+      continue;
+    }
     if (p->misses >= NSVCD__HOPE) {
       const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
       const nsvcd__outcome by_triangles =

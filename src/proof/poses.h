@@ -130,6 +130,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   return arc;
 }
 
+// Do all points of the moving body go along straight lines, seen from the fixed one?
+static int nsvcd__is_straight(const nsvcd__arc *arc) {
+  return !(arc->bulge > 0 || arc->drift > 0);
+}
+
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
 // rotation is times the moving body's scale.
 static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {

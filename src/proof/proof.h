@@ -327,8 +327,9 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  // how many blocks of a resting patch are in p->fixed_blocks
+  // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
+  int has_block;
 } nsvcd__memo;
 
 typedef struct nsvcd__proof {
@@ -411,6 +412,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
   memo->window = 0;
+  memo->has_block = 0;
 }
 #ifndef NSVCD__PAUSE
 #define NSVCD__PAUSE(p) ((void)0)

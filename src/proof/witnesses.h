@@ -184,9 +184,12 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
   return NSVCD__NOTHING;
 }
 
-// Loads 16 triangles of moving patch i, from listing `first` on.
+// Loads 16 triangles of moving patch i, from listing `first` on. The same are often asked for
+// again.
 static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
   const size_t left = p->moving.first_triangle[i + 1] - first;
+  if (p->memo.has_block && p->moving_block.first == first) return;
+  p->memo.has_block = 1;
   nsvcd__block_load(&p->moving, i, first, left < NSVCD__LANES ? left : NSVCD__LANES,
                     &p->moving_block);
 }

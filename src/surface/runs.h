@@ -113,8 +113,8 @@ static size_t nsvcd__run_begin(size_t triangles, size_t run, size_t runs) {
 
 // Runs first to last - 1 of so many, of which each is a patch; block and patches are what they are
 // pieces of. A block's triangles and vertices are copied in the order of the curve: all that
-// follows reads memory from front to back. Every vertex may be a component of its own. 0 without
-// memory.
+// follows reads memory from front to back. Every triangle may be of a component of its own, if none
+// of its vertices has been met. 0 without memory.
 static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, size_t runs,
                              nsvcd__arena *arena, nsvcd__region *block,
                              nsvcd__patches *patches, nsvcd__pieces *pieces) {
@@ -164,9 +164,11 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     block->mesh.vertex_count = count;
   }
   for (size_t n = 0; mesh->indices && n < 3 * count; n++) {
+    const uint32_t *face = &block->mesh.indices[n / 3 * 3];
     uint32_t *met = &curve->met[block->mesh.indices[n]];
     if (*met <= before) {
-      block->seeds[block->mesh.vertex_count] = *met == 0;
+      block->seeds[block->mesh.vertex_count] =
+          n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
       origins[block->mesh.vertex_count++] = block->mesh.indices[n];
       *met = ++curve->met_count;
     }
