@@ -1216,6 +1216,14 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #pragma fp_contract(off)
 #endif
 #endif
+// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
+// (vfmaddsub). Functions in which they do.
+#if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNFUSED \
+  static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
+#else
+#define NSVCD__UNFUSED static inline
+#endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__MERGED static inline __attribute__((always_inline))
@@ -1541,7 +1549,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
   } \
-  static inline mat mat##_of(quat q) { \
+  NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
     m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
     m.x.y = 2 * (q.x * q.y - q.z * q.w); \

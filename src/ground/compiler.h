@@ -26,6 +26,14 @@
 #pragma fp_contract(off)
 #endif
 #endif
+// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
+// (vfmaddsub). Functions in which they do.
+#if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNFUSED \
+  static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
+#else
+#define NSVCD__UNFUSED static inline
+#endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
 #define NSVCD__MERGED static inline __attribute__((always_inline))

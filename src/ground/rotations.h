@@ -32,7 +32,7 @@
   static inline vec quat##_axis(quat q) { \
     return vec##_of(q.x, q.y, q.z); \
   } \
-  static inline mat mat##_of(quat q) { \
+  NSVCD__UNFUSED mat mat##_of(quat q) { \
     mat m; \
     m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
     m.x.y = 2 * (q.x * q.y - q.z * q.w); \
