@@ -63,6 +63,7 @@
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
+//   NSVCD_NO_ROBOTS   no joints: nsvcd_check and its kin go
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
@@ -125,6 +126,7 @@
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//   Joints (nsvcd_check, nsvcd_plan) are placed by libm's sines.
 //   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
 //   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
 //   same operations in the same order, no products fused into sums, sines and angles of this
@@ -139,6 +141,7 @@
 //     meshes          OBJ files, parts of a mesh
 //     bodies          encoding, loading, scaling, facts
 //     queries         movers, options, answers; nsvcd_sweep and its kin
+//     robots          joints, parts, checks of motions; nsvcd_check
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
@@ -217,6 +220,10 @@
 //     gradient        by the poses, and by the times of contact
 //   entry: the processor decides
 //     processor       SSE2, AVX2 or AVX-512; the public functions of queries
+//   robot: is a motion of joints free?
+//     chain           what moves what; where everything is
+//     stray           by how much a part leaves the line and the slerp between two samples
+//     path            pieces, pair by pair
 //   plan: a motion that hits nothing
 //     spline          quintic Hermite
 //     problem         a planning problem in the caller's workspace
@@ -258,6 +265,10 @@
 //   knot, arc         when one of the poses given is reached; the motion from a knot to the next
 //   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
+//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
+//   step, sample      of a piece, between two samples; a configuration in which parts are placed
+//   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
@@ -954,6 +965,148 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                            float *gradient_a, float *gradient_b);
 #endif
 
+// -------------------------------------------------------------------------------- interface/robots
+// In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
+//
+// Between two samples of a joint motion a link leaves the line and the slerp that nsvcd_sweep is
+// about. By how much, at most, follows from the joints (robot/stray): with that as clearance the
+// sweep proves the joints' own motion, at all times.
+
+#define NSVCD_NONE ((size_t)-1)
+#define NSVCD_MAX_JOINTS 32
+
+// Two bodies that can meet, by their indices.
+typedef struct nsvcd_body_pair {
+  uint32_t a, b;
+} nsvcd_body_pair;
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// of a piece of a motion
+#define NSVCD_MAX_DEGREE 5
+#define NSVCD_MAX_PARTS 65536
+
+typedef enum nsvcd_joint_kind {
+  NSVCD_JOINT_REVOLUTE = 0,  // turns about its axis, within limits
+  NSVCD_JOINT_CONTINUOUS,    // turns without limits
+  NSVCD_JOINT_PRISMATIC      // slides along its axis, within limits
+} nsvcd_joint_kind;
+
+// Joint i carries link i + 1. Link 0 is the world.
+typedef struct nsvcd_joint {
+  nsvcd_joint_kind kind;
+  // the link that the joint is on, i at most
+  uint32_t parent;
+  // of the joint's frame, in that link
+  nsvcd_pose origin;
+  // in its frame; any length but 0
+  float axis[3];
+  // radians or metres; not read of CONTINUOUS
+  double low, high;
+} nsvcd_joint;
+
+// A body on a link. What is on link 0 rests.
+typedef struct nsvcd_part {
+  const nsvcd_body *body;
+  uint32_t link;
+  // in its link
+  nsvcd_pose pose;
+  // NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  float scale;
+} nsvcd_part;
+
+// Who moves how, and who can meet whom. Nothing else is looked at.
+typedef struct nsvcd_scene {
+  // (F), up to NSVCD_MAX_JOINTS
+  const nsvcd_joint *joints;
+  size_t joint_count;
+  // (B), up to NSVCD_MAX_PARTS
+  const nsvcd_part *parts;
+  size_t part_count;
+  // (P) of parts; on links that differ
+  const nsvcd_body_pair *pairs;
+  size_t pair_count;
+} nsvcd_scene;
+
+// A motion of the joints: pieces one after another, each a Bezier curve of this degree, which
+// begins where the one before ends. A polyline has degree 1. Where there are no pieces it is one
+// configuration, at which the robot rests.
+typedef struct nsvcd_joint_motion {
+  size_t pieces;
+  // 1..NSVCD_MAX_DEGREE
+  size_t degree;
+  // (pieces degree + 1, F), radians or metres
+  const double *points;
+} nsvcd_joint_motion;
+
+// What is zero is the default.
+typedef struct nsvcd_check_options {
+  // metres: to come as near as this is a hit
+  float clearance;
+  // metres: no sample is put where a link leaves its sweep by less than this; 20 um
+  float finest;
+  // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
+  size_t work;
+} nsvcd_check_options;
+
+typedef struct nsvcd_check_answer {
+  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: two do,
+  // or one is inside of the other, in the configuration that is named
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // of the scene's pairs, and where in the motion: of a HIT, or of what is UNDECIDED. NSVCD_NONE
+  // where there is none
+  size_t pair, piece;
+  // of the piece, in [0,1]
+  double share;
+  // of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  nsvcd_contact contact;
+  // a joint that leaves its limits somewhere, NSVCD_NONE: none does
+  size_t joint;
+  // configurations that links were placed at, and questions asked
+  size_t placed, sweeps;
+} nsvcd_check_answer;
+
+// A scene that has been looked at, in the caller's memory.
+typedef struct nsvcd_checker nsvcd_checker;
+
+// Bytes that nsvcd_checker_open needs; 0 if the scene is refused.
+NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
+
+// Makes a checker of a scene: what moves what, and how far points of a part can be from each axis.
+//   scene      not NULL; it and all that it points to stays as it is as long as the checker is used
+//   memory     (size) bytes, nsvcd_checker_size(scene) or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT
+//   checker    not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each with a checker of its own
+//   errors     ARGUMENT (NULL, counts, an axis of no length, limits that cross, a joint on a link
+//              that comes after it, a pair of what never moves apart), NUMBER (not finite), POSE,
+//              SCALE, BODY (without triangles), WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
+                                         nsvcd_checker **checker);
+
+// Where the parts are.
+//   joints     (F), radians or metres; not looked at: NaN gives poses that are none
+//   poses      (B), in the world
+NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
+                                  nsvcd_pose *poses);
+
+// Is a motion free?
+//   checker    not NULL; where things are hit is remembered: it is asked there first
+//   motion     not NULL
+//   options    NULL: the defaults
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, NUMBER (points not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   source     this library: robot/stray; slerps and lines against joints, by second derivatives
+//
+// What FREE says holds for the joints' own motion, with all joint values and frames exact, and
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named.
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer);
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
 // --------------------------------------------------------------------------------- interface/plans
 // In: a planning problem, or control points. Out: control points, or what the joints are at a time.
 //
@@ -963,7 +1116,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // so both are continuous everywhere.
 
 #ifndef NSVCD_NO_OPTIMIZER
-#define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
 // of a stage of the planner
 #define NSVCD_MAX_PLAN_SEGMENTS 4096
@@ -978,13 +1130,6 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   source     quintic Hermite interpolation, as the paper's authors use it
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out);
-
-// Two bodies that can meet, by their indices. The planner asks about a's motion as seen from b. So
-// take the body that rests, or else the larger one, as b: the other way round costs a little
-// accuracy.
-typedef struct nsvcd_body_pair {
-  uint32_t a, b;
-} nsvcd_body_pair;
 
 typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
@@ -1033,7 +1178,8 @@ typedef struct nsvcd_plan_problem {
   // (B), up to 65536, with latents; ones in no pair may be NULL
   const nsvcd_body *const *bodies;
   size_t body_count;
-  // (P)
+  // (P). The planner asks about a's motion as seen from b: take the body that rests, or else the
+  // larger one, as b, for the other way round costs a little accuracy
   const nsvcd_body_pair *pairs;
   size_t pair_count;
   // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
@@ -1052,8 +1198,6 @@ typedef struct nsvcd_plan_problem {
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
 } nsvcd_plan_problem;
-
-#define NSVCD_NONE ((size_t)-1)
 
 // What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {
@@ -16246,6 +16390,740 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                      gradient_b);
 }
 #endif
+
+// ============================================================ robot: is a motion of joints free?
+
+// ------------------------------------------------------------------------------------- robot/chain
+// In: a scene, and joint values. Out: a checker, and where links and parts are, in double. The
+// floor, top to bottom:
+//
+//   chain       what moves what; where everything is
+//   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
+//   path        is a motion of the joints free?
+//
+// It asks as any program does, by nsvcd_sweep.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// The schedule of a check.
+// steps that are looked at together, at most, and how often a piece is halved where that is too few
+#define NSVCD__MOST_STEPS 256
+#define NSVCD__STRETCHES 8
+// metres that a part may stray at first; each time a pair is asked again it may by this share of it
+#define NSVCD__COARSE 2e-3
+#define NSVCD__STRAY_SHARE 8
+#define NSVCD__FINEST 2e-5f
+
+// A joint, as the checker has it; and the link that it carries.
+typedef struct nsvcd__link {
+  // in the parent link: where the joint is, and how it is turned, unit
+  nsvcd__d3 place;
+  nsvcd__dquat turn;
+  // unit, in the joint's frame
+  nsvcd__d3 axis;
+  // joints between the world and this link, itself included: bit i is joint i
+  uint32_t path;
+} nsvcd__link;
+
+// Where a link is, in the world.
+typedef struct nsvcd__frame {
+  nsvcd__dquat turn;
+  nsvcd__d3 place;
+} nsvcd__frame;
+
+// Joint values, and what follows from them.
+typedef struct nsvcd__configuration {
+  double joints[NSVCD_MAX_JOINTS];
+  // of the links, the world first
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  // of the joints, in the world: unit
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+} nsvcd__configuration;
+
+// A part, as the checker has it.
+typedef struct nsvcd__member {
+  // in its link
+  nsvcd__frame frame;
+  // of a sphere about its triangles, in its link; about what is round as well; from its origin
+  nsvcd__d3 centre;
+  double radius, whole_radius, extent;
+  // of a part that moves: where its samples begin
+  size_t row;
+  // metres: by how much it leaves the way between its samples, at most
+  double stray;
+} nsvcd__member;
+
+struct nsvcd_checker {
+  const nsvcd_scene *scene;
+  nsvcd__link links[NSVCD_MAX_JOINTS];
+  nsvcd__member *members;  // (B)
+  size_t mover_count;      // parts that move
+  // (P): the pairs, as they are asked: what was hit last first
+  uint32_t *order;
+  // (P): those of a piece that are not proven yet
+  uint32_t *left;
+  // (movers, NSVCD__MOST_STEPS + 1): samples of a piece, and the centres of their spheres there
+  nsvcd_pose *poses;
+  nsvcd__d3 *centres;
+  nsvcd__configuration at, next;
+  void *query;
+  size_t query_size;
+};
+
+static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat back = {-a.x, -a.y, -a.z, a.w};
+  return nsvcd__dquat_inverse_mul(back, b);
+}
+
+static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {
+  const nsvcd__d3 axis = nsvcd__dquat_axis(q);
+  const nsvcd__d3 twice = nsvcd__d3_scale(nsvcd__d3_cross(axis, a), 2);
+  return nsvcd__d3_add(nsvcd__d3_fma(q.w, twice, a), nsvcd__d3_cross(axis, twice));
+}
+
+static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat turn = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  const nsvcd__frame out = {nsvcd__dquat_unit(turn), nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// What is `inner` in a frame, in the world.
+static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
+  const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
+  const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
+                            nsvcd__d3_add(frame->place, place)};
+  return out;
+}
+
+static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(frame->place), out.position);
+  out.rotation[0] = (float)turn.x;
+  out.rotation[1] = (float)turn.y;
+  out.rotation[2] = (float)turn.z;
+  out.rotation[3] = (float)turn.w;
+  return out;
+}
+
+static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
+  return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
+}
+
+// Places the links where c->joints says.
+static void nsvcd__place_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+  const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
+  c->frames[0] = world;
+  for (size_t i = 0; i < checker->scene->joint_count; i++) {
+    const nsvcd__link *link = &checker->links[i];
+    const nsvcd__frame origin = {link->turn, link->place};
+    nsvcd__frame frame =
+        nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
+    c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
+    if (nsvcd__slides(checker, i)) {
+      frame.place = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.place);
+    } else {
+      const double half = 0.5 * c->joints[i];
+      const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
+      const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
+      frame.turn = nsvcd__dquat_mul(frame.turn, turn);
+    }
+    c->frames[i + 1] = frame;
+  }
+}
+
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
+                                         const nsvcd__configuration *c, size_t part) {
+  return nsvcd__frame_in(&c->frames[checker->scene->parts[part].link],
+                         &checker->members[part].frame);
+}
+
+NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
+                                  nsvcd_pose *poses) {
+  nsvcd__configuration c;
+  memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(checker, &c);
+  for (size_t n = 0; n < checker->scene->part_count; n++) {
+    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
+    poses[n] = nsvcd__pose_in(&frame);
+  }
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------- robot/stray
+// In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
+// the line and the slerp between them.
+//
+// THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x is the share of it that has
+// gone by, and u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: it goes from 0 to 1 as
+// well, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q'' -
+// g d, derivatives by x: |e| <= max |e''| / 8. What a point y of the part is, at most, off where
+// q0 + u d has it:
+//   sum over joints j of |e_j| r_j           r_j: no point is farther from the axis of j
+// On the straight way q0 + u d the point is off its chord by max |y''| / 8, derivatives by u. With
+// d^2 y / dq_j dq_k no more than r of the outer one of j and k, as long as both turn (an outer one
+// that slides has 1 in place of r; an inner one that slides, 0),
+//   |y''| <= sum_j |d_j| r_j (2 sum over inner k that turn of |d_k| + |d_j|)
+// and what slides has no square. The sweep goes through the same places at both ends, by a line of
+// the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
+// from the origin. All together, for any u, and so at all times:
+//   stray <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+// r_j is that of the sample q0, and what joints beyond j can add while they move.
+// Source: this library.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// A part of a piece, as a Bezier curve: (degree + 1, F); and what follows for each joint.
+typedef struct nsvcd__step {
+  double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
+  // |d|; max |q - q0|; max |e''|
+  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS], bend[NSVCD_MAX_JOINTS];
+} nsvcd__step;
+
+// Second differences of a step's points, times what makes them h^2 q''.
+static double nsvcd__second(const nsvcd__step *step, size_t degree, size_t i, size_t joint) {
+  const double by = (double)(degree * (degree - 1));
+  const double *a = &step->points[i][joint];
+  return by * (a[0] - 2 * a[NSVCD_MAX_JOINTS] + a[2 * NSVCD_MAX_JOINTS]);
+}
+
+// Fills in what follows from the points.
+static void nsvcd__step_measure(nsvcd__step *step, size_t degree, size_t joints) {
+  double along = 0;
+  double square = 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double from = step->points[0][j];
+    const double d = step->points[degree][j] - from;
+    step->way[j] = fabs(d);
+    step->reach[j] = 0;
+    step->bend[j] = 0;
+    square += d * d;
+    for (size_t i = 1; i <= degree; i++)
+      step->reach[j] = nsvcd__max(step->reach[j], fabs(step->points[i][j] - from));
+    for (size_t i = 0; i + 1 < degree; i++)
+      along += d * nsvcd__second(step, degree, i, j) / (double)(degree - 1);
+  }
+  if (degree == 1) return;
+  const double g = square > 0 ? nsvcd__max(-2, nsvcd__min(2, along / square)) : 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double d = step->points[degree][j] - step->points[0][j];
+    for (size_t i = 0; i + 1 < degree; i++) {
+      const double off = fabs(nsvcd__second(step, degree, i, j) - g * d);
+      step->bend[j] = nsvcd__max(step->bend[j], off);
+    }
+  }
+}
+
+// The angle of the turn from a to b, radians: the shorter one.
+static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
+  const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
+  const nsvcd__dquat chord = nsvcd__dquat_fma(-side, b, a);
+  return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
+}
+
+// The bound of the banner, from levers r (F) on the path of joints. turn: w.
+static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
+                              const double *levers, double turn, double extent) {
+  double bend = 0;
+  double second = 0;
+  double inner = 0;
+  for (; path; path &= path - 1) {
+    const size_t j = nsvcd__low_bit(path);
+    const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
+    bend += step->bend[j] * levers[j];
+    second += step->way[j] * levers[j] * (2 * inner + own);
+    inner += own;
+  }
+  return (bend + second + turn * turn * extent) / 8;
+}
+
+// r of the banner: how far points of a part can be from the axes of the joints on its path, during
+// a step that begins in a configuration; 1 of what slides.
+static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                             const nsvcd__configuration *from, double *levers) {
+  const nsvcd__member *m = &c->members[part];
+  const size_t link = c->scene->parts[part].link;
+  const uint32_t path = c->links[link - 1].path;
+  const nsvcd__frame *frame = &from->frames[link];
+  const nsvcd__d3 centre =
+      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->place);
+  double moved = 0;  // by joints beyond this one
+  for (size_t j = link; j-- > 0;) {
+    if (!(path >> j & 1)) continue;
+    levers[j] = 1;
+    if (!nsvcd__slides(c, j)) {
+      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
+      levers[j] = nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+    }
+    moved += step->reach[j] * levers[j];
+  }
+}
+
+// What a part strays at most in a step from one configuration to another.
+static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                              const nsvcd__configuration *from,
+                              const nsvcd__configuration *to) {
+  const size_t link = c->scene->parts[part].link;
+  double levers[NSVCD_MAX_JOINTS];
+  const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  nsvcd__levers_of(c, part, step, from, levers);
+  return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
+                         c->members[part].extent);
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// -------------------------------------------------------------------------------------- robot/path
+// In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// ---- a checker
+
+// Is x a number, and no larger? By the bits, which are in the order of what is not negative.
+static int nsvcd__is_number(double x, double most) {
+  uint64_t bits, limit;
+  memcpy(&bits, &x, sizeof bits);
+  memcpy(&limit, &most, sizeof limit);
+  return (bits & ~(uint64_t)0 >> 1) <= limit;
+}
+
+static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
+  double axis = 0;
+  if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < 3; k++) {
+    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_NUMBER;
+    axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
+  }
+  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__poses_are_valid(&joint->origin, 1)) return NSVCD_ERROR_POSE;
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
+  const double most = (double)NSVCD_MAX_COORDINATE;
+  if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
+    return NSVCD_ERROR_NUMBER;
+  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+}
+
+static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
+  if (!part->body || part->link > scene->joint_count) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_BODY;
+  const float scale = part->scale;
+  const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
+  if (!(fits || (scale <= 0 && scale >= 0))) return NSVCD_ERROR_SCALE;
+  return nsvcd__poses_are_valid(&part->pose, 1) ? NSVCD_OK : NSVCD_ERROR_POSE;
+}
+
+static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
+  nsvcd_result result = NSVCD_OK;
+  if (!scene || scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
+    return NSVCD_ERROR_ARGUMENT;
+  if (!scene->joints || scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_ARGUMENT;
+  if ((scene->part_count > 0 && !scene->parts) || (scene->pair_count > 0 && !scene->pairs))
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t i = 0; i < scene->joint_count && !result; i++)
+    result = nsvcd__joint_check(&scene->joints[i], i);
+  for (size_t n = 0; n < scene->part_count && !result; n++)
+    result = nsvcd__part_check(scene, &scene->parts[n]);
+  for (size_t k = 0; k < scene->pair_count && !result; k++) {
+    const nsvcd_body_pair *pair = &scene->pairs[k];
+    if (pair->a >= scene->part_count || pair->b >= scene->part_count)
+      return NSVCD_ERROR_ARGUMENT;
+    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_ARGUMENT;
+  }
+  return result;
+}
+
+// Lays a checker out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes; 0 if they are more than can be counted.
+static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
+                                    nsvcd_checker **checker) {
+  nsvcd_checker counted;
+  uint64_t used = 0;
+  size_t movers = 0;
+  for (size_t n = 0; n < scene->part_count; n++) movers += scene->parts[n].link > 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd_checker));
+  nsvcd_checker *c = at ? (nsvcd_checker *)at : &counted;
+  const size_t parts = scene->part_count;
+  const size_t pairs = scene->pair_count;
+  const size_t samples = NSVCD__MOST_STEPS + 1;
+  c->mover_count = movers;
+  c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
+  c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
+  c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
+  c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
+  c->centres = (nsvcd__d3 *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__d3));
+  c->query_size = nsvcd_sweep_workspace_size(NULL);
+  c->query = nsvcd__take(base, &used, 1, c->query_size);
+  *checker = c;
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene) {
+  nsvcd_checker *unused;
+  return nsvcd__scene_check(scene) ? 0 : nsvcd__checker_layout(scene, NULL, &unused);
+}
+
+NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
+                                         nsvcd_checker **checker) {
+  nsvcd_checker *c;
+  const nsvcd_result result = nsvcd__scene_check(scene);
+  if (result) return result;
+  if (!checker) return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  const size_t needed = nsvcd__checker_layout(scene, NULL, &c);
+  if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__checker_layout(scene, (char *)memory, &c);
+  c->scene = scene;
+  for (size_t i = 0; i < scene->joint_count; i++) {
+    const nsvcd_joint *joint = &scene->joints[i];
+    const nsvcd__frame origin = nsvcd__frame_of(&joint->origin);
+    nsvcd__link *link = &c->links[i];
+    link->place = origin.place;
+    link->turn = origin.turn;
+    link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
+    link->path = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].path : 0);
+  }
+  size_t row = 0;
+  for (size_t n = 0; n < scene->part_count; n++) {
+    const nsvcd_part *part = &scene->parts[n];
+    const double scale = part->scale > 0 ? (double)part->scale : 1;
+    nsvcd__member *m = &c->members[n];
+    m->frame = nsvcd__frame_of(&part->pose);
+    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(part->body->centre), scale);
+    const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
+    m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
+    // spheres are reckoned in float
+    m->radius = 1.000001 * scale * (double)part->body->radius;
+    m->whole_radius = 1.000001 * scale * (double)nsvcd__whole_radius(part->body);
+    m->extent = 1.000001 * scale * (double)part->body->extent;
+    m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
+    m->row *= row;
+    row += part->link > 0;
+  }
+  for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
+  *checker = c;
+  return NSVCD_OK;
+}
+
+// ---- samples of a piece
+
+// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
+static void nsvcd__step_cut(const double *points, size_t degree, size_t joints, double s0,
+                            double s1, nsvcd__step *step) {
+  const double before = s1 > 0 ? s0 / s1 : 0;
+  for (size_t j = 0; j < joints; j++) {
+    double p[NSVCD_MAX_DEGREE + 1];
+    for (size_t i = 0; i <= degree; i++) p[i] = points[i * joints + j];
+    // the first s1 of it: p[i] becomes the point of level i
+    for (size_t level = 1; level <= degree && s1 < 1; level++) {
+      for (size_t i = degree; i >= level; i--) p[i] = p[i - 1] + s1 * (p[i] - p[i - 1]);
+    }
+    // of that, what is after s0
+    for (size_t level = 1; level <= degree && before > 0; level++) {
+      for (size_t i = 0; i + level <= degree; i++) p[i] = p[i] + before * (p[i + 1] - p[i]);
+    }
+    for (size_t i = 0; i <= degree; i++) step->points[i][j] = p[i];
+  }
+  nsvcd__step_measure(step, degree, joints);
+}
+
+// Cuts a stretch of a piece, from share s0 to s1, into so many steps, and fills in, for each part
+// that moves, its samples, and by how much it strays between them.
+static void nsvcd__sample(nsvcd_checker *c, const double *points, size_t degree, double s0,
+                          double s1, size_t steps) {
+  const nsvcd_scene *scene = c->scene;
+  nsvcd__step step;
+  nsvcd__configuration *from = &c->at;
+  nsvcd__configuration *to = &c->next;
+  for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
+  for (size_t k = 0; k <= steps; k++) {
+    if (k < steps) {
+      const double from_share = s0 + (s1 - s0) * (double)k / (double)steps;
+      const double to_share =
+          k + 1 < steps ? s0 + (s1 - s0) * (double)(k + 1) / (double)steps : s1;
+      nsvcd__step_cut(points, degree, scene->joint_count, from_share, to_share, &step);
+    }
+    if (k == 0) {
+      memcpy(from->joints, step.points[0], sizeof from->joints);
+      nsvcd__place_links(c, from);
+    }
+    if (k < steps) {
+      memcpy(to->joints, step.points[degree], sizeof to->joints);
+      nsvcd__place_links(c, to);
+    }
+    for (size_t n = 0; n < scene->part_count; n++) {
+      nsvcd__member *m = &c->members[n];
+      const size_t link = scene->parts[n].link;
+      if (!link) continue;
+      const nsvcd__frame frame = nsvcd__frame_in(&from->frames[link], &m->frame);
+      const nsvcd__frame sphere = {{0, 0, 0, 1}, m->centre};
+      c->poses[m->row + k] = nsvcd__pose_in(&frame);
+      c->centres[m->row + k] = nsvcd__frame_in(&from->frames[link], &sphere).place;
+      // places and quaternions as floats are off by no more
+      const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
+      double stray = 0;
+      if (k < steps) stray = nsvcd__stray_of(c, n, &step, from, to);
+      m->stray = nsvcd__max(m->stray, stray * (1 + 1e-9) + 2 * rounding);
+    }
+    nsvcd__configuration *other = from;
+    from = to;
+    to = other;
+  }
+}
+
+// ---- pairs
+
+static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part, size_t poses) {
+  const nsvcd_part *p = &c->scene->parts[part];
+  nsvcd_mover mover;
+  memset(&mover, 0, sizeof mover);
+  mover.body = p->body;
+  mover.scale = p->scale;
+  mover.poses = p->link ? &c->poses[c->members[part].row] : &p->pose;
+  mover.count = p->link ? poses : 1;
+  return mover;
+}
+
+// Where the centre of a part's sphere is at a sample.
+static nsvcd__d3 nsvcd__centre_at(const nsvcd_checker *c, size_t part, size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->centres[m->row + sample] : m->centre;
+}
+
+// Do two spheres stay apart, by more than `room` between their centres, in all steps?
+static int nsvcd__stay_apart(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                             double room) {
+  nsvcd__d3 from =
+      nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, 0), nsvcd__centre_at(c, pair->b, 0));
+  for (size_t k = 1; k <= steps + !steps; k++) {
+    const size_t at = k < steps ? k : steps;
+    const nsvcd__d3 to =
+        nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, at), nsvcd__centre_at(c, pair->b, at));
+    const nsvcd__d3 way = nsvcd__d3_sub(to, from);
+    const double square = nsvcd__d3_dot(way, way);
+    const double share = square > 0 ? -nsvcd__d3_dot(from, way) / square : 0;
+    const double u = nsvcd__max(0, nsvcd__min(1, share));
+    const nsvcd__d3 nearest = nsvcd__d3_fma(u, way, from);
+    if (!(nsvcd__d3_dot(nearest, nearest) > room * room)) return 0;
+    from = to;
+  }
+  return 1;
+}
+
+// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
+// `strays` more.
+static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    size_t steps, double strays,
+                                    const nsvcd_check_options *options, nsvcd_answer *found,
+                                    nsvcd_check_answer *answer) {
+  const double clearance = (double)options->clearance + strays;
+  const double whole =
+      c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;
+  nsvcd_question question;
+  if (nsvcd__stay_apart(c, pair, steps, whole * (1 + 1e-9))) {
+    found->verdict = NSVCD_FREE;
+    return NSVCD_OK;
+  }
+  memset(&question, 0, sizeof question);
+  question.a = nsvcd__mover_of(c, pair->a, steps + 1);
+  question.b = nsvcd__mover_of(c, pair->b, steps + 1);
+  question.clearance = clearance > 0 ? nsvcd__round_outward(clearance) : 0;
+  question.method = NSVCD_METHOD_PROOF;
+  question.work = options->work;
+  answer->sweeps++;
+  return nsvcd_sweep(&question, c->query, c->query_size, found);
+}
+
+// Is a pair hit in one configuration? Then the answer says so.
+static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *joints,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer) {
+  nsvcd_answer found;
+  nsvcd_question question;
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  const size_t parts[2] = {both->a, both->b};
+  nsvcd_pose poses[2];
+  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(c, &c->at);
+  memset(&question, 0, sizeof question);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_part *part = &c->scene->parts[parts[n]];
+    nsvcd_mover *mover = n ? &question.b : &question.a;
+    const nsvcd__frame frame =
+        nsvcd__frame_in(&c->at.frames[part->link], &c->members[parts[n]].frame);
+    poses[n] = part->link ? nsvcd__pose_in(&frame) : part->pose;
+    mover->body = part->body;
+    mover->scale = part->scale;
+    mover->poses = &poses[n];
+    mover->count = 1;
+  }
+  question.clearance = options->clearance;
+  question.method = NSVCD_METHOD_PROOF;
+  question.work = options->work;
+  answer->sweeps++;
+  answer->placed++;
+  const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict != NSVCD_HIT) return result;
+  answer->verdict = NSVCD_HIT;
+  answer->contact = found.nearest;
+  return NSVCD_OK;
+}
+
+// Puts a pair first in the order.
+static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
+  size_t at = 0;
+  while (c->order[at] != pair) at++;
+  for (; at > 0; at--) c->order[at] = c->order[at - 1];
+  c->order[0] = (uint32_t)pair;
+}
+
+// A stretch of a piece, from share s0 to s1, or, where the degree is 0, one configuration. What
+// takes too many steps is halved, so often at most.
+static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const double *points, size_t degree,
+                                         double s0, double s1, int halvings,
+                                         const nsvcd_check_options *options,
+                                         nsvcd_check_answer *answer) {
+  const size_t joints = c->scene->joint_count;
+  size_t steps = degree > 0;
+  size_t left = c->scene->pair_count;
+  double allowed = NSVCD__COARSE;
+  nsvcd_answer found;
+  nsvcd__step step;
+  memcpy(c->left, c->order, left * sizeof *c->left);
+  nsvcd__sample(c, points, degree, s0, s1, steps);
+  answer->placed += steps + 1;
+  while (left > 0) {
+    double most = 0;
+    for (size_t n = 0; n < c->scene->part_count; n++) most = fmax(most, c->members[n].stray);
+    // strays go by the square of a step
+    const double finer = ceil(sqrt(most / allowed));
+    const double wanted = finer * (double)steps;
+    if (wanted > NSVCD__MOST_STEPS && halvings > 0) {
+      const double middle = 0.5 * (s0 + s1);
+      const nsvcd_result result =
+          nsvcd__check_stretch(c, points, degree, s0, middle, halvings - 1, options, answer);
+      if (result || answer->verdict != NSVCD_FREE) return result;
+      answer->verdict = NSVCD_UNDECIDED;
+      return nsvcd__check_stretch(c, points, degree, middle, s1, halvings - 1, options,
+                                  answer);
+    }
+    if (degree > 0 && finer > 1) {
+      steps = wanted < NSVCD__MOST_STEPS ? (size_t)wanted : NSVCD__MOST_STEPS;
+      nsvcd__sample(c, points, degree, s0, s1, steps);
+      answer->placed += steps + 1;
+    }
+    size_t kept = 0;
+    for (size_t n = 0; n < left; n++) {
+      const size_t pair = c->left[n];
+      const nsvcd_body_pair *both = &c->scene->pairs[pair];
+      double strays = c->members[both->a].stray + c->members[both->b].stray;
+      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &found, answer);
+      if (!result && found.verdict == NSVCD_FREE) continue;
+      answer->pair = pair;
+      answer->why = found.why;
+      // as near as this where it is proven so far: is it hit there, or where the samples' way is?
+      for (int look = 0; look < 2 && !result && found.verdict != NSVCD_FREE; look++) {
+        const double time = steps ? fmin(fmax((double)found.nearest.time, 0), 1) : 0;
+        const double share = s0 + (s1 - s0) * time;
+        nsvcd__step_cut(points, degree, joints, 0, share, &step);
+        answer->share = share;
+        result = nsvcd__ask_at(c, pair, step.points[degree], options, answer);
+        if (!result && answer->verdict == NSVCD_HIT) {
+          nsvcd__put_first(c, pair);
+          return NSVCD_OK;
+        }
+        if (look == 0 && !result)
+          result = nsvcd__ask_pair(c, both, steps, 0, options, &found, answer);
+      }
+      if (result) return result;
+      c->left[kept++] = (uint32_t)pair;
+    }
+    left = kept;
+    if (left == 0) break;
+    if (steps == 0 || steps == NSVCD__MOST_STEPS || allowed <= (double)options->finest)
+      return NSVCD_OK;
+    allowed = fmax(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
+  }
+  answer->pair = NSVCD_NONE;
+  answer->verdict = NSVCD_FREE;
+  return NSVCD_OK;
+}
+
+// Does a joint leave its limits in a piece? Halved until it is within at all its points, or out at
+// an end.
+static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
+                         int depth) {
+  double first[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
+  int within = 1;
+  for (size_t i = 0; i <= degree; i++) within &= points[i] >= low && points[i] <= high;
+  if (within) return 0;
+  if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
+  if (!(points[degree] >= low && points[degree] <= high)) return 1;
+  memcpy(second, points, (degree + 1) * sizeof *points);
+  first[0] = second[0];
+  for (size_t level = 1; level <= degree; level++) {
+    for (size_t i = 0; i + level <= degree; i++) second[i] = 0.5 * (second[i] + second[i + 1]);
+    first[level] = second[0];
+  }
+  return nsvcd__leaves(first, degree, low, high, depth - 1) ||
+         nsvcd__leaves(second, degree, low, high, depth - 1);
+}
+
+// A joint that leaves its limits by more than rounding, or NSVCD_NONE.
+static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const double *points,
+                                   size_t degree) {
+  double own[NSVCD_MAX_DEGREE + 1];
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    for (size_t i = 0; i <= degree; i++) own[i] = points[i * scene->joint_count + j];
+    const double off = 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+    if (nsvcd__leaves(own, degree, joint->low - off, joint->high + off, 30)) return j;
+  }
+  return NSVCD_NONE;
+}
+
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer) {
+  nsvcd_check_answer found;
+  nsvcd_check_options o;
+  if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
+  const size_t joints = checker->scene->joint_count;
+  const size_t degree = motion->pieces ? motion->degree : 0;
+  if (motion->pieces && (degree < 1 || degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
+  if (motion->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < (motion->pieces * degree + 1) * joints; k++) {
+    if (!nsvcd__is_number(motion->points[k], (double)NSVCD_MAX_COORDINATE))
+      return NSVCD_ERROR_NUMBER;
+  }
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__is_finite(o.clearance) || !nsvcd__is_finite(o.finest) || o.clearance < 0 ||
+      o.finest < 0)
+    return NSVCD_ERROR_TOLERANCE;
+  o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
+  memset(&found, 0, sizeof found);
+  found.joint = found.pair = found.piece = NSVCD_NONE;
+  for (size_t p = 0; p < motion->pieces + !motion->pieces; p++) {
+    const double *points = motion->points + p * degree * joints;
+    if (found.joint == NSVCD_NONE)
+      found.joint = nsvcd__joint_outside(checker->scene, points, degree);
+    found.verdict = NSVCD_UNDECIDED;
+    const nsvcd_result result = nsvcd__check_stretch(checker, points, degree, 0, degree > 0,
+                                                     NSVCD__STRETCHES, &o, &found);
+    if (result) return result;
+    found.piece = p;
+    if (found.verdict != NSVCD_FREE) break;
+  }
+  if (found.verdict == NSVCD_FREE) {
+    found.piece = NSVCD_NONE;
+    found.share = 0;
+    found.why = NSVCD_WHY_NOTHING;
+  }
+  *answer = found;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
 // ================================================================ plan: a motion that hits nothing
 

@@ -63,6 +63,7 @@
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
+//   NSVCD_NO_ROBOTS   no joints: nsvcd_check and its kin go
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
@@ -125,6 +126,7 @@
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
+//   Joints (nsvcd_check, nsvcd_plan) are placed by libm's sines.
 //   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
 //   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
 //   same operations in the same order, no products fused into sums, sines and angles of this
@@ -166,6 +168,10 @@
 //   knot, arc         when one of the poses given is reached; the motion from a knot to the next
 //   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
+//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
+//   step, sample      of a piece, between two samples; a configuration in which parts are placed
+//   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
 
@@ -178,6 +184,7 @@ extern "C" {
 #include "interface/meshes.h"   // OBJ files, parts of a mesh
 #include "interface/bodies.h"   // encoding, loading, scaling, facts
 #include "interface/queries.h"  // movers, options, answers; nsvcd_sweep and its kin
+#include "interface/robots.h"   // joints, parts, checks of motions; nsvcd_check
 #include "interface/plans.h"    // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
@@ -286,6 +293,11 @@ extern "C" {
 #ifndef NSVCD__ISA
 // ==================================================================== entry: the processor decides
 #include "entry/processor.h"  // SSE2, AVX2 or AVX-512; the public functions of queries
+
+// ============================================================ robot: is a motion of joints free?
+#include "robot/chain.h"  // what moves what; where everything is
+#include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
+#include "robot/path.h"  // pieces, pair by pair
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

@@ -6,6 +6,7 @@ check_state check;
 
 void test_results(void);
 void test_round(void);
+void test_robot(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -64,6 +65,7 @@ static const test_file files[] = {
     OF(proof),
     OF(asks),
     OF(round),
+    OF(robot),
     OF(winding_number),
     OF(decoder),
     OF(query),

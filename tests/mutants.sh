@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:` or `round:`, tests/test_level.c, test_asks.c or test_round.c. Prints a line for each, and exits with 1 if one
+# fail on it, or, where its name begins with `level:`, `asks:`, `round:` or `robot:`, tests/test_level.c and so on. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -165,6 +165,23 @@ asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) >
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
+robot: joints that do not bend|bend += step->bend[j] * levers[j];|(void)bend;
+robot: half the bend|bend += step->bend[j] * levers[j];|bend += 0.5 * step->bend[j] * levers[j];
+robot: joints that do not turn each other|(2 * inner + own)|(own)
+robot: joints that turn each other once|(2 * inner + own)|(inner + own)
+robot: joints without a square|(2 * inner + own)|(2 * inner)
+robot: no slerp|turn * turn * extent) / 8|0 * turn * extent) / 8
+robot: a slerp of half the angle|return 4 * asin(|return 2 * asin(
+robot: levers of the centre|+ m->radius + moved;|+ moved;
+robot: levers of the sample|+ m->radius + moved;|+ m->radius;
+robot: a step of a ninth|return (bend + second + turn * turn * extent) / 8;|return (bend + second + turn * turn * extent) / 9;
+robot: poses without rounding|stray * (1 + 1e-9) + 2 * rounding|stray
+robot: strays of one part|c->members[both->a].stray + c->members[both->b].stray;|c->members[both->a].stray;
+robot: no strays|const double clearance = (double)options->clearance + strays;|const double clearance = (double)options->clearance;
+robot: spheres without the clearance|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius;
+robot: spheres at samples alone|const double u = nsvcd__max(0, nsvcd__min(1, share));|const double u = share > 0.5 ? 1 : 0;
+robot: the last piece alone|found.verdict = NSVCD_UNDECIDED;\n    const|if (p + 1 < motion->pieces) continue;\n    const
+robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
 LIST
 
 survived=0
@@ -193,6 +210,7 @@ PYTHON
     level:*) file=test_level.c ;;
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
+    robot:*) file=test_robot.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1

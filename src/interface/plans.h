@@ -5,10 +5,9 @@
 // it has the velocity and the acceleration of central differences, and it is at rest at both ends;
 // so both are continuous everywhere.
 #pragma once
-#include "queries.h"
+#include "robots.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-#define NSVCD_MAX_JOINTS 32
 #define NSVCD_MAX_VIA_POINTS 32
 // of a stage of the planner
 #define NSVCD_MAX_PLAN_SEGMENTS 4096
@@ -23,13 +22,6 @@
 //   source     quintic Hermite interpolation, as the paper's authors use it
 NSVCDDEF void nsvcd_spline(const float *control, size_t via_points, size_t joints, float t,
                            size_t derivative, float *out);
-
-// Two bodies that can meet, by their indices. The planner asks about a's motion as seen from b. So
-// take the body that rests, or else the larger one, as b: the other way round costs a little
-// accuracy.
-typedef struct nsvcd_body_pair {
-  uint32_t a, b;
-} nsvcd_body_pair;
 
 typedef enum nsvcd_plan_status {
   // the trajectory is within the limits and free of collision: certified where bodies have
@@ -78,7 +70,8 @@ typedef struct nsvcd_plan_problem {
   // (B), up to 65536, with latents; ones in no pair may be NULL
   const nsvcd_body *const *bodies;
   size_t body_count;
-  // (P)
+  // (P). The planner asks about a's motion as seen from b: take the body that rests, or else the
+  // larger one, as b, for the other way round costs a little accuracy
   const nsvcd_body_pair *pairs;
   size_t pair_count;
   // joints (F) -> poses (B), in the world. What is grasped moves with the hand because this says
@@ -97,8 +90,6 @@ typedef struct nsvcd_plan_problem {
   int (*progress)(void *user, const nsvcd_plan_progress *progress);
   void *user;
 } nsvcd_plan_problem;
-
-#define NSVCD_NONE ((size_t)-1)
 
 // What is zero is the stage's default.
 typedef struct nsvcd_plan_stage {

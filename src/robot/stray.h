@@ -1,0 +1,121 @@
+// In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
+// the line and the slerp between them.
+//
+// THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x is the share of it that has
+// gone by, and u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: it goes from 0 to 1 as
+// well, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q'' -
+// g d, derivatives by x: |e| <= max |e''| / 8. What a point y of the part is, at most, off where
+// q0 + u d has it:
+//   sum over joints j of |e_j| r_j           r_j: no point is farther from the axis of j
+// On the straight way q0 + u d the point is off its chord by max |y''| / 8, derivatives by u. With
+// d^2 y / dq_j dq_k no more than r of the outer one of j and k, as long as both turn (an outer one
+// that slides has 1 in place of r; an inner one that slides, 0),
+//   |y''| <= sum_j |d_j| r_j (2 sum over inner k that turn of |d_k| + |d_j|)
+// and what slides has no square. The sweep goes through the same places at both ends, by a line of
+// the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
+// from the origin. All together, for any u, and so at all times:
+//   stray <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+// r_j is that of the sample q0, and what joints beyond j can add while they move.
+// Source: this library.
+#pragma once
+#include "chain.h"
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// A part of a piece, as a Bezier curve: (degree + 1, F); and what follows for each joint.
+typedef struct nsvcd__step {
+  double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
+  // |d|; max |q - q0|; max |e''|
+  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS], bend[NSVCD_MAX_JOINTS];
+} nsvcd__step;
+
+// Second differences of a step's points, times what makes them h^2 q''.
+static double nsvcd__second(const nsvcd__step *step, size_t degree, size_t i, size_t joint) {
+  const double by = (double)(degree * (degree - 1));
+  const double *a = &step->points[i][joint];
+  return by * (a[0] - 2 * a[NSVCD_MAX_JOINTS] + a[2 * NSVCD_MAX_JOINTS]);
+}
+
+// Fills in what follows from the points.
+static void nsvcd__step_measure(nsvcd__step *step, size_t degree, size_t joints) {
+  double along = 0;
+  double square = 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double from = step->points[0][j];
+    const double d = step->points[degree][j] - from;
+    step->way[j] = fabs(d);
+    step->reach[j] = 0;
+    step->bend[j] = 0;
+    square += d * d;
+    for (size_t i = 1; i <= degree; i++)
+      step->reach[j] = nsvcd__max(step->reach[j], fabs(step->points[i][j] - from));
+    for (size_t i = 0; i + 1 < degree; i++)
+      along += d * nsvcd__second(step, degree, i, j) / (double)(degree - 1);
+  }
+  if (degree == 1) return;
+  const double g = square > 0 ? nsvcd__max(-2, nsvcd__min(2, along / square)) : 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double d = step->points[degree][j] - step->points[0][j];
+    for (size_t i = 0; i + 1 < degree; i++) {
+      const double off = fabs(nsvcd__second(step, degree, i, j) - g * d);
+      step->bend[j] = nsvcd__max(step->bend[j], off);
+    }
+  }
+}
+
+// The angle of the turn from a to b, radians: the shorter one.
+static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
+  const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
+  const nsvcd__dquat chord = nsvcd__dquat_fma(-side, b, a);
+  return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
+}
+
+// The bound of the banner, from levers r (F) on the path of joints. turn: w.
+static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
+                              const double *levers, double turn, double extent) {
+  double bend = 0;
+  double second = 0;
+  double inner = 0;
+  for (; path; path &= path - 1) {
+    const size_t j = nsvcd__low_bit(path);
+    const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
+    bend += step->bend[j] * levers[j];
+    second += step->way[j] * levers[j] * (2 * inner + own);
+    inner += own;
+  }
+  return (bend + second + turn * turn * extent) / 8;
+}
+
+// r of the banner: how far points of a part can be from the axes of the joints on its path, during
+// a step that begins in a configuration; 1 of what slides.
+static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                             const nsvcd__configuration *from, double *levers) {
+  const nsvcd__member *m = &c->members[part];
+  const size_t link = c->scene->parts[part].link;
+  const uint32_t path = c->links[link - 1].path;
+  const nsvcd__frame *frame = &from->frames[link];
+  const nsvcd__d3 centre =
+      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->place);
+  double moved = 0;  // by joints beyond this one
+  for (size_t j = link; j-- > 0;) {
+    if (!(path >> j & 1)) continue;
+    levers[j] = 1;
+    if (!nsvcd__slides(c, j)) {
+      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
+      levers[j] = nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+    }
+    moved += step->reach[j] * levers[j];
+  }
+}
+
+// What a part strays at most in a step from one configuration to another.
+static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                              const nsvcd__configuration *from,
+                              const nsvcd__configuration *to) {
+  const size_t link = c->scene->parts[part].link;
+  double levers[NSVCD_MAX_JOINTS];
+  const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  nsvcd__levers_of(c, part, step, from, levers);
+  return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
+                         c->members[part].extent);
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

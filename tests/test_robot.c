@@ -1,0 +1,759 @@
+// Robots: what a part leaves its sweep by, against motions of the joints sampled densely, and
+// verdicts of motions, against distances in double at many times. Links are placed here anew, by
+// matrices.
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
+#include "check.h"
+
+void test_robot(void);
+
+#define SHAPES 7
+#define FAR_SHAPE 6  // 1 m from its origin
+#define MOST_PARTS 40
+#define SMALL 0.3f  // scale of an arm's small parts
+
+// Meshes, as bodies and for the oracle; made once.
+typedef struct robot_shape {
+  const nsvcd_body *body;
+  oracle_mesh exact;
+  double *points;
+  size_t count;
+} robot_shape;
+
+static robot_shape shape_of(shapes_mesh *mesh) {
+  robot_shape out;
+  float *positions = (float *)calloc(3 * mesh->vertices, sizeof(float));
+  memset(&out, 0, sizeof out);
+  out.points = (double *)calloc(3 * mesh->vertices, sizeof(double));
+  if (mesh->failed || !positions || !out.points) exit(1);
+  for (size_t i = 0; i < 3 * mesh->vertices; i++) {
+    positions[i] = (float)mesh->positions[i];
+    out.points[i] = (double)positions[i];
+  }
+  out.count = mesh->vertices;
+  const nsvcd_mesh given = {positions, mesh->indices, mesh->vertices, mesh->triangles};
+  CHECK_EQ(nsvcd_encode(&given, NULL, NULL, NULL, 0, &out.body), NSVCD_OK);
+  if (!oracle_mesh_init(&out.exact, out.points, mesh->vertices, mesh->indices, mesh->triangles, 1))
+    exit(1);
+  free(positions);
+  shapes_free(mesh);
+  return out;
+}
+
+static robot_shape *robot_shapes(void) {
+  static robot_shape made[SHAPES];
+  if (made[0].body) return made;
+  for (int n = 0; n < SHAPES; n++) {
+    shapes_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    if (n == 0) shapes_box(&mesh, 0.1, 0.1, 0.1, 1);
+    if (n == 1) shapes_capsule(&mesh, 0.04, 0.4, 12);
+    if (n == 2) shapes_box(&mesh, 0.3, 0.3, 0.02, 1);
+    if (n == 3) shapes_torus(&mesh, 0.12, 0.03, 16, 8);
+    if (n == 4) shapes_l_bracket(&mesh, 0.2, 0.15, 0.03, 0.05);
+    if (n == 5) shapes_bowl(&mesh, 0.1, 0.07, 0.01, 16);
+    if (n == FAR_SHAPE) shapes_box_at(&mesh, 1, 0, 0, 0.05, 0.05, 0.05);
+    made[n] = shape_of(&mesh);
+  }
+  return made;
+}
+
+typedef struct robot {
+  nsvcd_scene scene;
+  nsvcd_joint joints[NSVCD_MAX_JOINTS];
+  nsvcd_part parts[MOST_PARTS];
+  int shape[MOST_PARTS];
+  nsvcd_body_pair pairs[MOST_PARTS * MOST_PARTS];
+  void *memory;
+  nsvcd_checker *checker;
+} robot;
+
+static nsvcd_pose robot_pose(shapes_rng *rng, double reach) {
+  oracle_pose pose;
+  shapes_quaternion(rng, pose.rotation);
+  shapes_direction(rng, pose.position);
+  for (int k = 0; k < 3; k++) pose.position[k] *= reach;
+  return pose_rounded(&pose);
+}
+
+static void robot_open(robot *r) {
+  r->scene.joints = r->joints;
+  r->scene.parts = r->parts;
+  r->scene.pairs = r->pairs;
+  const size_t size = nsvcd_checker_size(&r->scene);
+  r->memory = calloc(1, size);
+  if (!size || !r->memory) exit(1);
+  CHECK_EQ(nsvcd_checker_open(&r->scene, r->memory, size, &r->checker), NSVCD_OK);
+}
+
+// A tree of joints of all kinds, with a body on each link, anywhere in it.
+static void robot_random(robot *r, shapes_rng *rng) {
+  memset(r, 0, sizeof *r);
+  r->scene.joints = r->joints;
+  r->scene.parts = r->parts;
+  r->scene.joint_count = 1 + (size_t)shapes_pick(rng, 8);
+  r->scene.part_count = r->scene.joint_count;
+  const int is_chain = shapes_pick(rng, 2);
+  for (size_t i = 0; i < r->scene.joint_count; i++) {
+    nsvcd_joint *joint = &r->joints[i];
+    const int kind = shapes_pick(rng, 4);
+    joint->kind = kind == 3 ? NSVCD_JOINT_REVOLUTE : (nsvcd_joint_kind)kind;
+    joint->parent = is_chain ? (uint32_t)i : (uint32_t)shapes_pick(rng, (int)i + 1);
+    joint->origin = robot_pose(rng, shapes_uniform(rng, 0, 0.5));
+    double axis[3];
+    shapes_direction(rng, axis);
+    for (int k = 0; k < 3; k++) joint->axis[k] = (float)(axis[k] * (1 + kind));
+    joint->low = -3;
+    joint->high = 3;
+    r->shape[i] = shapes_pick(rng, SHAPES);
+    r->parts[i].body = robot_shapes()[r->shape[i]].body;
+    r->parts[i].link = (uint32_t)i + 1;
+    r->parts[i].pose = robot_pose(rng, shapes_uniform(rng, 0, 0.4));
+    r->parts[i].scale = shapes_pick(rng, 2) ? 0 : (float)shapes_uniform(rng, 0.5, 2);
+    // far from its origin, and near to the joint
+    if (r->shape[i] != FAR_SHAPE) continue;
+    r->parts[i].scale = 1;
+    const oracle_pose at = pose_widened(&r->parts[i].pose);
+    const double centre[3] = {1, 0, 0};
+    double m[9], off[3];
+    oracle_matrix(at.rotation, m);
+    oracle_rotate(m, centre, off);
+    for (int k = 0; k < 3; k++) r->parts[i].pose.position[k] = (float)-off[k];
+  }
+}
+
+// Where a part is, by matrices, in double; rotations as 9 numbers.
+typedef struct placed {
+  double m[9], p[3];
+} placed;
+
+static void placed_by(placed *at, const double *m, const double *p) {
+  double turned[9], moved[3];
+  oracle_rotate(at->m, p, moved);
+  for (int k = 0; k < 3; k++) at->p[k] += moved[k];
+  for (int k = 0; k < 9; k++) {
+    turned[k] = 0;
+    for (int i = 0; i < 3; i++) turned[k] += at->m[k / 3 * 3 + i] * m[3 * i + k % 3];
+  }
+  memcpy(at->m, turned, sizeof turned);
+}
+static void placed_by_pose(placed *at, const nsvcd_pose *pose) {
+  double m[9], p[3], q[4];
+  for (int k = 0; k < 4; k++) q[k] = (double)pose->rotation[k];
+  for (int k = 0; k < 3; k++) p[k] = (double)pose->position[k];
+  oracle_quat_normalize(q);
+  oracle_matrix(q, m);
+  placed_by(at, m, p);
+}
+// Rodrigues.
+static void placed_by_joint(placed *at, const nsvcd_joint *joint, double value) {
+  double axis[3], m[9], p[3] = {0, 0, 0};
+  const double *a = axis;
+  for (int k = 0; k < 3; k++) axis[k] = (double)joint->axis[k];
+  const double length = oracle_length(axis);
+  for (int k = 0; k < 3; k++) axis[k] /= length;
+  const int slides = joint->kind == NSVCD_JOINT_PRISMATIC;
+  const double c = slides ? 1 : cos(value);
+  const double s = slides ? 0 : sin(value);
+  const double across[9] = {0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0};
+  for (int k = 0; k < 9; k++)
+    m[k] = (k % 4 ? 0 : c) + s * across[k] + (1 - c) * a[k / 3] * a[k % 3];
+  for (int k = 0; k < 3 && slides; k++) p[k] = value * axis[k];
+  placed_by(at, m, p);
+}
+static placed placed_link(const nsvcd_scene *scene, size_t link, const double *joints) {
+  placed at = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
+  if (link == 0) return at;
+  at = placed_link(scene, scene->joints[link - 1].parent, joints);
+  placed_by_pose(&at, &scene->joints[link - 1].origin);
+  placed_by_joint(&at, &scene->joints[link - 1], joints[link - 1]);
+  return at;
+}
+static placed placed_part(const nsvcd_scene *scene, size_t part, const double *joints) {
+  placed at = placed_link(scene, scene->parts[part].link, joints);
+  placed_by_pose(&at, &scene->parts[part].pose);
+  return at;
+}
+static void placed_point(const placed *at, double scale, const double *x, double *out) {
+  oracle_rotate(at->m, x, out);
+  for (int k = 0; k < 3; k++) out[k] = scale * out[k] + at->p[k];
+}
+
+static double scale_of_part(const nsvcd_part *part) {
+  return part->scale > 0 ? (double)part->scale : 1;
+}
+
+// Bernstein polynomials.
+static void joints_of_piece(const double *points, size_t degree, size_t joints, double s,
+                            double *out) {
+  for (size_t j = 0; j < joints; j++) {
+    out[j] = 0;
+    double choose = 1;
+    for (size_t i = 0; i <= degree; i++) {
+      const double weight = choose * pow(s, (double)i) * pow(1 - s, (double)(degree - i));
+      out[j] += weight * points[i * joints + j];
+      choose = choose * (double)(degree - i) / (double)(i + 1);
+    }
+  }
+}
+
+// The farthest of some vertices of a part from where the sweep has it at a share u of a step, as
+// samples a and b say.
+static double robot_off(const robot *r, size_t part, const placed *at, const nsvcd_pose *a,
+                        const nsvcd_pose *b, double u) {
+  const robot_shape *shape = &robot_shapes()[r->shape[part]];
+  const double scale = scale_of_part(&r->parts[part]);
+  const oracle_pose from = pose_widened(a);
+  const oracle_pose to = pose_widened(b);
+  const oracle_pose swept = oracle_pose_between(&from, &to, u);
+  double most = 0;
+  for (size_t i = 0; i < shape->count; i += 1 + shape->count / 24) {
+    double is[3], was[3], x[3], off[3];
+    placed_point(at, scale, &shape->points[3 * i], is);
+    for (int k = 0; k < 3; k++) x[k] = scale * shape->points[3 * i + (size_t)k];
+    oracle_transform(&swept, x, was);
+    oracle_sub(is, was, off);
+    most = fmax(most, oracle_length(off));
+  }
+  return most;
+}
+
+// No part strays farther than is said, of pieces of all degrees, long and short, cut into few steps
+// and many; and where joints are many some stray by half of that.
+static void robot_strays_no_farther(void) {
+  static robot r;
+  shapes_rng rng = {71};
+  double most[NSVCD_MAX_DEGREE + 1] = {0};
+  double often = 0;
+  size_t looks = 0;
+  for (int trial = 0; trial < 600; trial++) {
+    double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
+    robot_random(&r, &rng);
+    robot_open(&r);
+    const size_t joints = r.scene.joint_count;
+    const size_t degree = 1 + (size_t)shapes_pick(&rng, NSVCD_MAX_DEGREE);
+    const size_t steps = (size_t)1 << shapes_pick(&rng, 5);
+    const double size = pow(10, shapes_uniform(&rng, -2, 0.3));
+    const double bends = pow(10, shapes_uniform(&rng, -2, 0));
+    double *flat = &points[0][0];
+    for (size_t j = 0; j < joints; j++) {
+      const double from = shapes_uniform(&rng, -2, 2);
+      const double to = shapes_pick(&rng, 4) ? from + size * shapes_normal(&rng) : from;
+      for (size_t i = 0; i <= degree; i++) {
+        const double share = (double)i / (double)degree;
+        flat[i * joints + j] = from + share * (to - from) + size * bends * shapes_normal(&rng);
+      }
+    }
+    nsvcd__sample(r.checker, flat, degree, 0, 1, steps);
+    for (size_t part = 0; part < r.scene.part_count; part++) {
+      const nsvcd__member *m = &r.checker->members[part];
+      double farthest = 0;
+      for (size_t k = 0; k < steps; k++) {
+        const nsvcd_pose *a = &r.checker->poses[m->row + k];
+        for (int look = 1; look < 8; look++) {
+          double q[NSVCD_MAX_JOINTS];
+          const double x = look / 8.0;
+          joints_of_piece(flat, degree, joints, ((double)k + x) / (double)steps, q);
+          const placed at = placed_part(&r.scene, part, q);
+          double off = robot_off(&r, part, &at, a, a + 1, x);
+          // the share of the step that suits best: the nearest place of its way
+          double low = 0;
+          double high = 1;
+          for (int n = 0; n < 60 && degree > 1; n++) {
+            const double u = low + (high - low) / 3;
+            const double v = high - (high - low) / 3;
+            const double at_u = robot_off(&r, part, &at, a, a + 1, u);
+            const double at_v = robot_off(&r, part, &at, a, a + 1, v);
+            low = at_u < at_v ? low : u;
+            high = at_u < at_v ? v : high;
+            off = fmin(off, fmin(at_u, at_v));
+          }
+          CHECK_LE(off, m->stray);
+          farthest = fmax(farthest, off);
+        }
+      }
+      if (m->stray < 1e-5) continue;
+      most[degree] = fmax(most[degree], farthest / m->stray);
+      often += farthest / m->stray;
+      looks++;
+    }
+    free(r.memory);
+  }
+  printf("  %zu parts, used in the mean %.2f; at most, by degree: %.2f %.2f %.2f %.2f %.2f\n",
+         looks, often / (double)looks, most[1], most[2], most[3], most[4], most[5]);
+  CHECK_GE(most[1], 0.5);
+  for (int d = 2; d <= NSVCD_MAX_DEGREE; d++) CHECK_GE(most[d], 0.3);
+}
+
+// During a step no vertex is farther from an axis than its lever, and some are nearly as far.
+static void robot_levers_reach(void) {
+  static robot r;
+  shapes_rng rng = {77};
+  double most = 0;
+  for (int trial = 0; trial < 400; trial++) {
+    nsvcd__step step;
+    nsvcd__configuration from;
+    double flat[2 * NSVCD_MAX_JOINTS];
+    double levers[NSVCD_MAX_JOINTS] = {0};
+    robot_random(&r, &rng);
+    robot_open(&r);
+    const size_t joints = r.scene.joint_count;
+    const double size = pow(10, shapes_uniform(&rng, -1, 0.3));
+    for (size_t j = 0; j < joints; j++) {
+      flat[j] = shapes_uniform(&rng, -2, 2);
+      flat[joints + j] = flat[j] + size * shapes_normal(&rng);
+    }
+    nsvcd__step_cut(flat, 1, joints, 0, 1, &step);
+    memcpy(from.joints, flat, joints * sizeof *flat);
+    nsvcd__place_links(r.checker, &from);
+    const size_t part = joints - 1;
+    nsvcd__levers_of(r.checker, part, &step, &from, levers);
+    for (int k = 0; k <= 20; k++) {
+      double q[NSVCD_MAX_JOINTS];
+      joints_of_piece(flat, 1, joints, k / 20.0, q);
+      const placed at = placed_part(&r.scene, part, q);
+      // joints on its path
+      for (size_t link = joints; link > 0; link = r.joints[link - 1].parent) {
+        const nsvcd_joint *joint = &r.joints[link - 1];
+        if (joint->kind == NSVCD_JOINT_PRISMATIC) continue;
+        const placed frame = placed_link(&r.scene, link, q);
+        double axis[3], turned[3];
+        for (int n = 0; n < 3; n++) axis[n] = (double)joint->axis[n];
+        oracle_rotate(frame.m, axis, turned);
+        const robot_shape *shape = &robot_shapes()[r.shape[part]];
+        for (size_t i = 0; i < shape->count; i++) {
+          double x[3], off[3], across[3];
+          placed_point(&at, scale_of_part(&r.parts[part]), &shape->points[3 * i], x);
+          oracle_sub(x, frame.p, off);
+          oracle_cross(turned, off, across);
+          const double far = oracle_length(across) / oracle_length(turned);
+          CHECK_LE(far, levers[link - 1]);
+          // where joints beyond have brought it there
+          if (k > 0 && size > 0.5 && link + 1 < joints) most = fmax(most, far / levers[link - 1]);
+        }
+      }
+    }
+    free(r.memory);
+  }
+  printf("  levers are used to %.2f\n", most);
+  CHECK_GE(most, 0.9);
+}
+
+// A ball on a random robot passes another one, that rests or is on another link, at a distance that
+// is the clearance to within 1 mm or 1 um, which is known from their centres at many times. What
+// comes nearer is never free, what does not is no hit.
+static double robot_balls_apart(const robot *r, const double *points, size_t degree, double s) {
+  double q[NSVCD_MAX_JOINTS], off[3];
+  joints_of_piece(points, degree, r->scene.joint_count, s, q);
+  const placed a = placed_part(&r->scene, 0, q);
+  const placed b = placed_part(&r->scene, 1, q);
+  oracle_sub(a.p, b.p, off);
+  return oracle_length(off);
+}
+static void robot_grazes(void) {
+  enum { LOOKS = 400 };
+  static robot r;
+  shapes_rng rng = {76};
+  const nsvcd_body *ball = NULL;
+  size_t free_count = 0;
+  size_t hits = 0;
+  size_t undecided = 0;
+  CHECK_EQ(nsvcd_encode_sphere(0.05f, NULL, &ball), NSVCD_OK);
+  for (int trial = 0; trial < 3000; trial++) {
+    double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
+    double *flat = &points[0][0];
+    double at[NSVCD_MAX_JOINTS], way[3], off[3], here[3];
+    nsvcd_check_answer answer;
+    nsvcd_check_options options;
+    robot_random(&r, &rng);
+    const size_t joints = r.scene.joint_count;
+    const size_t degree = 1 + (size_t)shapes_pick(&rng, NSVCD_MAX_DEGREE);
+    const double size = pow(10, shapes_uniform(&rng, -1.5, -0.3));
+    for (size_t j = 0; j < joints; j++) {
+      const double from = shapes_uniform(&rng, -1, 1);
+      for (size_t i = 0; i <= degree; i++)
+        flat[i * joints + j] = from + size * (shapes_normal(&rng) + (double)i / (double)degree);
+    }
+    memset(&options, 0, sizeof options);
+    memset(&answer, 0, sizeof answer);
+    options.clearance = shapes_pick(&rng, 2) ? 0 : 0.01f;
+    const double reach = 0.1 + (double)options.clearance;
+    const double near = shapes_pick(&rng, 2) ? 1e-3 : 3e-5;
+    for (size_t n = 0; n < 2; n++) {
+      r.parts[n].body = ball;
+      r.parts[n].scale = 1;
+      if (n) r.parts[n].pose = robot_pose(&rng, 0);
+      r.parts[n].link = n ? (uint32_t)shapes_pick(&rng, (int)joints) : (uint32_t)joints;
+    }
+    r.scene.part_count = 2;
+    r.scene.pair_count = 1;
+    r.pairs[0].a = (uint32_t)shapes_pick(&rng, 2);
+    r.pairs[0].b = 1 - r.pairs[0].a;
+    // where the other one is in its link, so that they pass at some time
+    const double when = shapes_uniform(&rng, 0, 0.999);
+    joints_of_piece(flat, degree, joints, when, at);
+    const placed moving = placed_part(&r.scene, 0, at);
+    const placed link = placed_link(&r.scene, r.parts[1].link, at);
+    // across its way as the other link sees it, so that they are nearest then
+    double there[NSVCD_MAX_JOINTS], went[3];
+    joints_of_piece(flat, degree, joints, when + 1e-6, there);
+    const placed later = placed_part(&r.scene, 0, there);
+    const placed link_later = placed_link(&r.scene, r.parts[1].link, there);
+    oracle_sub(moving.p, link.p, off);
+    oracle_rotate_back(link.m, off, here);
+    oracle_sub(later.p, link_later.p, off);
+    oracle_rotate_back(link_later.m, off, went);
+    oracle_sub(went, here, off);
+    oracle_rotate(link.m, off, went);
+    shapes_direction(&rng, way);
+    const double along = oracle_dot(way, went) / fmax(oracle_dot(went, went), 1e-30);
+    for (int k = 0; k < 3; k++) way[k] -= along * went[k];
+    const double length = fmax(oracle_length(way), 1e-6);
+    for (int k = 0; k < 3; k++) way[k] /= length;
+    for (int k = 0; k < 3; k++)
+      off[k] = moving.p[k] + (reach + near * shapes_uniform(&rng, -1, 1)) * way[k] - link.p[k];
+    oracle_rotate_back(link.m, off, here);
+    for (int k = 0; k < 3; k++) r.parts[1].pose.position[k] = (float)here[k];
+    // how near they come: the least of many times, and about it
+    double least = DBL_MAX;
+    double best = 0;
+    for (int k = 0; k <= LOOKS; k++) {
+      const double apart = robot_balls_apart(&r, flat, degree, k / (double)LOOKS);
+      if (apart < least) best = k / (double)LOOKS;
+      least = fmin(least, apart);
+    }
+    double low = fmax(best - 1.0 / LOOKS, 0);
+    double high = fmin(best + 1.0 / LOOKS, 1);
+    for (int k = 0; k < 60; k++) {
+      const double u = low + (high - low) / 3;
+      const double v = high - (high - low) / 3;
+      const double at_u = robot_balls_apart(&r, flat, degree, u);
+      const double at_v = robot_balls_apart(&r, flat, degree, v);
+      low = at_u < at_v ? low : u;
+      high = at_u < at_v ? v : high;
+      least = fmin(least, fmin(at_u, at_v));
+    }
+    robot_open(&r);
+    const nsvcd_joint_motion motion = {1, degree, flat};
+    CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+    if (least < reach - 1e-6) CHECK(answer.verdict != NSVCD_FREE);
+    if (least > reach + 1e-6) CHECK(answer.verdict != NSVCD_HIT);
+    if (answer.verdict == NSVCD_HIT)
+      CHECK_LE(robot_balls_apart(&r, flat, degree, answer.share), reach + 2e-6);
+    // a doubt is about what is nearer than two parts may stray at the finest
+    if (answer.verdict == NSVCD_UNDECIDED) CHECK_NEAR(least, reach, 1e-4);
+    free_count += answer.verdict == NSVCD_FREE;
+    hits += answer.verdict == NSVCD_HIT;
+    undecided += answer.verdict == NSVCD_UNDECIDED;
+    free(r.memory);
+  }
+  printf("  balls that pass: free %zu, hit %zu, undecided %zu\n", free_count, hits, undecided);
+  CHECK_GE(free_count, 300);
+  CHECK_GE(hits, 1000);
+  CHECK_LE(undecided, 600);
+  nsvcd_body_free(ball, NULL);
+}
+
+// An arm of six joints like many that are sold, a tool, and boxes about it.
+static void robot_arm(robot *r, shapes_rng *rng, size_t boxes) {
+  static const double reach[6] = {0.1, 0.15, 0.4, 0.35, 0.1, 0.1};
+  memset(r, 0, sizeof *r);
+  r->scene.joint_count = 6;
+  for (size_t i = 0; i < 6; i++) {
+    nsvcd_joint *joint = &r->joints[i];
+    joint->parent = (uint32_t)i;
+    joint->origin.rotation[3] = 1;
+    joint->origin.position[2] = (float)reach[i];
+    // about z, then y, y, y, z, y
+    joint->axis[i == 0 || i == 4 ? 2 : 1] = 1;
+    joint->low = -3.1;
+    joint->high = 3.1;
+    nsvcd_part *part = &r->parts[r->scene.part_count];
+    r->shape[r->scene.part_count++] = i == 5 ? 4 : 1;
+    part->link = (uint32_t)i + 1;
+    part->pose.rotation[3] = 1;
+    part->pose.position[2] = i == 1 ? 0.2f : i == 2 ? 0.17f : 0.05f;
+    part->scale = i == 1 || i == 2 ? 1 : SMALL;
+  }
+  for (size_t n = 0; n < boxes; n++) {
+    double place[3];
+    nsvcd_part *part = &r->parts[r->scene.part_count];
+    r->shape[r->scene.part_count++] = shapes_pick(rng, SHAPES);
+    part->pose = robot_pose(rng, 0);
+    shapes_direction(rng, place);
+    for (int k = 0; k < 3; k++)
+      part->pose.position[k] = (float)(shapes_uniform(rng, 0.4, 1.1) * place[k] + (k == 2) * 0.4);
+  }
+  for (uint32_t a = 0; a < r->scene.part_count; a++) {
+    r->parts[a].body = robot_shapes()[r->shape[a]].body;
+    for (uint32_t b = a + 1; b < r->scene.part_count; b++) {
+      // neighbours overlap
+      if (a >= 6 || (b < 6 && b < a + 3)) continue;
+      const nsvcd_body_pair pair = {a, b};
+      r->pairs[r->scene.pair_count++] = pair;
+    }
+  }
+  robot_open(r);
+}
+
+static oracle_pose oracle_of(const placed *at) {
+  oracle_pose out;
+  double *q = out.rotation;
+  const double *m = at->m;
+  memcpy(out.position, at->p, sizeof out.position);
+  // Shepperd's method, by the largest
+  const double trace = m[0] + m[4] + m[8];
+  const double sizes[4] = {m[0], m[4], m[8], trace};
+  int best = 0;
+  for (int k = 1; k < 4; k++) best = sizes[k] > sizes[best] ? k : best;
+  if (best == 3) {
+    q[0] = m[7] - m[5];
+    q[1] = m[2] - m[6];
+    q[2] = m[3] - m[1];
+    q[3] = 1 + trace;
+  } else {
+    const int i = best;
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    q[i] = 1 + m[4 * i] - m[4 * j] - m[4 * k];
+    q[j] = m[3 * i + j] + m[3 * j + i];
+    q[k] = m[3 * i + k] + m[3 * k + i];
+    q[3] = m[3 * k + j] - m[3 * j + k];
+  }
+  oracle_quat_normalize(q);
+  return out;
+}
+
+// A shape for the oracle in the scale of small parts, made once, or in its own.
+static const oracle_mesh *robot_exact(int shape, const nsvcd_part *part) {
+  static oracle_mesh small[SHAPES];
+  robot_shape *own = &robot_shapes()[shape];
+  if (!(part->scale > 0 && part->scale < 1)) return &own->exact;
+  if (!small[shape].triangle_count) {
+    // corners of all triangles, as a mesh of its own: what is welded stays so, for they are equal
+    const size_t count = own->exact.triangle_count;
+    double *corners = (double *)calloc(9 * count, sizeof(double));
+    uint32_t *indices = (uint32_t *)calloc(3 * count, sizeof(uint32_t));
+    if (!corners || !indices) exit(1);
+    for (size_t i = 0; i < 9 * count; i++)
+      corners[i] = (double)SMALL * own->exact.triangles[i / 9].v[i / 3 % 3][i % 3];
+    for (size_t i = 0; i < 3 * count; i++) indices[i] = (uint32_t)i;
+    if (!oracle_mesh_init(&small[shape], corners, 3 * count, indices, count, 1)) exit(1);
+    free(corners);
+    free(indices);
+  }
+  return &small[shape];
+}
+
+// How near a pair comes in a configuration, up to `limit`; less than 0 where one is inside of the
+// other.
+static double robot_apart(const robot *r, const nsvcd_body_pair *pair, const double *q,
+                          double limit) {
+  const size_t parts[2] = {pair->a, pair->b};
+  const oracle_mesh *meshes[2];
+  oracle_pose poses[2];
+  oracle_search search;
+  for (int n = 0; n < 2; n++) {
+    const placed at = placed_part(&r->scene, parts[n], q);
+    poses[n] = oracle_of(&at);
+    meshes[n] = robot_exact(r->shape[parts[n]], &r->parts[parts[n]]);
+  }
+  double centres[2][3], off[3];
+  for (int n = 0; n < 2; n++) oracle_transform(&poses[n], meshes[n]->center, centres[n]);
+  oracle_sub(centres[0], centres[1], off);
+  if (oracle_length(off) > meshes[0]->radius + meshes[1]->radius + limit) return limit;
+  oracle_search_begin(&search, meshes[0], meshes[1]);
+  const double apart = oracle_search_run(&search, &poses[0], &poses[1], limit);
+  const int inside = oracle_inside(meshes[0], &poses[0], meshes[1], &poses[1]) > 0.5 ||
+                     oracle_inside(meshes[1], &poses[1], meshes[0], &poses[0]) > 0.5;
+  return inside ? -1 : apart;
+}
+
+// What is said of edges and curves of an arm among boxes is so, at many times.
+static void robot_verdicts_are_right(void) {
+  static robot r;
+  shapes_rng rng = {72};
+  size_t free_count = 0;
+  size_t hits = 0;
+  size_t undecided = 0;
+  size_t sweeps = 0;
+  for (int trial = 0; trial < 40; trial++) {
+    robot_arm(&r, &rng, 12);
+    for (int n = 0; n < 10; n++) {
+      double points[2 * NSVCD_MAX_DEGREE + 1][6];
+      nsvcd_check_answer answer;
+      nsvcd_check_options options;
+      memset(&options, 0, sizeof options);
+      memset(&answer, 0, sizeof answer);
+      options.clearance = shapes_pick(&rng, 2) ? 0 : 0.005f;
+      const size_t degree = 1 + (size_t)shapes_pick(&rng, 5);
+      nsvcd_joint_motion motion = {1 + (size_t)shapes_pick(&rng, 2), degree, NULL};
+      double *flat = &points[0][0];
+      const size_t count = motion.pieces * degree + 1;
+      for (size_t j = 0; j < 6; j++) {
+        double at = shapes_uniform(&rng, -2, 2);
+        for (size_t i = 0; i < count; i++) {
+          flat[6 * i + j] = at;
+          at += 0.8 / (double)degree * shapes_normal(&rng);
+        }
+      }
+      motion.points = flat;
+      CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+      sweeps += answer.sweeps;
+      free_count += answer.verdict == NSVCD_FREE;
+      hits += answer.verdict == NSVCD_HIT;
+      undecided += answer.verdict == NSVCD_UNDECIDED;
+      for (int k = 0; k <= 60 && answer.verdict == NSVCD_FREE; k++) {
+        double q[6];
+        const double s = k / 60.0 * (double)motion.pieces;
+        const size_t piece = s < 1 ? 0 : motion.pieces - 1;
+        joints_of_piece(flat + 6 * piece * degree, degree, 6, s - (double)piece, q);
+        for (size_t p = 0; p < r.scene.pair_count; p++)
+          CHECK_LE((double)options.clearance, robot_apart(&r, &r.pairs[p], q, 0.1) + 1e-9);
+      }
+      if (answer.verdict == NSVCD_HIT) {
+        double q[6];
+        joints_of_piece(flat + 6 * answer.piece * degree, degree, 6, answer.share, q);
+        CHECK_LE(robot_apart(&r, &r.pairs[answer.pair], q, 0.1), (double)options.clearance + 2e-5);
+      }
+    }
+    free(r.memory);
+  }
+  printf("  free %zu, hit %zu, undecided %zu; %.1f sweeps each\n", free_count, hits, undecided,
+         (double)sweeps / 400);
+  CHECK_GE(free_count, 60);
+  CHECK_GE(hits, 60);
+  CHECK_LE(undecided, 4);
+}
+
+// Poses are those of the matrices, to float's last digits; limits are looked at between points, and
+// reaching one by rounding is not leaving it; a configuration is a motion of no pieces.
+static void robot_parts_are_where_joints_say(void) {
+  static robot r;
+  shapes_rng rng = {73};
+  for (int trial = 0; trial < 200; trial++) {
+    double q[NSVCD_MAX_JOINTS];
+    nsvcd_pose poses[MOST_PARTS];
+    robot_random(&r, &rng);
+    robot_open(&r);
+    for (size_t j = 0; j < r.scene.joint_count; j++) q[j] = shapes_uniform(&rng, -3, 3);
+    nsvcd_checker_place(r.checker, q, poses);
+    for (size_t n = 0; n < r.scene.part_count; n++) {
+      const placed at = placed_part(&r.scene, n, q);
+      CHECK_LE(robot_off(&r, n, &at, &poses[n], &poses[n], 0), 2e-6);
+    }
+    free(r.memory);
+  }
+}
+
+static void robot_limits_are_kept(void) {
+  static robot r;
+  shapes_rng rng = {74};
+  nsvcd_check_answer answer;
+  memset(&answer, 0, sizeof answer);
+  // joint 2 goes to its limit and back, and a little beyond it between its ends
+  double points[3][6] = {{0}, {0}, {0}};
+  const nsvcd_joint_motion motion = {1, 2, &points[0][0]};
+  const nsvcd_joint_motion still = {0, 0, &points[1][0]};
+  robot_arm(&r, &rng, 0);
+  points[1][2] = 2 * 3.1;
+  CHECK_EQ(nsvcd_check(r.checker, &motion, NULL, &answer), NSVCD_OK);
+  CHECK_EQ(answer.joint, NSVCD_NONE);
+  points[1][2] *= 1 + 1e-6;
+  CHECK_EQ(nsvcd_check(r.checker, &motion, NULL, &answer), NSVCD_OK);
+  CHECK_EQ(answer.joint, 2);
+  points[1][2] = r.joints[2].high * (1 + 1e-12);
+  CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
+  CHECK_EQ(answer.joint, NSVCD_NONE);
+  points[1][2] = -r.joints[2].high - 1e-3;
+  CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
+  CHECK_EQ(answer.joint, 2);
+  // without limits there is nothing to leave
+  r.joints[2].kind = NSVCD_JOINT_CONTINUOUS;
+  CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
+  CHECK_EQ(answer.joint, NSVCD_NONE);
+  free(r.memory);
+}
+
+// What cannot be is refused, with a code, and the answer left as it was.
+static void robot_refuses_bad_input(void) {
+  static robot r;
+  shapes_rng rng = {75};
+  nsvcd_check_answer answer;
+  nsvcd_check_options options;
+  nsvcd_checker *checker = NULL;
+  double points[2][6] = {{0}, {0}};
+  nsvcd_joint_motion motion = {1, 1, &points[0][0]};
+  memset(&options, 0, sizeof options);
+  memset(&answer, 0x33, sizeof answer);
+  const nsvcd_check_answer before = answer;
+  robot_arm(&r, &rng, 1);
+  const size_t size = nsvcd_checker_size(&r.scene);
+  const nsvcd_scene scene = r.scene;
+#define REFUSED_SCENE(change, back, code)                                   \
+  do {                                                                      \
+    change;                                                                 \
+    CHECK_EQ(nsvcd_checker_open(&r.scene, r.memory, size, &checker), code); \
+    CHECK_EQ(nsvcd_checker_size(&r.scene), 0);                              \
+    back;                                                                   \
+    r.scene = scene;                                                        \
+  } while (0)
+  const nsvcd_joint joint = r.joints[3];
+  const nsvcd_part part = r.parts[2];
+  REFUSED_SCENE(r.joints[3].parent = 4, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(memset(r.joints[3].axis, 0, 12), r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.joints[3].axis[1] = NAN, r.joints[3] = joint, NSVCD_ERROR_NUMBER);
+  REFUSED_SCENE(r.joints[3].low = 4, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.joints[3].high = NAN, r.joints[3] = joint, NSVCD_ERROR_NUMBER);
+  REFUSED_SCENE(r.joints[3].kind = (nsvcd_joint_kind)7, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.joints[3].origin.rotation[3] = 0, r.joints[3] = joint, NSVCD_ERROR_POSE);
+  REFUSED_SCENE(r.parts[2].pose.position[0] = NAN, r.parts[2] = part, NSVCD_ERROR_POSE);
+  REFUSED_SCENE(r.parts[2].scale = -1, r.parts[2] = part, NSVCD_ERROR_SCALE);
+  REFUSED_SCENE(r.parts[2].body = NULL, r.parts[2] = part, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.parts[2].link = 7, r.parts[2] = part, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.scene.joint_count = 0, (void)0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.scene.joint_count = NSVCD_MAX_JOINTS + 1, (void)0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.scene.joints = NULL, (void)0, NSVCD_ERROR_ARGUMENT);
+  const nsvcd_body_pair pair = r.pairs[0];
+  REFUSED_SCENE(r.pairs[0].b = r.pairs[0].a, r.pairs[0] = pair, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.pairs[0].b = 99, r.pairs[0] = pair, NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_checker_open(&r.scene, r.memory, size - 1, &checker), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_checker_open(&r.scene, NULL, size, &checker), NSVCD_ERROR_WORKSPACE);
+  CHECK(checker == NULL);
+
+#define REFUSED(change, back, code)                                     \
+  do {                                                                  \
+    change;                                                             \
+    CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), code); \
+    CHECK_EQ(memcmp(&answer, &before, sizeof answer), 0);               \
+    back;                                                               \
+  } while (0)
+  REFUSED(points[1][5] = NAN, points[1][5] = 0, NSVCD_ERROR_NUMBER);
+  REFUSED(points[0][0] = HUGE_VAL, points[0][0] = 0, NSVCD_ERROR_NUMBER);
+  REFUSED(motion.degree = 0, motion.degree = 1, NSVCD_ERROR_ARGUMENT);
+  REFUSED(motion.degree = NSVCD_MAX_DEGREE + 1, motion.degree = 1, NSVCD_ERROR_ARGUMENT);
+  REFUSED(motion.points = NULL, motion.points = &points[0][0], NSVCD_ERROR_ARGUMENT);
+  REFUSED(options.clearance = -1, options.clearance = 0, NSVCD_ERROR_TOLERANCE);
+  REFUSED(options.clearance = NAN, options.clearance = 0, NSVCD_ERROR_TOLERANCE);
+  REFUSED(options.finest = -1, options.finest = 0, NSVCD_ERROR_TOLERANCE);
+  CHECK_EQ(nsvcd_check(NULL, &motion, &options, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+  free(r.memory);
+}
+
+void test_robot(void) {
+  RUN(robot_parts_are_where_joints_say);
+  RUN(robot_limits_are_kept);
+  RUN(robot_refuses_bad_input);
+  RUN(robot_strays_no_farther);
+  RUN(robot_levers_reach);
+  RUN(robot_grazes);
+  RUN(robot_verdicts_are_right);
+}
+CHECK_ALONE(test_robot)
