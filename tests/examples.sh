@@ -210,7 +210,9 @@ verdict '^hit .* as near as 1.1 m: ' "$dir/cube.obj" "$dir/cube.obj" --from 2,0,
 verdict '^hit at t = 0.0000, .*one is inside of the other' "$dir/cube.obj" "$dir/mm.obj" --from 5,5,5 --to 6,6,6
 verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5 --skin 0.001
 verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5
-verdict '^undecided, taken as a hit; free until t = 0.[0-9]*: ' "$dir/cube.obj" "$dir/cube.obj" --work 1 --points 192 --rotate z,30
+# Faces that slide along each other at 30 um, nearer than triangles are stored: whatever the processor and the work.
+verdict '^undecided, taken as a hit; free until t = 0.33[0-9]*: nearer than' "$dir/cube.obj" "$dir/cube.obj" \
+  --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
 verdict '^hit' "$dir/cube.obj" "$dir/open.obj"
 ! grep -q 'from B to A' "$dir/out" || fail "the side of a sheet is not known: $(cat "$dir/out")"
 # A turns on its way, and reaches B where it turns far enough that way; a whole turn is not none.
