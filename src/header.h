@@ -296,6 +296,7 @@ extern "C" {
 
 // ============================================================ robot: is a motion of joints free?
 #include "robot/chain.h"  // what moves what; where everything is
+#include "robot/steps.h"  // what the joints do between two times
 #include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
 #include "robot/path.h"  // pieces, pair by pair
 

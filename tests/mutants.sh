@@ -175,12 +175,16 @@ robot: a slerp of half the angle|return 4 * asin(|return 2 * asin(
 robot: levers of the centre|+ m->radius + moved;|+ moved;
 robot: levers of the sample|+ m->radius + moved;|+ m->radius;
 robot: a step of a ninth|return (bend + second + turn * turn * extent) / 8;|return (bend + second + turn * turn * extent) / 9;
-robot: poses without rounding|stray * (1 + 1e-9) + 2 * rounding|stray
-robot: strays of one part|c->members[both->a].stray + c->members[both->b].stray;|c->members[both->a].stray;
+robot: poses without rounding|c->members[part].stray + 2 * c->members[part].rounding;|c->members[part].stray;
+robot: strays of one part|nsvcd__off(c, both->a) + nsvcd__off(c, both->b);|nsvcd__off(c, both->a);
+robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
+robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
+robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
+robot: bends of a whole piece that is a part|second[i] = steps * steps * twice|second[i] = steps * twice
 robot: no strays|const double clearance = (double)options->clearance + strays;|const double clearance = (double)options->clearance;
 robot: spheres without the clearance|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius;
 robot: spheres at samples alone|const double u = nsvcd__max(0, nsvcd__min(1, share));|const double u = share > 0.5 ? 1 : 0;
-robot: the last piece alone|found.verdict = NSVCD_UNDECIDED;\n    const|if (p + 1 < motion->pieces) continue;\n    const
+robot: the last piece alone|const size_t steps = next - p == 1|if (next < motion->pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
 LIST
 

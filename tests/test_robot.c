@@ -224,33 +224,57 @@ static double robot_off(const robot *r, size_t part, const placed *at, const nsv
   return most;
 }
 
-// No part strays farther than is said, of pieces of all degrees, long and short, cut into few steps
-// and many; and where joints are many some stray by half of that.
+// Where a motion is at a time.
+static void joints_at_time(const nsvcd_joint_motion *motion, size_t joints, double t, double *out) {
+  size_t p = 0;
+  while (p + 1 < motion->pieces && motion->times[p + 1] <= t) p++;
+  const double share = (t - motion->times[p]) / (motion->times[p + 1] - motion->times[p]);
+  joints_of_piece(motion->points + p * motion->degree * joints, motion->degree, joints, share, out);
+}
+
+// No part strays farther than is said, in steps long and short, of one piece and of several, of all
+// degrees, whose speeds fit each other or jump; and where joints are many some stray by half of it.
 static void robot_strays_no_farther(void) {
+  enum { PIECES = 4 };
   static robot r;
   shapes_rng rng = {71};
   double most[NSVCD_MAX_DEGREE + 1] = {0};
+  double most_across[3] = {0};
   double often = 0;
   size_t looks = 0;
-  for (int trial = 0; trial < 600; trial++) {
-    double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
+  for (int trial = 0; trial < 900; trial++) {
+    double flat[(PIECES * NSVCD_MAX_DEGREE + 1) * NSVCD_MAX_JOINTS];
+    double times[PIECES + 1] = {0};
     robot_random(&r, &rng);
     robot_open(&r);
     const size_t joints = r.scene.joint_count;
     const size_t degree = 1 + (size_t)shapes_pick(&rng, NSVCD_MAX_DEGREE);
+    const size_t pieces = trial % 3 ? 1 : 1 + (size_t)shapes_pick(&rng, PIECES);
+    const int jumps = shapes_pick(&rng, 3);  // 0: none; 1: small ones; 2: any
+    const nsvcd_joint_motion motion = {pieces, degree, flat, times};
     const size_t steps = (size_t)1 << shapes_pick(&rng, 5);
     const double size = pow(10, shapes_uniform(&rng, -2, 0.3));
     const double bends = pow(10, shapes_uniform(&rng, -2, 0));
-    double *flat = &points[0][0];
+    for (size_t p = 0; p < pieces; p++) times[p + 1] = times[p] + pow(10, shapes_normal(&rng) / 3);
     for (size_t j = 0; j < joints; j++) {
       const double from = shapes_uniform(&rng, -2, 2);
       const double to = shapes_pick(&rng, 4) ? from + size * shapes_normal(&rng) : from;
-      for (size_t i = 0; i <= degree; i++) {
-        const double share = (double)i / (double)degree;
-        flat[i * joints + j] = from + share * (to - from) + size * bends * shapes_normal(&rng);
+      for (size_t i = 0; i <= pieces * degree; i++) {
+        const double share = (double)i / (double)(pieces * degree);
+        double *at = &flat[i * joints + j];
+        *at = from + share * (to - from) + size * bends * shapes_normal(&rng);
+        if (i < 2 || i % degree != 1 % degree || jumps == 2) continue;
+        const size_t p = (i - 1) / degree;
+        const double way = *(at - joints) - *(at - 2 * joints);
+        *at = *(at - joints) + way * (times[p + 1] - times[p]) / (times[p] - times[p - 1]);
+        if (jumps) *at += 0.1 * size * bends * shapes_normal(&rng);
       }
     }
-    nsvcd__sample(r.checker, flat, degree, 0, 1, steps);
+    for (size_t k = 0; k <= steps; k++) {
+      const double by = k == 0 || k == steps ? 0 : shapes_uniform(&rng, -0.3, 0.3);
+      r.checker->times[k] = times[pieces] * ((double)k + by) / (double)steps;
+    }
+    nsvcd__sample(r.checker, &motion, steps);
     for (size_t part = 0; part < r.scene.part_count; part++) {
       const nsvcd__member *m = &r.checker->members[part];
       double farthest = 0;
@@ -259,13 +283,14 @@ static void robot_strays_no_farther(void) {
         for (int look = 1; look < 8; look++) {
           double q[NSVCD_MAX_JOINTS];
           const double x = look / 8.0;
-          joints_of_piece(flat, degree, joints, ((double)k + x) / (double)steps, q);
+          const double *t = &r.checker->times[k];
+          joints_at_time(&motion, joints, t[0] + x * (t[1] - t[0]), q);
           const placed at = placed_part(&r.scene, part, q);
           double off = robot_off(&r, part, &at, a, a + 1, x);
           // the share of the step that suits best: the nearest place of its way
           double low = 0;
           double high = 1;
-          for (int n = 0; n < 60 && degree > 1; n++) {
+          for (int n = 0; n < 60 && (degree > 1 || pieces > 1); n++) {
             const double u = low + (high - low) / 3;
             const double v = high - (high - low) / 3;
             const double at_u = robot_off(&r, part, &at, a, a + 1, u);
@@ -274,21 +299,28 @@ static void robot_strays_no_farther(void) {
             high = at_u < at_v ? v : high;
             off = fmin(off, fmin(at_u, at_v));
           }
-          CHECK_LE(off, m->stray);
+          CHECK_LE(off, m->stray + 2 * m->rounding);
           farthest = fmax(farthest, off);
         }
       }
       if (m->stray < 1e-5) continue;
-      most[degree] = fmax(most[degree], farthest / m->stray);
+      if (pieces == 1)
+        most[degree] = fmax(most[degree], farthest / m->stray);
+      else
+        most_across[jumps] = fmax(most_across[jumps], farthest / m->stray);
       often += farthest / m->stray;
       looks++;
     }
     free(r.memory);
   }
-  printf("  %zu parts, used in the mean %.2f; at most, by degree: %.2f %.2f %.2f %.2f %.2f\n",
-         looks, often / (double)looks, most[1], most[2], most[3], most[4], most[5]);
+  printf(
+      "  %zu parts, used in the mean %.2f; at most, by degree: %.2f %.2f %.2f %.2f %.2f; across "
+      "pieces, by jumps: %.2f %.2f %.2f\n",
+      looks, often / (double)looks, most[1], most[2], most[3], most[4], most[5], most_across[0],
+      most_across[1], most_across[2]);
   CHECK_GE(most[1], 0.5);
   for (int d = 2; d <= NSVCD_MAX_DEGREE; d++) CHECK_GE(most[d], 0.3);
+  for (int d = 0; d < 3; d++) CHECK_GE(most_across[d], 0.3);
 }
 
 // During a step no vertex is farther from an axis than its lever, and some are nearly as far.
@@ -309,7 +341,8 @@ static void robot_levers_reach(void) {
       flat[j] = shapes_uniform(&rng, -2, 2);
       flat[joints + j] = flat[j] + size * shapes_normal(&rng);
     }
-    nsvcd__step_cut(flat, 1, joints, 0, 1, &step);
+    const nsvcd_joint_motion motion = {1, 1, flat, NULL};
+    nsvcd__step_of(&motion, joints, 0, 1, &step);
     memcpy(from.joints, flat, joints * sizeof *flat);
     nsvcd__place_links(r.checker, &from);
     const size_t part = joints - 1;
@@ -440,7 +473,7 @@ static void robot_grazes(void) {
       least = fmin(least, fmin(at_u, at_v));
     }
     robot_open(&r);
-    const nsvcd_joint_motion motion = {1, degree, flat};
+    const nsvcd_joint_motion motion = {1, degree, flat, NULL};
     CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
     if (least < reach - 1e-6) CHECK(answer.verdict != NSVCD_FREE);
     if (least > reach + 1e-6) CHECK(answer.verdict != NSVCD_HIT);
@@ -575,7 +608,7 @@ static double robot_apart(const robot *r, const nsvcd_body_pair *pair, const dou
   return inside ? -1 : apart;
 }
 
-// What is said of edges and curves of an arm among boxes is so, at many times.
+// What is said of configurations, edges and curves of an arm among boxes is so, at many times.
 static void robot_verdicts_are_right(void) {
   static robot r;
   shapes_rng rng = {72};
@@ -583,6 +616,7 @@ static void robot_verdicts_are_right(void) {
   size_t hits = 0;
   size_t undecided = 0;
   size_t sweeps = 0;
+  size_t still_hits = 0;
   for (int trial = 0; trial < 40; trial++) {
     robot_arm(&r, &rng, 12);
     for (int n = 0; n < 10; n++) {
@@ -593,7 +627,7 @@ static void robot_verdicts_are_right(void) {
       memset(&answer, 0, sizeof answer);
       options.clearance = shapes_pick(&rng, 2) ? 0 : 0.005f;
       const size_t degree = 1 + (size_t)shapes_pick(&rng, 5);
-      nsvcd_joint_motion motion = {1 + (size_t)shapes_pick(&rng, 2), degree, NULL};
+      nsvcd_joint_motion motion = {(size_t)shapes_pick(&rng, 3), degree, NULL, NULL};
       double *flat = &points[0][0];
       const size_t count = motion.pieces * degree + 1;
       for (size_t j = 0; j < 6; j++) {
@@ -613,20 +647,24 @@ static void robot_verdicts_are_right(void) {
         double q[6];
         const double s = k / 60.0 * (double)motion.pieces;
         const size_t piece = s < 1 ? 0 : motion.pieces - 1;
-        joints_of_piece(flat + 6 * piece * degree, degree, 6, s - (double)piece, q);
+        const size_t order = motion.pieces ? degree : 0;
+        joints_of_piece(flat + 6 * piece * degree, order, 6, s - (double)piece, q);
         for (size_t p = 0; p < r.scene.pair_count; p++)
           CHECK_LE((double)options.clearance, robot_apart(&r, &r.pairs[p], q, 0.1) + 1e-9);
       }
       if (answer.verdict == NSVCD_HIT) {
         double q[6];
-        joints_of_piece(flat + 6 * answer.piece * degree, degree, 6, answer.share, q);
+        const size_t order = motion.pieces ? degree : 0;
+        joints_of_piece(flat + 6 * answer.piece * degree, order, 6, answer.share, q);
+        still_hits += motion.pieces == 0;
         CHECK_LE(robot_apart(&r, &r.pairs[answer.pair], q, 0.1), (double)options.clearance + 2e-5);
       }
     }
     free(r.memory);
   }
-  printf("  free %zu, hit %zu, undecided %zu; %.1f sweeps each\n", free_count, hits, undecided,
-         (double)sweeps / 400);
+  printf("  free %zu, hit %zu, of which at rest %zu, undecided %zu; %.1f sweeps each\n", free_count,
+         hits, still_hits, undecided, (double)sweeps / 400);
+  CHECK_GE(still_hits, 10);
   CHECK_GE(free_count, 60);
   CHECK_GE(hits, 60);
   CHECK_LE(undecided, 4);
@@ -659,8 +697,8 @@ static void robot_limits_are_kept(void) {
   memset(&answer, 0, sizeof answer);
   // joint 2 goes to its limit and back, and a little beyond it between its ends
   double points[3][6] = {{0}, {0}, {0}};
-  const nsvcd_joint_motion motion = {1, 2, &points[0][0]};
-  const nsvcd_joint_motion still = {0, 0, &points[1][0]};
+  const nsvcd_joint_motion motion = {1, 2, &points[0][0], NULL};
+  const nsvcd_joint_motion still = {0, 0, &points[1][0], NULL};
   robot_arm(&r, &rng, 0);
   points[1][2] = 2 * 3.1;
   CHECK_EQ(nsvcd_check(r.checker, &motion, NULL, &answer), NSVCD_OK);
@@ -689,7 +727,7 @@ static void robot_refuses_bad_input(void) {
   nsvcd_check_options options;
   nsvcd_checker *checker = NULL;
   double points[2][6] = {{0}, {0}};
-  nsvcd_joint_motion motion = {1, 1, &points[0][0]};
+  nsvcd_joint_motion motion = {1, 1, &points[0][0], NULL};
   memset(&options, 0, sizeof options);
   memset(&answer, 0x33, sizeof answer);
   const nsvcd_check_answer before = answer;

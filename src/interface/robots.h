@@ -61,22 +61,25 @@ typedef struct nsvcd_scene {
   size_t pair_count;
 } nsvcd_scene;
 
-// A motion of the joints: pieces one after another, each a Bezier curve of this degree, which
-// begins where the one before ends. A polyline has degree 1. Where there are no pieces it is one
-// configuration, at which the robot rests.
+// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time,
+// which begins where the one before ends. A polyline has degree 1. Where there are no pieces it is
+// one configuration, at which the robot rests.
 typedef struct nsvcd_joint_motion {
   size_t pieces;
   // 1..NSVCD_MAX_DEGREE
   size_t degree;
   // (pieces degree + 1, F), radians or metres
   const double *points;
+  // (pieces + 1), seconds, rising; NULL: each piece takes one. Without jumps of speed a motion is
+  // asked about in fewer sweeps
+  const double *times;
 } nsvcd_joint_motion;
 
 // What is zero is the default.
 typedef struct nsvcd_check_options {
   // metres: to come as near as this is a hit
   float clearance;
-  // metres: no sample is put where a link leaves its sweep by less than this; 20 um
+  // metres: no sample is put where a link leaves its sweep by less than this; 10 um
   float finest;
   // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
   size_t work;

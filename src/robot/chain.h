@@ -2,6 +2,7 @@
 // floor, top to bottom:
 //
 //   chain       what moves what; where everything is
+//   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
 //
@@ -13,13 +14,18 @@
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // The schedule of a check.
-// steps that are looked at together, at most, and how often a piece is halved where that is too few
+// steps that are looked at together, at most, and how often a motion is halved where that is too
+// few
 #define NSVCD__MOST_STEPS 256
 #define NSVCD__STRETCHES 8
+// steps of what bends, at first
+#define NSVCD__FIRST_STEPS 4
+// radians or metres: where the way bends by less, steps go on across
+#define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
 #define NSVCD__COARSE 2e-3
 #define NSVCD__STRAY_SHARE 8
-#define NSVCD__FINEST 2e-5f
+#define NSVCD__FINEST 1e-5f
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
@@ -56,8 +62,9 @@ typedef struct nsvcd__member {
   double radius, whole_radius, extent;
   // of a part that moves: where its samples begin
   size_t row;
-  // metres: by how much it leaves the way between its samples, at most
-  double stray;
+  // metres, at most: by how much it leaves the way between its samples, and what poses in float are
+  // off
+  double stray, rounding;
 } nsvcd__member;
 
 struct nsvcd_checker {
@@ -67,11 +74,13 @@ struct nsvcd_checker {
   size_t mover_count;      // parts that move
   // (P): the pairs, as they are asked: what was hit last first
   uint32_t *order;
-  // (P): those of a piece that are not proven yet
+  // (P): those of a stretch that are not proven yet
   uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples of a piece, and the centres of their spheres there
+  // (movers, NSVCD__MOST_STEPS + 1): samples, and the centres of the parts' spheres there
   nsvcd_pose *poses;
   nsvcd__d3 *centres;
+  // the times of the samples, and the most that a part strays in the step after each
+  double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
   void *query;
   size_t query_size;

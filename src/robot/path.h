@@ -122,6 +122,8 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     m->radius = 1.000001 * scale * (double)part->body->radius;
     m->whole_radius = 1.000001 * scale * (double)nsvcd__whole_radius(part->body);
     m->extent = 1.000001 * scale * (double)part->body->extent;
+    m->stray = 0;
+    m->rounding = 0;
     m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
     m->row *= row;
     row += part->link > 0;
@@ -131,70 +133,78 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   return NSVCD_OK;
 }
 
-// ---- samples of a piece
+// ---- samples
 
-// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
-static void nsvcd__step_cut(const double *points, size_t degree, size_t joints, double s0,
-                            double s1, nsvcd__step *step) {
-  const double before = s1 > 0 ? s0 / s1 : 0;
-  for (size_t j = 0; j < joints; j++) {
-    double p[NSVCD_MAX_DEGREE + 1];
-    for (size_t i = 0; i <= degree; i++) p[i] = points[i * joints + j];
-    // the first s1 of it: p[i] becomes the point of level i
-    for (size_t level = 1; level <= degree && s1 < 1; level++) {
-      for (size_t i = degree; i >= level; i--) p[i] = p[i - 1] + s1 * (p[i] - p[i - 1]);
-    }
-    // of that, what is after s0
-    for (size_t level = 1; level <= degree && before > 0; level++) {
-      for (size_t i = 0; i + level <= degree; i++) p[i] = p[i] + before * (p[i + 1] - p[i]);
-    }
-    for (size_t i = 0; i <= degree; i++) step->points[i][j] = p[i];
+// Places the parts that move, at a configuration, as sample k.
+static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+  const nsvcd_scene *scene = c->scene;
+  for (size_t n = 0; n < scene->part_count; n++) {
+    nsvcd__member *m = &c->members[n];
+    const size_t link = scene->parts[n].link;
+    if (!link) continue;
+    const nsvcd__frame frame = nsvcd__frame_in(&at->frames[link], &m->frame);
+    const nsvcd__frame sphere = {{0, 0, 0, 1}, m->centre};
+    c->poses[m->row + k] = nsvcd__pose_in(&frame);
+    c->centres[m->row + k] = nsvcd__frame_in(&at->frames[link], &sphere).place;
+    // places and quaternions as floats are off by no more
+    const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
+    m->rounding = k ? nsvcd__max(m->rounding, rounding) : rounding;
   }
-  nsvcd__step_measure(step, degree, joints);
 }
 
-// Cuts a stretch of a piece, from share s0 to s1, into so many steps, and fills in, for each part
-// that moves, its samples, and by how much it strays between them.
-static void nsvcd__sample(nsvcd_checker *c, const double *points, size_t degree, double s0,
-                          double s1, size_t steps) {
+// Fills in, for each part that moves, its samples at c->times, and by how much it strays between
+// them.
+static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
+  const size_t bytes = scene->joint_count * sizeof(double);
   nsvcd__step step;
   nsvcd__configuration *from = &c->at;
   nsvcd__configuration *to = &c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
-  for (size_t k = 0; k <= steps; k++) {
-    if (k < steps) {
-      const double from_share = s0 + (s1 - s0) * (double)k / (double)steps;
-      const double to_share =
-          k + 1 < steps ? s0 + (s1 - s0) * (double)(k + 1) / (double)steps : s1;
-      nsvcd__step_cut(points, degree, scene->joint_count, from_share, to_share, &step);
-    }
+  for (size_t k = 0; k < steps; k++) {
+    nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
     if (k == 0) {
-      memcpy(from->joints, step.points[0], sizeof from->joints);
+      memcpy(from->joints, step.from, bytes);
       nsvcd__place_links(c, from);
+      nsvcd__sample_put(c, from, 0);
     }
-    if (k < steps) {
-      memcpy(to->joints, step.points[degree], sizeof to->joints);
-      nsvcd__place_links(c, to);
-    }
+    memcpy(to->joints, step.to, bytes);
+    nsvcd__place_links(c, to);
+    nsvcd__sample_put(c, to, k + 1);
+    c->strays[k] = 0;
     for (size_t n = 0; n < scene->part_count; n++) {
       nsvcd__member *m = &c->members[n];
-      const size_t link = scene->parts[n].link;
-      if (!link) continue;
-      const nsvcd__frame frame = nsvcd__frame_in(&from->frames[link], &m->frame);
-      const nsvcd__frame sphere = {{0, 0, 0, 1}, m->centre};
-      c->poses[m->row + k] = nsvcd__pose_in(&frame);
-      c->centres[m->row + k] = nsvcd__frame_in(&from->frames[link], &sphere).place;
-      // places and quaternions as floats are off by no more
-      const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
-      double stray = 0;
-      if (k < steps) stray = nsvcd__stray_of(c, n, &step, from, to);
-      m->stray = nsvcd__max(m->stray, stray * (1 + 1e-9) + 2 * rounding);
+      if (!scene->parts[n].link) continue;
+      const double stray = nsvcd__stray_of(c, n, &step, from, to) * (1 + 1e-9);
+      c->strays[k] = nsvcd__max(c->strays[k], stray);
+      m->stray = nsvcd__max(m->stray, stray);
     }
     nsvcd__configuration *other = from;
     from = to;
     to = other;
   }
+}
+
+// Cuts steps so that no part strays by more than is allowed, as far as can be foreseen: strays go
+// by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
+// were too many: then nothing is done.
+static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
+  size_t total = 0;
+  for (size_t k = 0; k < steps; k++) {
+    const double pieces = ceil(sqrt(c->strays[k] / allowed));
+    if (!(pieces <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
+    total += pieces > 1 ? (size_t)pieces : 1;
+  }
+  if (total > NSVCD__MOST_STEPS) return total;
+  size_t at = total;
+  c->times[total] = c->times[steps];
+  for (size_t k = steps; k-- > 0;) {
+    const double pieces = nsvcd__max(ceil(sqrt(c->strays[k] / allowed)), 1);
+    const double from = c->times[k];
+    const double way = c->times[at] - from;
+    for (size_t i = (size_t)pieces; i-- > 0;) c->times[--at] = from + way * (double)i / pieces;
+  }
+  return total;
 }
 
 // ---- pairs
@@ -234,6 +244,11 @@ static int nsvcd__stay_apart(const nsvcd_checker *c, const nsvcd_body_pair *pair
     from = to;
   }
   return 1;
+}
+
+// By how much a part is off the way that its samples say, at most.
+static double nsvcd__off(const nsvcd_checker *c, size_t part) {
+  return c->members[part].stray + 2 * c->members[part].rounding;
 }
 
 // Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
@@ -303,76 +318,108 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
   c->order[0] = (uint32_t)pair;
 }
 
-// A stretch of a piece, from share s0 to s1, or, where the degree is 0, one configuration. What
-// takes too many steps is halved, so often at most.
-static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const double *points, size_t degree,
-                                         double s0, double s1, int halvings,
+// Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
+// proof reached, then about where the samples' own way hits. found: what the proof said.
+static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                    size_t pair, size_t steps, nsvcd_answer *found,
+                                    const nsvcd_check_options *options,
+                                    nsvcd_check_answer *answer) {
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  double joints[NSVCD_MAX_JOINTS];
+  nsvcd_result result = NSVCD_OK;
+  answer->pair = pair;
+  answer->why = found->why;
+  for (int look = 0; look < 2 && !result && found->verdict != NSVCD_FREE; look++) {
+    if (steps > 0) {
+      // times of a sweep go by samples
+      const double at = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const size_t k = at < 1 ? (size_t)(at * (double)steps) : steps - 1;
+      const double share = at * (double)steps - (double)k;
+      const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
+      answer->piece = nsvcd__piece_at(motion, time);
+      answer->share = nsvcd__share_at(motion, answer->piece, time);
+    }
+    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->share, joints,
+                     NULL);
+    result = nsvcd__ask_at(c, pair, joints, options, answer);
+    if (answer->verdict == NSVCD_HIT) return result;
+    if (look == 0 && !result)
+      result = nsvcd__ask_pair(c, both, steps, 0, options, found, answer);
+  }
+  return result;
+}
+
+// A stretch of a motion from time t0 to t1 in so many steps at first, or, with none, one
+// configuration. What takes too many steps is halved, so often at most.
+static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                         double t0, double t1, size_t steps, int halvings,
                                          const nsvcd_check_options *options,
                                          nsvcd_check_answer *answer) {
-  const size_t joints = c->scene->joint_count;
-  size_t steps = degree > 0;
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
-  nsvcd__step step;
   memcpy(c->left, c->order, left * sizeof *c->left);
-  nsvcd__sample(c, points, degree, s0, s1, steps);
+  answer->piece = steps ? nsvcd__piece_at(motion, t0) : 0;
+  answer->share = steps ? nsvcd__share_at(motion, answer->piece, t0) : 0;
+  for (size_t k = 0; k <= steps; k++)
+    c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
+  if (steps > 0) {
+    nsvcd__sample(c, motion, steps);
+  } else {
+    memcpy(c->at.joints, motion->points, c->scene->joint_count * sizeof(double));
+    nsvcd__place_links(c, &c->at);
+    nsvcd__sample_put(c, &c->at, 0);
+    for (size_t n = 0; n < c->scene->part_count; n++) c->members[n].stray = 0;
+  }
   answer->placed += steps + 1;
   while (left > 0) {
-    double most = 0;
-    for (size_t n = 0; n < c->scene->part_count; n++) most = fmax(most, c->members[n].stray);
-    // strays go by the square of a step
-    const double finer = ceil(sqrt(most / allowed));
-    const double wanted = finer * (double)steps;
-    if (wanted > NSVCD__MOST_STEPS && halvings > 0) {
-      const double middle = 0.5 * (s0 + s1);
+    const size_t finer = nsvcd__refine_steps(c, steps, allowed);
+    if (finer > NSVCD__MOST_STEPS) {
+      const double middle = 0.5 * (t0 + t1);
+      if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
       const nsvcd_result result =
-          nsvcd__check_stretch(c, points, degree, s0, middle, halvings - 1, options, answer);
+          nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);
       if (result || answer->verdict != NSVCD_FREE) return result;
       answer->verdict = NSVCD_UNDECIDED;
-      return nsvcd__check_stretch(c, points, degree, middle, s1, halvings - 1, options,
-                                  answer);
+      return nsvcd__check_stretch(c, motion, middle, t1, steps, halvings - 1, options, answer);
     }
-    if (degree > 0 && finer > 1) {
-      steps = wanted < NSVCD__MOST_STEPS ? (size_t)wanted : NSVCD__MOST_STEPS;
-      nsvcd__sample(c, points, degree, s0, s1, steps);
+    if (finer > steps) {
+      steps = finer;
+      nsvcd__sample(c, motion, steps);
       answer->placed += steps + 1;
     }
     size_t kept = 0;
     for (size_t n = 0; n < left; n++) {
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
-      double strays = c->members[both->a].stray + c->members[both->b].stray;
+      const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
       nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
-      answer->pair = pair;
-      answer->why = found.why;
-      // as near as this where it is proven so far: is it hit there, or where the samples' way is?
-      for (int look = 0; look < 2 && !result && found.verdict != NSVCD_FREE; look++) {
-        const double time = steps ? fmin(fmax((double)found.nearest.time, 0), 1) : 0;
-        const double share = s0 + (s1 - s0) * time;
-        nsvcd__step_cut(points, degree, joints, 0, share, &step);
-        answer->share = share;
-        result = nsvcd__ask_at(c, pair, step.points[degree], options, answer);
-        if (!result && answer->verdict == NSVCD_HIT) {
-          nsvcd__put_first(c, pair);
-          return NSVCD_OK;
-        }
-        if (look == 0 && !result)
-          result = nsvcd__ask_pair(c, both, steps, 0, options, &found, answer);
-      }
+      if (!result) result = nsvcd__seek_hit(c, motion, pair, steps, &found, options, answer);
       if (result) return result;
+      if (answer->verdict == NSVCD_HIT) {
+        nsvcd__put_first(c, pair);
+        return NSVCD_OK;
+      }
       c->left[kept++] = (uint32_t)pair;
     }
     left = kept;
     if (left == 0) break;
-    if (steps == 0 || steps == NSVCD__MOST_STEPS || allowed <= (double)options->finest)
-      return NSVCD_OK;
-    allowed = fmax(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
+    if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
+    allowed = nsvcd__max(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
   return NSVCD_OK;
+}
+
+// Does the motion turn sharply where a piece begins? There a sample belongs.
+static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, size_t piece) {
+  const double before = nsvcd__piece_time(motion, piece - 1);
+  const double after = nsvcd__piece_time(motion, piece);
+  double jumps = 0;
+  for (size_t j = 0; j < joints; j++) jumps += nsvcd__jump_at(motion, joints, piece, j);
+  return !(jumps * nsvcd__min(before, after) <= NSVCD__CORNER);
 }
 
 // Does a joint leave its limits in a piece? Halved until it is within at all its points, or out at
@@ -415,14 +462,19 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   nsvcd_check_answer found;
   nsvcd_check_options o;
   if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
-  const size_t joints = checker->scene->joint_count;
+  const nsvcd_scene *scene = checker->scene;
+  const size_t joints = scene->joint_count;
   const size_t degree = motion->pieces ? motion->degree : 0;
   if (motion->pieces && (degree < 1 || degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
   if (motion->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_ARGUMENT;
+  const double most = (double)NSVCD_MAX_COORDINATE;
   for (size_t k = 0; k < (motion->pieces * degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(motion->points[k], (double)NSVCD_MAX_COORDINATE))
-      return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_number(motion->points[k], most)) return NSVCD_ERROR_NUMBER;
+  }
+  for (size_t p = 0; p <= motion->pieces && motion->times; p++) {
+    if (!nsvcd__is_number(motion->times[p], most)) return NSVCD_ERROR_NUMBER;
+    if (p > 0 && !(motion->times[p] > motion->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
   }
   memset(&o, 0, sizeof o);
   if (options) o = *options;
@@ -432,17 +484,24 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
-  for (size_t p = 0; p < motion->pieces + !motion->pieces; p++) {
-    const double *points = motion->points + p * degree * joints;
-    if (found.joint == NSVCD_NONE)
-      found.joint = nsvcd__joint_outside(checker->scene, points, degree);
+  for (size_t p = 0; p < motion->pieces + !motion->pieces && found.joint == NSVCD_NONE; p++)
+    found.joint = nsvcd__joint_outside(scene, motion->points + p * degree * joints, degree);
+  found.verdict = NSVCD_UNDECIDED;
+  nsvcd_result result = NSVCD_OK;
+  if (motion->pieces == 0)
+    result = nsvcd__check_stretch(checker, motion, 0, 0, 0, 0, &o, &found);
+  // from corner to corner
+  for (size_t p = 0, next; p < motion->pieces && !result; p = next) {
+    next = p + 1;
+    while (next < motion->pieces && !nsvcd__is_corner(motion, joints, next)) next++;
+    const size_t steps = next - p == 1 && degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     found.verdict = NSVCD_UNDECIDED;
-    const nsvcd_result result = nsvcd__check_stretch(checker, points, degree, 0, degree > 0,
-                                                     NSVCD__STRETCHES, &o, &found);
-    if (result) return result;
-    found.piece = p;
+    result = nsvcd__check_stretch(checker, motion, nsvcd__piece_start(motion, p),
+                                  nsvcd__piece_start(motion, next), steps, NSVCD__STRETCHES,
+                                  &o, &found);
     if (found.verdict != NSVCD_FREE) break;
   }
+  if (result) return result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
     found.share = 0;

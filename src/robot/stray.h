@@ -4,7 +4,8 @@
 // THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x is the share of it that has
 // gone by, and u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: it goes from 0 to 1 as
 // well, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q'' -
-// g d, derivatives by x: |e| <= max |e''| / 8. What a point y of the part is, at most, off where
+// g d, derivatives by x: |e| <= max |e''| / 8; where q' jumps by v, e' does by h v, and |e| may be
+// more by h v / 4. What a point y of the part is, at most, off where
 // q0 + u d has it:
 //   sum over joints j of |e_j| r_j           r_j: no point is farther from the axis of j
 // On the straight way q0 + u d the point is off its chord by max |y''| / 8, derivatives by u. With
@@ -18,50 +19,9 @@
 // r_j is that of the sample q0, and what joints beyond j can add while they move.
 // Source: this library.
 #pragma once
-#include "chain.h"
+#include "steps.h"
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
-// A part of a piece, as a Bezier curve: (degree + 1, F); and what follows for each joint.
-typedef struct nsvcd__step {
-  double points[NSVCD_MAX_DEGREE + 1][NSVCD_MAX_JOINTS];
-  // |d|; max |q - q0|; max |e''|
-  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS], bend[NSVCD_MAX_JOINTS];
-} nsvcd__step;
-
-// Second differences of a step's points, times what makes them h^2 q''.
-static double nsvcd__second(const nsvcd__step *step, size_t degree, size_t i, size_t joint) {
-  const double by = (double)(degree * (degree - 1));
-  const double *a = &step->points[i][joint];
-  return by * (a[0] - 2 * a[NSVCD_MAX_JOINTS] + a[2 * NSVCD_MAX_JOINTS]);
-}
-
-// Fills in what follows from the points.
-static void nsvcd__step_measure(nsvcd__step *step, size_t degree, size_t joints) {
-  double along = 0;
-  double square = 0;
-  for (size_t j = 0; j < joints; j++) {
-    const double from = step->points[0][j];
-    const double d = step->points[degree][j] - from;
-    step->way[j] = fabs(d);
-    step->reach[j] = 0;
-    step->bend[j] = 0;
-    square += d * d;
-    for (size_t i = 1; i <= degree; i++)
-      step->reach[j] = nsvcd__max(step->reach[j], fabs(step->points[i][j] - from));
-    for (size_t i = 0; i + 1 < degree; i++)
-      along += d * nsvcd__second(step, degree, i, j) / (double)(degree - 1);
-  }
-  if (degree == 1) return;
-  const double g = square > 0 ? nsvcd__max(-2, nsvcd__min(2, along / square)) : 0;
-  for (size_t j = 0; j < joints; j++) {
-    const double d = step->points[degree][j] - step->points[0][j];
-    for (size_t i = 0; i + 1 < degree; i++) {
-      const double off = fabs(nsvcd__second(step, degree, i, j) - g * d);
-      step->bend[j] = nsvcd__max(step->bend[j], off);
-    }
-  }
-}
-
 // The angle of the turn from a to b, radians: the shorter one.
 static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;

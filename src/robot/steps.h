@@ -1,0 +1,142 @@
+// In: a motion of the joints, and two times. Out: what the joints do between them.
+#pragma once
+#include "chain.h"
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// A step of a motion, from one time to another, h later; x is the share of it that has gone by.
+typedef struct nsvcd__step {
+  // joints at both ends
+  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
+  // |d|, d = to - from; max |q - from|
+  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS];
+  // how much each joint bends: 8 |e| is no more, see robot/stray
+  double bend[NSVCD_MAX_JOINTS];
+} nsvcd__step;
+
+static double nsvcd__piece_start(const nsvcd_joint_motion *motion, size_t piece) {
+  return motion->times ? motion->times[piece] : (double)piece;
+}
+
+static double nsvcd__piece_time(const nsvcd_joint_motion *motion, size_t piece) {
+  return nsvcd__piece_start(motion, piece + 1) - nsvcd__piece_start(motion, piece);
+}
+
+// The piece that a time is in; of two, the later one.
+static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
+  size_t low = 0;
+  size_t high = motion->pieces;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__piece_start(motion, middle) <= time)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The share of a piece that has gone by at a time.
+static double nsvcd__share_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
+  const double start = nsvcd__piece_start(motion, piece);
+  if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
+  return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
+}
+
+// Points of one joint in a piece.
+static void nsvcd__joint_points(const nsvcd_joint_motion *motion, size_t piece, size_t joints,
+                                size_t joint, double *p) {
+  const double *first = motion->points + piece * motion->degree * joints + joint;
+  for (size_t i = 0; i <= motion->degree; i++) p[i] = first[i * joints];
+}
+
+// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
+static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
+  const double before = s1 > 0 ? s0 / s1 : 0;
+  // the first s1 of it: p[i] becomes the point of level i
+  for (size_t level = 1; level <= degree && s1 < 1; level++) {
+    for (size_t i = degree; i >= level; i--) p[i] = p[i - 1] + s1 * (p[i] - p[i - 1]);
+  }
+  // of that, what is after s0
+  for (size_t level = 1; level <= degree && before > 0; level++) {
+    for (size_t i = 0; i + level <= degree; i++) p[i] = p[i] + before * (p[i + 1] - p[i]);
+  }
+}
+
+// The joints in a piece at a share of it, and, unless NULL, their speeds.
+static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+                             double share, double *at, double *speeds) {
+  const size_t degree = motion->pieces ? motion->degree : 0;
+  for (size_t j = 0; j < joints; j++) {
+    double p[NSVCD_MAX_DEGREE + 1];
+    for (size_t i = 0; i <= degree; i++)
+      p[i] = motion->points[(piece * degree + i) * joints + j];
+    for (size_t level = degree; level > 0; level--) {
+      if (level == 1 && speeds)
+        speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
+      // both ends exactly
+      for (size_t i = 0; i < level; i++)
+        p[i] = share < 1 ? p[i] + share * (p[i + 1] - p[i]) : p[i + 1];
+    }
+    at[j] = p[0];
+  }
+}
+
+// By how much the speed of a joint jumps where a piece begins.
+static double nsvcd__jump_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+                             size_t joint) {
+  const double *at = motion->points + piece * motion->degree * joints + joint;
+  const double before = (at[0] - *(at - joints)) / nsvcd__piece_time(motion, piece - 1);
+  const double after = (at[joints] - at[0]) / nsvcd__piece_time(motion, piece);
+  return fabs((double)motion->degree * (after - before));
+}
+
+// What the joints do from time t0 to t1, through as many pieces as there are. Where the speed jumps
+// by v, e has a corner: |e| is more by h v / 4 at most.
+static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, double t0,
+                           double t1, nsvcd__step *step) {
+  const size_t degree = motion->degree;
+  const double twice = (double)(degree * (degree - 1));
+  const size_t first = nsvcd__piece_at(motion, t0);
+  size_t last = first;
+  double v0[NSVCD_MAX_JOINTS], v1[NSVCD_MAX_JOINTS];
+  double along = 0;
+  double square = 0;
+  const double h = t1 - t0;
+  while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
+  const double end = nsvcd__share_at(motion, last, t1);
+  nsvcd__joints_at(motion, joints, first, nsvcd__share_at(motion, first, t0), step->from, v0);
+  nsvcd__joints_at(motion, joints, last, end, step->to, v1);
+  for (size_t j = 0; j < joints; j++) {
+    const double d = step->to[j] - step->from[j];
+    step->way[j] = step->reach[j] = fabs(d);
+    step->bend[j] = 0;
+    if (degree > 1) along += d * h * (v1[j] - v0[j]);
+    square += d * d;
+  }
+  if (degree == 1 && first == last) return;
+  // what suits the mean of the second derivatives
+  const double g = square > 0 ? nsvcd__max(-2, nsvcd__min(2, along / square)) : 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double from = step->from[j];
+    const double d = step->to[j] - from;
+    double jumps = 0;
+    for (size_t piece = first; piece <= last; piece++) {
+      double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
+      const double s0 = piece == first ? nsvcd__share_at(motion, piece, t0) : 0;
+      const double s1 = piece == last ? end : 1;
+      const double steps = h / nsvcd__piece_time(motion, piece);
+      nsvcd__joint_points(motion, piece, joints, j, p);
+      for (size_t i = 0; i + 2 <= degree; i++)
+        second[i] = steps * steps * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
+      if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
+      nsvcd__cut_curve(p, degree, s0, s1);
+      for (size_t i = 0; i <= degree; i++)
+        step->reach[j] = nsvcd__max(step->reach[j], fabs(p[i] - from));
+      for (size_t i = 0; i + 2 <= degree; i++)
+        step->bend[j] = nsvcd__max(step->bend[j], fabs(second[i] - g * d));
+      if (piece > first) jumps += nsvcd__jump_at(motion, joints, piece, j);
+    }
+    step->bend[j] += 2 * h * jumps;
+  }
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
