@@ -142,6 +142,7 @@
 //     bodies          encoding, loading, scaling, facts
 //     queries         movers, options, answers; nsvcd_sweep and its kin
 //     robots          joints, parts, checks of motions; nsvcd_check
+//     routes          a start and goals; nsvcd_route
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
@@ -151,6 +152,7 @@
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
 //     spheres         spheres and discs, as bodies store them
+//     random          random numbers
 //     memory          the allocator; the rows of a workspace
 //     slices          how many of 16 lanes a register holds
 //   mesh: files and triangles
@@ -225,6 +227,10 @@
 //     steps           what the joints do between two times
 //     stray           by how much a part leaves the line and the slerp between two samples
 //     path            pieces, pair by pair
+//     trees           configurations, and the nearest of them
+//     ramps           from one state to another, within limits of speed and acceleration
+//     smooth          a way in time, then smooth
+//     route           two trees of proven edges, shortcuts
 //   plan: a motion that hits nothing
 //     spline          quintic Hermite
 //     problem         a planning problem in the caller's workspace
@@ -1003,6 +1009,8 @@ typedef struct nsvcd_joint {
   float axis[3];
   // radians or metres; not read of CONTINUOUS
   double low, high;
+  // radians or metres, per s and per s^2: what a route keeps to, and nothing else reads; 0: 1
+  double speed, acceleration;
 } nsvcd_joint;
 
 // A body on a link. What is on link 0 rests.
@@ -1109,6 +1117,101 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// -------------------------------------------------------------------------------- interface/routes
+// In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
+//
+// A route is sought by proofs: a straight line, then two trees of edges that are proven free; its
+// way is made shorter, timed, and smoothed within the limits of speed and acceleration, and all of
+// it is proven as it is handed out.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// of a route's trees
+#define NSVCD_MAX_NODES 10000000
+
+typedef enum nsvcd_route_status {
+  // the motion is proven free, within the limits, and ends at a goal
+  NSVCD_ROUTE_FOUND = 0,
+  // as many nodes as options allow, and no way
+  NSVCD_ROUTE_LIMIT,
+  // by the caller
+  NSVCD_ROUTE_STOPPED,
+  // the start, or every goal, is out of limits, or not proven free: answer.check says why
+  NSVCD_ROUTE_START,
+  NSVCD_ROUTE_GOAL
+} nsvcd_route_status;
+
+// A status in a word or two, for a person; never NULL.
+NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status);
+
+typedef struct nsvcd_route_problem {
+  // (F)
+  const double *start;
+  // (G, F); one is enough
+  const double *goals;
+  size_t goal_count;
+  // (W, F), from the start to a goal, these left out: a way that may be free, or nearly. NULL: none
+  const double *guess;
+  size_t guess_count;
+  // asked before each proof; not 0 ends the search. What is found by then is not given up. May be
+  // NULL
+  int (*stop)(void *user);
+  void *user;
+} nsvcd_route_problem;
+
+// What is zero is the default.
+typedef struct nsvcd_route_options {
+  // of all random numbers: threads with seeds of their own seek ways of their own
+  uint64_t seed;
+  // metres: the whole motion stays farther apart than this
+  float clearance;
+  // of the trees, at most; 20,000
+  size_t nodes;
+  // radians or metres that an edge is long, at most; 1
+  double edge;
+  // tried on the way, and on the timed motion; 50 and 200. NSVCD_NONE: none
+  size_t shortcuts, smoothings;
+} nsvcd_route_options;
+
+typedef struct nsvcd_route_answer {
+  nsvcd_route_status status;
+  // FOUND: which one is reached
+  size_t goal;
+  // of degree 2, with times, at rest at both ends; in the memory that was given. Of what is FOUND
+  nsvcd_joint_motion motion;
+  // times within that it rests at, for want of a smooth way round a corner
+  size_t stops;
+  // seconds: of the motion; and of the straight line if nothing were in its way
+  double duration, unhindered;
+  // of FOUND: the last proof. Of START and GOAL: what is wrong with it, of the last goal
+  nsvcd_check_answer check;
+  // of the trees; motions asked about, and those of them that were free
+  size_t nodes, checks, proven;
+} nsvcd_route_answer;
+
+// Bytes that nsvcd_route needs; 0 if the problem or the options are refused.
+//   options    NULL: the defaults
+NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
+                                 const nsvcd_route_problem *problem,
+                                 const nsvcd_route_options *options);
+
+// Seeks a motion from the start to a goal on which no pair meets. The same problem and seed, the
+// same motion, as long as the checker is opened anew for each: it remembers what was hit last.
+//   checker    not NULL
+//   problem    not NULL
+//   options    NULL: the defaults
+//   memory     (size) bytes, nsvcd_route_size(checker, problem, options) or more, not NULL, aligned
+//              to NSVCD_ALIGNMENT; the motion is in it
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT (NULL, counts), NUMBER (a configuration not finite or beyond
+//              NSVCD_MAX_COORDINATE), TOLERANCE, WORKSPACE
+//   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
+//              Ng-Thow-Hing 2010); with proofs in place of samples: this library
+NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
+                                  const nsvcd_route_options *options, void *memory,
+                                  size_t size, nsvcd_route_answer *answer);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
 // --------------------------------------------------------------------------------- interface/plans
@@ -1905,6 +2008,17 @@ static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stri
   d[3 * stride] = disc.low;
   d[4 * stride] = disc.high;
   d[5 * stride] = disc.across;
+}
+
+// ----------------------------------------------------------------------------------- ground/random
+// In: a state. Out: random numbers, the same from the same state.
+
+// In (0, 1]: splitmix64.
+static inline double nsvcd__random(uint64_t *state) {
+  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
 }
 
 // ----------------------------------------------------------------------------------- ground/memory
@@ -16405,6 +16519,10 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
+//   trees       configurations, and the nearest of them
+//   ramps       from one state to another, within limits of speed and acceleration
+//   smooth      a way in time, then smooth
+//   route       a start and goals: two trees of proven edges, shortcuts
 //
 // It asks as any program does, by nsvcd_sweep.
 
@@ -16419,7 +16537,13 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
+#ifndef NSVCD__COARSE
 #define NSVCD__COARSE 2e-3
+#endif
+// units that a look for a hit may take, before the last
+#ifndef NSVCD__GLANCE
+#define NSVCD__GLANCE 200
+#endif
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 
@@ -16449,13 +16573,22 @@ typedef struct nsvcd__configuration {
   nsvcd__d3 axes[NSVCD_MAX_JOINTS];
 } nsvcd__configuration;
 
+// Sides along the world's axes.
+typedef struct nsvcd__bounds {
+  nsvcd__d3 low, high;
+} nsvcd__bounds;
+
 // A part, as the checker has it.
 typedef struct nsvcd__member {
   // in its link
   nsvcd__frame frame;
-  // of a sphere about its triangles, in its link; about what is round as well; from its origin
+  // of a sphere about its triangles, in its link; from its origin
   nsvcd__d3 centre;
-  double radius, whole_radius, extent;
+  double radius, extent;
+  // of a box about all of it, in its own axes, scaled; and half of its sides
+  nsvcd__d3 middle, half;
+  // about all samples, or where it rests
+  nsvcd__bounds box;
   // of a part that moves: where its samples begin
   size_t row;
   // metres, at most: by how much it leaves the way between its samples, and what poses in float are
@@ -16472,9 +16605,9 @@ struct nsvcd_checker {
   uint32_t *order;
   // (P): those of a stretch that are not proven yet
   uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, and the centres of the parts' spheres there
+  // (movers, NSVCD__MOST_STEPS + 1): samples, and boxes about the parts there
   nsvcd_pose *poses;
-  nsvcd__d3 *centres;
+  nsvcd__bounds *boxes;
   // the times of the samples, and the most that a part strays in the step after each
   double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
@@ -16810,8 +16943,11 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   }
   if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__poses_are_valid(&joint->origin, 1)) return NSVCD_ERROR_POSE;
-  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   const double most = (double)NSVCD_MAX_COORDINATE;
+  if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
+    return NSVCD_ERROR_NUMBER;
+  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_ARGUMENT;
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
     return NSVCD_ERROR_NUMBER;
   return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
@@ -16846,6 +16982,33 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   return result;
 }
 
+// A box about a part that is in this frame.
+static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
+  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
+  const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
+  nsvcd__d3 half;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
+    nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
+  }
+  const nsvcd__d3 middle =
+      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
+  return out;
+}
+
+static nsvcd__bounds nsvcd__box_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
+  const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
+  return out;
+}
+
+// Are two boxes apart by more than `room` along an axis?
+static int nsvcd__boxes_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
+  return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
+         a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
+         a->low.z - b->high.z > room || b->low.z - a->high.z > room;
+}
+
 // Lays a checker out at base, which is aligned, or, where that is NULL, only counts. Returns the
 // bytes; 0 if they are more than can be counted.
 static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
@@ -16864,7 +17027,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
-  c->centres = (nsvcd__d3 *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__d3));
+  c->boxes = (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = c;
@@ -16907,8 +17070,16 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
     // spheres are reckoned in float
     m->radius = 1.000001 * scale * (double)part->body->radius;
-    m->whole_radius = 1.000001 * scale * (double)nsvcd__whole_radius(part->body);
     m->extent = 1.000001 * scale * (double)part->body->extent;
+    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(part->body));
+    const nsvcd__d3 low = nsvcd__d3_load(facets.box);
+    const nsvcd__d3 high = nsvcd__d3_load(facets.box + 3);
+    const nsvcd__d3 all = {1, 1, 1};
+    m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
+    // what is round goes beyond
+    m->half = nsvcd__d3_fma(scale * (double)facets.round, all,
+                            nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
+    m->box = nsvcd__box_of(m, &m->frame);
     m->stray = 0;
     m->rounding = 0;
     m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
@@ -16930,9 +17101,10 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     const size_t link = scene->parts[n].link;
     if (!link) continue;
     const nsvcd__frame frame = nsvcd__frame_in(&at->frames[link], &m->frame);
-    const nsvcd__frame sphere = {{0, 0, 0, 1}, m->centre};
+    const nsvcd__bounds box = nsvcd__box_of(m, &frame);
     c->poses[m->row + k] = nsvcd__pose_in(&frame);
-    c->centres[m->row + k] = nsvcd__frame_in(&at->frames[link], &sphere).place;
+    c->boxes[m->row + k] = box;
+    m->box = k ? nsvcd__box_over(&m->box, &box) : box;
     // places and quaternions as floats are off by no more
     const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
     m->rounding = k ? nsvcd__max(m->rounding, rounding) : rounding;
@@ -16996,41 +17168,46 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
 
 // ---- pairs
 
-static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part, size_t poses) {
+// A box about a part in a step: it goes no farther from it than it strays.
+static nsvcd__bounds nsvcd__box_in(const nsvcd_checker *c, size_t part, size_t step, size_t steps) {
+  const nsvcd__member *m = &c->members[part];
+  if (!c->scene->parts[part].link || steps == 0) return m->box;
+  return nsvcd__box_over(&c->boxes[m->row + step], &c->boxes[m->row + step + 1]);
+}
+
+// Steps, one after another, of a pair that may come near in the first and in the last of them. As
+// many as 0 with no configuration but one.
+typedef struct nsvcd__spell {
+  size_t first, steps;
+} nsvcd__spell;
+
+// Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
+static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                           double room, nsvcd__spell *spell) {
+  size_t last = 0;
+  if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
+  spell->first = steps;
+  for (size_t k = 0; k < steps; k++) {
+    const nsvcd__bounds a = nsvcd__box_in(c, pair->a, k, steps);
+    const nsvcd__bounds b = nsvcd__box_in(c, pair->b, k, steps);
+    if (nsvcd__boxes_apart(&a, &b, room)) continue;
+    if (spell->first == steps) spell->first = k;
+    last = k + 1;
+  }
+  spell->steps = last - (steps ? spell->first : 0);
+  return steps == 0 || last > 0;
+}
+
+static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part,
+                                   const nsvcd__spell *spell) {
   const nsvcd_part *p = &c->scene->parts[part];
   nsvcd_mover mover;
   memset(&mover, 0, sizeof mover);
   mover.body = p->body;
   mover.scale = p->scale;
-  mover.poses = p->link ? &c->poses[c->members[part].row] : &p->pose;
-  mover.count = p->link ? poses : 1;
+  mover.poses = p->link ? &c->poses[c->members[part].row + spell->first] : &p->pose;
+  mover.count = p->link ? spell->steps + 1 : 1;
   return mover;
-}
-
-// Where the centre of a part's sphere is at a sample.
-static nsvcd__d3 nsvcd__centre_at(const nsvcd_checker *c, size_t part, size_t sample) {
-  const nsvcd__member *m = &c->members[part];
-  return c->scene->parts[part].link ? c->centres[m->row + sample] : m->centre;
-}
-
-// Do two spheres stay apart, by more than `room` between their centres, in all steps?
-static int nsvcd__stay_apart(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
-                             double room) {
-  nsvcd__d3 from =
-      nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, 0), nsvcd__centre_at(c, pair->b, 0));
-  for (size_t k = 1; k <= steps + !steps; k++) {
-    const size_t at = k < steps ? k : steps;
-    const nsvcd__d3 to =
-        nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, at), nsvcd__centre_at(c, pair->b, at));
-    const nsvcd__d3 way = nsvcd__d3_sub(to, from);
-    const double square = nsvcd__d3_dot(way, way);
-    const double share = square > 0 ? -nsvcd__d3_dot(from, way) / square : 0;
-    const double u = nsvcd__max(0, nsvcd__min(1, share));
-    const nsvcd__d3 nearest = nsvcd__d3_fma(u, way, from);
-    if (!(nsvcd__d3_dot(nearest, nearest) > room * room)) return 0;
-    from = to;
-  }
-  return 1;
 }
 
 // By how much a part is off the way that its samples say, at most.
@@ -17039,22 +17216,22 @@ static double nsvcd__off(const nsvcd_checker *c, size_t part) {
 }
 
 // Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
-// `strays` more.
+// `strays` more. spell: what was asked about; the times of *found are of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
                                     size_t steps, double strays,
-                                    const nsvcd_check_options *options, nsvcd_answer *found,
-                                    nsvcd_check_answer *answer) {
+                                    const nsvcd_check_options *options, nsvcd__spell *spell,
+                                    nsvcd_answer *found, nsvcd_check_answer *answer) {
   const double clearance = (double)options->clearance + strays;
-  const double whole =
-      c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;
+  const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
+  const double room = (double)options->clearance + off;
   nsvcd_question question;
-  if (nsvcd__stay_apart(c, pair, steps, whole * (1 + 1e-9))) {
+  if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
   memset(&question, 0, sizeof question);
-  question.a = nsvcd__mover_of(c, pair->a, steps + 1);
-  question.b = nsvcd__mover_of(c, pair->b, steps + 1);
+  question.a = nsvcd__mover_of(c, pair->a, spell);
+  question.b = nsvcd__mover_of(c, pair->b, spell);
   question.clearance = clearance > 0 ? nsvcd__round_outward(clearance) : 0;
   question.method = NSVCD_METHOD_PROOF;
   question.work = options->work;
@@ -17108,8 +17285,8 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
 // Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
 // proof reached, then about where the samples' own way hits. found: what the proof said.
 static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                    size_t pair, size_t steps, nsvcd_answer *found,
-                                    const nsvcd_check_options *options,
+                                    size_t pair, size_t steps, nsvcd__spell *spell,
+                                    nsvcd_answer *found, const nsvcd_check_options *options,
                                     nsvcd_check_answer *answer) {
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   double joints[NSVCD_MAX_JOINTS];
@@ -17119,9 +17296,11 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
   for (int look = 0; look < 2 && !result && found->verdict != NSVCD_FREE; look++) {
     if (steps > 0) {
       // times of a sweep go by samples
-      const double at = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t k = at < 1 ? (size_t)(at * (double)steps) : steps - 1;
-      const double share = at * (double)steps - (double)k;
+      const double at =
+          (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
+      const size_t k = spell->first + within;
+      const double share = at - (double)within;
       const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
       answer->share = nsvcd__share_at(motion, answer->piece, time);
@@ -17131,7 +17310,7 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
     result = nsvcd__ask_at(c, pair, joints, options, answer);
     if (answer->verdict == NSVCD_HIT) return result;
     if (look == 0 && !result)
-      result = nsvcd__ask_pair(c, both, steps, 0, options, found, answer);
+      result = nsvcd__ask_pair(c, both, steps, 0, options, spell, found, answer);
   }
   return result;
 }
@@ -17145,6 +17324,9 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
+  nsvcd__spell spell;
+  nsvcd_check_options glance = *options;
+  if (!glance.work || glance.work > NSVCD__GLANCE) glance.work = NSVCD__GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = steps ? nsvcd__piece_at(motion, t0) : 0;
   answer->share = steps ? nsvcd__share_at(motion, answer->piece, t0) : 0;
@@ -17180,9 +17362,12 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
       const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
-      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &found, answer);
+      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
-      if (!result) result = nsvcd__seek_hit(c, motion, pair, steps, &found, options, answer);
+      // a glance, but for the last time
+      const int is_last = steps == 0 || allowed <= (double)options->finest;
+      if (!result)
+        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found, is_last ? options : &glance, answer);
       if (result) return result;
       if (answer->verdict == NSVCD_HIT) {
         nsvcd__put_first(c, pair);
@@ -17295,6 +17480,933 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
     found.why = NSVCD_WHY_NOTHING;
   }
   *answer = found;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------- robot/trees
+// In: configurations. Out: a tree of them, and the one that is nearest to another.
+//
+// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
+// than it may hold is cut half way along the joint in which they are widest apart.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+#define NSVCD__LEAF 8
+
+typedef struct nsvcd__cell {
+  // where it is cut, or of a leaf: nothing
+  double at;
+  // by which joint; NSVCD_MAX_JOINTS: a leaf
+  uint32_t joint;
+  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
+  uint32_t first, count;
+} nsvcd__cell;
+
+typedef struct nsvcd__tree {
+  size_t joints, count, cell_count;
+  double *points;      // (nodes, F)
+  uint32_t *parents;   // (nodes): of a root, itself
+  uint32_t *next;      // (nodes): in a leaf
+  nsvcd__cell *cells;  // (2 nodes)
+} nsvcd__tree;
+
+static double nsvcd__way2(const double *a, const double *b, size_t joints) {
+  double sum = 0;
+  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum;
+}
+
+// Cuts a leaf, unless all its points are the same.
+static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
+  nsvcd__cell *cell = &t->cells[index];
+  size_t widest = 0;
+  double width = 0;
+  double middle = 0;
+  for (size_t j = 0; j < t->joints; j++) {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      low = nsvcd__min(low, t->points[node * t->joints + j]);
+      high = nsvcd__max(high, t->points[node * t->joints + j]);
+    }
+    if (!(high - low > width)) continue;
+    widest = j;
+    width = high - low;
+    middle = 0.5 * (low + high);
+  }
+  if (!(width > 0)) return;
+  nsvcd__cell *halves = &t->cells[t->cell_count];
+  t->cell_count += 2;
+  for (size_t k = 0; k < 2; k++) {
+    halves[k].joint = NSVCD_MAX_JOINTS;
+    halves[k].count = 0;
+  }
+  uint32_t node = cell->first;
+  for (uint32_t n = 0; n < cell->count; n++) {
+    const uint32_t following = t->next[node];
+    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
+    t->next[node] = half->first;
+    half->first = node;
+    half->count++;
+    node = following;
+  }
+  cell->joint = (uint32_t)widest;
+  cell->at = middle;
+  cell->first = (uint32_t)(halves - t->cells);
+}
+
+// parent: t->count of a root. Returns the node.
+static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
+  const size_t node = t->count++;
+  size_t index = 0;
+  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
+  t->parents[node] = (uint32_t)parent;
+  if (t->cell_count == 0) {
+    t->cell_count = 1;
+    t->cells[0].joint = NSVCD_MAX_JOINTS;
+    t->cells[0].count = 0;
+  }
+  while (t->cells[index].joint < NSVCD_MAX_JOINTS)
+    index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
+  t->next[node] = t->cells[index].first;
+  t->cells[index].first = (uint32_t)node;
+  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
+  return node;
+}
+
+// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
+static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
+                              double *off, double off2, size_t *nearest, double *best) {
+  const nsvcd__cell *cell = &t->cells[index];
+  if (!(off2 < *best)) return;
+  if (cell->joint == NSVCD_MAX_JOINTS) {
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
+      if (!(way < *best)) continue;
+      *best = way;
+      *nearest = node;
+    }
+    return;
+  }
+  const double side = at[cell->joint] - cell->at;
+  const double was = off[cell->joint];
+  nsvcd__nearest_in(t, cell->first + (side > 0), at, off, off2, nearest, best);
+  off[cell->joint] = side;
+  nsvcd__nearest_in(t, cell->first + !(side > 0), at, off, off2 + side * side - was * was,
+                    nearest, best);
+  off[cell->joint] = was;
+}
+
+// The node nearest to a configuration, of a tree that has one.
+static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
+  double off[NSVCD_MAX_JOINTS] = {0};
+  double best = HUGE_VAL;
+  size_t nearest = 0;
+  nsvcd__nearest_in(t, 0, at, off, 0, &nearest, &best);
+  return nearest;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------- robot/ramps
+// In: two states, places and speeds of the joints, and limits of speed and acceleration. Out: a
+// motion from one to the other in the least time of the slowest joint, each of the others with the
+// least acceleration that takes as long.
+//
+// A joint speeds up, and down again, or the other way round; where it would be too fast in between,
+// it goes on at the limit. What it does is of degree 2 piece by piece.
+// Source: Hauser and Ng-Thow-Hing (2010).
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// of a ramp: each joint has two times at which its acceleration changes
+#define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
+// share of the limits of speed and acceleration that is asked for: the rest is for rounding
+#define NSVCD__RAMP_SHARE (1 - 1e-6)
+// seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
+// changes no farther apart than that are one
+#define NSVCD__SLIVER 1e-4
+#define NSVCD__SAME_TIME 1e-12
+
+static double nsvcd__speed_of(const nsvcd_joint *joint) {
+  return joint->speed > 0 ? joint->speed : 1;
+}
+static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
+  return joint->acceleration > 0 ? joint->acceleration : 1;
+}
+
+// A joint's way in a ramp: acceleration a until t1, none until t2, -a after that.
+typedef struct nsvcd__ramp_joint {
+  double a, t1, t2;
+} nsvcd__ramp_joint;
+
+// The least time from place x0 and speed v0 to x1 and v1, both within the limits.
+static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, double speed,
+                               double most) {
+  const double way = x1 - x0;
+  // changing speed takes this way: is there more to go, or less?
+  const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
+  const double side = way >= least ? 1 : -1;
+  const double peak2 = side * most * way + 0.5 * (v0 * v0 + v1 * v1);
+  const double peak = side * sqrt(nsvcd__max(peak2, 0));
+  if (fabs(peak) <= speed) return (fabs(peak - v0) + fabs(peak - v1)) / most;
+  const double fast = side * speed;
+  const double changing = (speed * speed - 0.5 * (v0 * v0 + v1 * v1)) / (side * most);
+  return (fabs(fast - v0) + fabs(fast - v1)) / most + nsvcd__max((way - changing) / fast, 0);
+}
+
+// The way with the least acceleration that takes this time. Returns 0 if there is none within the
+// limits.
+static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double speed,
+                             double most, double time, nsvcd__ramp_joint *out) {
+  const double way = x1 - x0;
+  const double change = v1 - v0;
+  // time^2 a^2 + b a - change^2 = 0: the root of the greater size
+  const double b = 2 * time * (v0 + v1) - 4 * way;
+  const double root = sqrt(b * b + 4 * time * time * change * change);
+  double a = -(b + (b > 0 ? root : -root)) / (2 * time * time);
+  out->t1 = 0.5 * time;
+  if (a > 0 || a < 0) out->t1 += 0.5 * change / a;
+  out->t1 = nsvcd__max(0, nsvcd__min(time, out->t1));
+  out->t2 = out->t1;
+  const double peak = v0 + a * out->t1;
+  if (fabs(peak) > speed) {
+    const double fast = peak > 0 ? speed : -speed;
+    const double up = (fast - v0) * (fast - v0) + (fast - v1) * (fast - v1);
+    a = up / (2 * (fast * time - way));
+    if (!(a * fast > 0)) return 0;
+    out->t1 = (fast - v0) / a;
+    out->t2 = time - (fast - v1) / a;
+    if (!(out->t1 >= 0 && out->t2 >= out->t1 && out->t2 <= time)) return 0;
+  }
+  out->a = a;
+  return fabs(a) <= most;
+}
+
+// Place and speed at a time of a way that begins with x0 and v0.
+static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, double t,
+                           double *x, double *v) {
+  const double up = nsvcd__min(t, r->t1);
+  const double even = nsvcd__max(nsvcd__min(t, r->t2) - r->t1, 0);
+  const double down = nsvcd__max(t - r->t2, 0);
+  const double fast = v0 + r->a * up;
+  *x = x0 + (0.5 * (v0 + fast)) * up + fast * even + (fast - 0.5 * r->a * down) * down;
+  *v = fast - r->a * down;
+}
+
+// Does a joint turn round out of its limits on the way? Its ends are within.
+static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint *r, double x0,
+                              double v0, double time) {
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return 0;
+  // where it stands still
+  const double turns[2] = {
+      r->a * v0 < 0 ? -v0 / r->a : 0,
+      r->a * (v0 + r->a * r->t1) > 0 ? r->t2 + (v0 + r->a * r->t1) / r->a : 0};
+  for (size_t k = 0; k < 2; k++) {
+    double x, v;
+    const int is_there = k ? turns[k] > r->t2 && turns[k] < time : turns[k] < r->t1;
+    if (!is_there || !(turns[k] > 0)) continue;
+    nsvcd__ramp_at(r, x0, v0, turns[k], &x, &v);
+    if (x < joint->low || x > joint->high) return 1;
+  }
+  return 0;
+}
+
+// Writes a ramp of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
+// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no ramp
+// within the limits that takes less than `longest`, or two of its changes nearly coincide.
+static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
+                                double longest, double *points, double *times) {
+  const size_t joints = scene->joint_count;
+  nsvcd__ramp_joint ramps[NSVCD_MAX_JOINTS];
+  double changes[NSVCD__RAMP_PIECES + 1];
+  size_t count = 0;
+  double time = 0;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    time =
+        nsvcd__max(time, nsvcd__ramp_time(states[0][j], states[2][j], states[1][j],
+                                          states[3][j], NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
+                                          NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+  }
+  if (!(time < longest)) return 0;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j],
+                           nsvcd__speed_of(joint), nsvcd__acceleration_of(joint), time,
+                           &ramps[j]))
+      return 0;
+    if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
+    changes[count++] = ramps[j].t1;
+    changes[count++] = ramps[j].t2;
+  }
+  changes[count++] = time;
+  // sorted, by insertion
+  for (size_t k = 1; k < count; k++) {
+    const double own = changes[k];
+    size_t at = k;
+    for (; at > 0 && changes[at - 1] > own; at--) changes[at] = changes[at - 1];
+    changes[at] = own;
+  }
+  size_t pieces = 0;
+  times[0] = 0;
+  memcpy(points, states[0], joints * sizeof *points);
+  for (size_t k = 0; k < count; k++) {
+    if (changes[k] - times[pieces] <= NSVCD__SAME_TIME) continue;
+    if (changes[k] - times[pieces] < NSVCD__SLIVER) return 0;
+    const double before = times[pieces];
+    const double half = 0.5 * (changes[k] - before);
+    double *to = points + 2 * pieces * joints;
+    for (size_t j = 0; j < joints; j++) {
+      double x, v;
+      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], before, &x, &v);
+      to[joints + j] = to[j] + half * v;
+      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], changes[k], &x, &v);
+      to[2 * joints + j] = x;
+    }
+    times[++pieces] = changes[k];
+  }
+  memcpy(points + 2 * pieces * joints, states[1], joints * sizeof *points);
+  return pieces;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------ robot/smooth
+// In: a way, a polyline that is proven. Out: a motion in time along it, then one that is smooth.
+//
+// Each edge is gone along from rest to rest. Then, again and again, two times are drawn: the motion
+// between them is replaced by a ramp, if that is quicker and proven. Where it still rests, the two
+// times are drawn about that.
+// Source: Hauser and Ng-Thow-Hing (2010).
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// of a motion, at most
+#define NSVCD__MOST_PIECES 2048
+// seconds: half of the windows about a rest, the widest, and how often it may be halved
+#define NSVCD__HALF_WINDOW 0.8
+#define NSVCD__WINDOWS 6
+// metres that the search stays farther away than asked for, so that the whole is proven anew
+#define NSVCD__SPARE 1e-4f
+// metres that a part may stray from its sweeps, at least, in the search
+#define NSVCD__SEEK_FINEST 2.5e-4f
+// units that a question of the search may take
+#ifndef NSVCD__SEEK_WORK
+#define NSVCD__SEEK_WORK 2000
+#endif
+
+// A motion of degree 2 that is being made.
+typedef struct nsvcd__course {
+  double *points;  // (2 NSVCD__MOST_PIECES + 1, F)
+  double *times;   // (NSVCD__MOST_PIECES + 1)
+  size_t pieces;
+} nsvcd__course;
+
+typedef struct nsvcd__router {
+  nsvcd_checker *checker;
+  const nsvcd_scene *scene;
+  size_t joints;
+  nsvcd_route_problem problem;
+  nsvcd_route_options options;
+  nsvcd_check_options check;
+  uint64_t random;
+  int is_stopped;
+  nsvcd__tree trees[2];  // from the start, from the goals
+  size_t *goals;         // (G): of those that are free, which; the roots of trees[1]
+  double *way;           // (nodes + guess + 2, F)
+  size_t way_count;
+  nsvcd__course course, other, ramp;
+  nsvcd_route_answer answer;
+} nsvcd__router;
+
+static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
+  const nsvcd_joint_motion out = {course->pieces, 2, course->points, course->times};
+  return out;
+}
+
+// Is a motion proven free? answer.check says what is wrong. What the caller stops is not.
+static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                                 int *is_free) {
+  *is_free = 0;
+  if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
+  if (r->is_stopped) return NSVCD_OK;
+  r->answer.checks++;
+  const nsvcd_result result = nsvcd_check(r->checker, motion, &r->check, &r->answer.check);
+  if (result) return result;
+  *is_free = r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
+  r->answer.proven += (size_t)*is_free;
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to,
+                                      int *is_free) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = {1, 1, points, NULL};
+  memcpy(points, from, r->joints * sizeof *points);
+  memcpy(points + r->joints, to, r->joints * sizeof *points);
+  return nsvcd__ask_motion(r, &motion, is_free);
+}
+
+// Adds a piece of degree 2 from where the course is; the times rise by `time`.
+static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *middle,
+                              const double *end, double time) {
+  double *at = c->points + (2 * c->pieces + 1) * joints;
+  memcpy(at, middle, joints * sizeof *at);
+  memcpy(at + joints, end, joints * sizeof *at);
+  c->times[c->pieces + 1] = c->times[c->pieces] + time;
+  c->pieces++;
+}
+
+static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *at) {
+  c->pieces = 0;
+  c->times[0] = 0;
+  memcpy(c->points, at, joints * sizeof *at);
+}
+
+// Goes along the way, with a rest at each corner. Returns 0 where there are too many.
+static int nsvcd__course_along(nsvcd__router *r) {
+  nsvcd__course *c = &r->course;
+  const size_t joints = r->joints;
+  if (3 * r->way_count > NSVCD__MOST_PIECES) return 0;
+  nsvcd__course_begin(c, joints, r->way);
+  for (size_t k = 0; k + 1 < r->way_count; k++) {
+    const double *from = r->way + k * joints;
+    const double *to = from + joints;
+    // of the share of the edge that has been gone along
+    double speed = HUGE_VAL;
+    double most = HUGE_VAL;
+    for (size_t j = 0; j < joints; j++) {
+      const nsvcd_joint *joint = &r->scene->joints[j];
+      const double d = fabs(to[j] - from[j]);
+      if (!(d > 0)) continue;
+      speed = nsvcd__min(speed, NSVCD__RAMP_SHARE * nsvcd__speed_of(joint) / d);
+      most = nsvcd__min(most, NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint) / d);
+    }
+    if (!(speed < HUGE_VAL)) continue;
+    const double up = nsvcd__min(speed / most, sqrt(1 / most));
+    const double fast = most * up;
+    const double even = (1 - fast * up) / fast;
+    const double changed = 0.5 * fast * up;  // share of the edge
+    const int is_even = even > NSVCD__SLIVER;
+    // 0, changed, 1 - changed, 1; without an even part, a half
+    const double shares[4] = {0, is_even ? changed : 0.5, is_even ? 1 - changed : 0.5, 1};
+    const double middles[3] = {0, 0.5, 1};
+    const double lasts[3] = {is_even ? up : 1 / fast, even, is_even ? up : 1 / fast};
+    for (size_t n = 0; n < 3; n++) {
+      double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+      if (n == 1 && !is_even) continue;
+      for (size_t j = 0; j < joints; j++) {
+        middle[j] = from[j] + middles[n] * (to[j] - from[j]);
+        end[j] = n == 2 ? to[j] : from[j] + shares[n + 1] * (to[j] - from[j]);
+      }
+      nsvcd__course_add(c, joints, middle, end, lasts[n]);
+    }
+  }
+  return c->pieces > 0;
+}
+
+// Is the motion at rest where a piece begins?
+static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) {
+  const double *at = c->points + 2 * piece * joints;
+  for (size_t j = 0; j < joints; j++) {
+    if (fabs(at[j + joints] - at[j]) > 1e-12 * (1 + fabs(at[j]))) return 0;
+  }
+  return 1;
+}
+
+// Copies the course from time t0 to t1 to the end of another. Returns 0 where a sliver would be
+// left, or there is no room.
+static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, double t1,
+                              nsvcd__course *out) {
+  const nsvcd_joint_motion motion = nsvcd__motion_of(c);
+  for (size_t p = nsvcd__piece_at(&motion, t0); p < c->pieces && c->times[p] < t1; p++) {
+    const double from = nsvcd__max(t0, c->times[p]);
+    const double to = nsvcd__min(t1, c->times[p + 1]);
+    double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+    if (to - from <= NSVCD__SAME_TIME) continue;
+    if (to - from < NSVCD__SLIVER || out->pieces == NSVCD__MOST_PIECES) return 0;
+    for (size_t j = 0; j < joints; j++) {
+      double points[NSVCD_MAX_DEGREE + 1];
+      nsvcd__joint_points(&motion, p, joints, j, points);
+      nsvcd__cut_curve(points, 2, nsvcd__share_at(&motion, p, from),
+                       nsvcd__share_at(&motion, p, to));
+      middle[j] = points[1];
+      end[j] = points[2];
+    }
+    nsvcd__course_add(out, joints, middle, end, to - from);
+  }
+  return 1;
+}
+
+// Replaces the course from time t0 to t1 by a ramp, if that is quicker and proven.
+static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1) {
+  const size_t joints = r->joints;
+  double states[4][NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+  const double times[2] = {t0, t1};
+  for (size_t n = 0; n < 2; n++) {
+    const size_t piece = nsvcd__piece_at(&motion, times[n]);
+    nsvcd__joints_at(&motion, joints, piece, nsvcd__share_at(&motion, piece, times[n]),
+                     states[n], states[n + 2]);
+  }
+  nsvcd__course *ramp = &r->ramp;
+  ramp->pieces =
+      nsvcd__ramp_write(r->scene, states, (t1 - t0) * (1 - 1e-4), ramp->points, ramp->times);
+  if (!ramp->pieces) return NSVCD_OK;
+  // the whole as it would be: what is left of the course, and the ramp between
+  nsvcd__course *out = &r->other;
+  nsvcd__course_begin(out, joints, r->course.points);
+  const double end = r->course.times[r->course.pieces];
+  if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
+  if (out->pieces + ramp->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
+  for (size_t p = 0; p < ramp->pieces; p++) {
+    const double *middle = ramp->points + (2 * p + 1) * joints;
+    nsvcd__course_add(out, joints, middle, middle + joints,
+                      ramp->times[p + 1] - ramp->times[p]);
+  }
+  if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
+  int is_free;
+  const nsvcd_joint_motion asked = nsvcd__motion_of(ramp);
+  const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
+  if (result || !is_free) return result;
+  const nsvcd__course was = r->course;
+  r->course = r->other;
+  r->other = was;
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
+  for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
+    const nsvcd__course *c = &r->course;
+    const double end = c->times[c->pieces];
+    double t0 = end * nsvcd__random(&r->random);
+    double t1 = end * nsvcd__random(&r->random);
+    size_t rests = 0;
+    double rest = 0;
+    for (size_t p = 1; p < c->pieces && n % 2; p++) {
+      // each as likely as the others
+      if (!nsvcd__rests_at(c, r->joints, p)) continue;
+      if (nsvcd__random(&r->random) * (double)++rests <= 1) rest = c->times[p];
+    }
+    if (rests > 0) {
+      const double window =
+          NSVCD__HALF_WINDOW / (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
+      t0 = nsvcd__max(0, rest - window);
+      t1 = nsvcd__min(end, rest + window);
+    }
+    const nsvcd_result result = nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1));
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------- robot/route
+// In: a start and goals. Out: a motion that is proven free, in the caller's memory.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+#define NSVCD__NODES 20000
+#define NSVCD__SHORTCUTS 50
+#define NSVCD__SMOOTHINGS 200
+// of all joints whose limits are wider, only what is no farther than this from the start and the
+// goals is drawn from, but for one configuration in eight
+#define NSVCD__BESIDE 3.2
+
+// ---- memory
+
+static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
+                                       const nsvcd_route_problem *problem,
+                                       const nsvcd_route_options *options) {
+  if (!checker || !problem || !problem->start || !problem->goals) return NSVCD_ERROR_ARGUMENT;
+  const size_t most = NSVCD_MAX_NODES;
+  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_ARGUMENT;
+  if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ARGUMENT;
+  const double *rows[3] = {problem->start, problem->goals, problem->guess};
+  const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
+  for (size_t n = 0; n < 3; n++) {
+    for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
+      if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
+        return NSVCD_ERROR_NUMBER;
+    }
+  }
+  return NSVCD_OK;
+}
+
+static void nsvcd__course_take(nsvcd__course *c, char *base, uint64_t *used, size_t pieces,
+                               size_t joints) {
+  c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
+  c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+}
+
+// Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes; 0 if they are more than can be counted.
+static size_t nsvcd__router_layout(const nsvcd_checker *checker,
+                                   const nsvcd_route_problem *problem,
+                                   const nsvcd_route_options *options, char *base,
+                                   nsvcd__router **router) {
+  nsvcd__router counted;
+  uint64_t used = 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__router));
+  nsvcd__router *r = at ? (nsvcd__router *)at : &counted;
+  memset(r, 0, sizeof *r);
+  if (options) r->options = *options;
+  nsvcd_route_options *o = &r->options;
+  o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
+  o->edge = o->edge > 0 ? o->edge : 1;
+  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
+  if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
+  const size_t joints = checker->scene->joint_count;
+  // what is given is not counted as a node
+  const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
+  for (size_t k = 0; k < 2; k++) {
+    nsvcd__tree *t = &r->trees[k];
+    t->joints = joints;
+    t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
+    t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->next = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
+  }
+  r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
+  r->way = (double *)nsvcd__take(base, &used, (nodes + 2) * joints, sizeof(double));
+  nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
+  *router = r;
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
+                                 const nsvcd_route_problem *problem,
+                                 const nsvcd_route_options *options) {
+  nsvcd__router *unused;
+  if (nsvcd__route_check(checker, problem, options)) return 0;
+  return nsvcd__router_layout(checker, problem, options, NULL, &unused);
+}
+
+// ---- trees
+
+// A configuration in the limits, near the start and the goals or anywhere.
+static void nsvcd__draw(nsvcd__router *r, double *out) {
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    double low = r->trees[0].points[j];
+    double high = low;
+    for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count; g++) {
+      low = nsvcd__min(low, r->trees[1].points[g * r->joints + j]);
+      high = nsvcd__max(high, r->trees[1].points[g * r->joints + j]);
+    }
+    low -= NSVCD__BESIDE;
+    high += NSVCD__BESIDE;
+    if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+      low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+      high = is_wide ? joint->high : nsvcd__min(high, joint->high);
+    }
+    out[j] = low + (high - low) * nsvcd__random(&r->random);
+  }
+}
+
+// Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
+// `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
+// is the configuration.
+static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *to,
+                                int is_greedy, size_t *node, int *is_there) {
+  const size_t joints = r->joints;
+  *node = nsvcd__tree_nearest(t, to);
+  *is_there = 0;
+  do {
+    double next[NSVCD_MAX_JOINTS];
+    const double *from = t->points + *node * joints;
+    const double way = sqrt(nsvcd__way2(from, to, joints));
+    const int ends = way <= r->options.edge;
+    for (size_t j = 0; j < joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / way * (to[j] - from[j]);
+    if (!(way > 0)) {
+      *is_there = 1;
+      return NSVCD_OK;
+    }
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
+    if (result) return result;
+    if (!is_free || r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    *node = nsvcd__tree_add(t, next, *node);
+    *is_there = ends;
+  } while (is_greedy && !*is_there);
+  return NSVCD_OK;
+}
+
+// Writes the way through nodes of both trees that are at the same place.
+static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
+  const size_t joints = r->joints;
+  const size_t bytes = joints * sizeof(double);
+  const nsvcd__tree *start = &r->trees[0];
+  const nsvcd__tree *goal = &r->trees[1];
+  size_t count = 1;
+  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
+  r->way_count = count;
+  for (size_t n = from_start; count-- > 0; n = start->parents[n])
+    memcpy(r->way + count * joints, start->points + n * joints, bytes);
+  size_t n = from_goal;
+  for (; goal->parents[n] != n; n = goal->parents[n])
+    memcpy(r->way + r->way_count++ * joints, goal->points + goal->parents[n] * joints, bytes);
+  r->answer.goal = r->goals[n];
+}
+
+// The way that is guessed: the trees take what is free of it from both ends.
+static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
+  const nsvcd_route_problem *p = &r->problem;
+  const size_t joints = r->joints;
+  size_t first = 0;
+  size_t last = p->guess_count;
+  size_t nodes[2] = {0, 0};
+  int is_free = 1;
+  // which goal it leads to
+  if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
+  for (int side = 0; side < 2; side++) {
+    nsvcd__tree *t = &r->trees[side];
+    for (is_free = 1; is_free && first < last;) {
+      const double *to = p->guess + (side ? last - 1 : first) * joints;
+      const nsvcd_result result =
+          nsvcd__prove_edge(r, t->points + nodes[side] * joints, to, &is_free);
+      if (result) return result;
+      if (!is_free) continue;
+      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
+      first += side == 0;
+      last -= side == 1;
+    }
+  }
+  if (first < last) return NSVCD_OK;
+  // what is left between
+  const nsvcd_result result =
+      nsvcd__prove_edge(r, r->trees[0].points + nodes[0] * joints,
+                        r->trees[1].points + nodes[1] * joints, is_found);
+  if (result || !*is_found) return result;
+  nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
+  nsvcd__way_through(r, nodes[0], nodes[1]);
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__seek(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  int is_found = 0;
+  nsvcd_result result = nsvcd__take_guess(r, &is_found);
+  if (result || is_found) return result;
+  // straight lines
+  for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count && !r->is_stopped;
+       g++) {
+    const double *goal = r->trees[1].points + g * joints;
+    result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
+    if (result) return result;
+    if (!is_found) continue;
+    nsvcd__way_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
+    return NSVCD_OK;
+  }
+  for (size_t turn = 0; !r->is_stopped; turn++) {
+    nsvcd__tree *grown = &r->trees[turn % 2];
+    nsvcd__tree *other = &r->trees[1 - turn % 2];
+    double drawn[NSVCD_MAX_JOINTS];
+    size_t node, met;
+    int is_there;
+    nsvcd__draw(r, drawn);
+    const size_t before = grown->count;
+    result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
+    if (result) return result;
+    if (r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (grown->count == before) continue;
+    result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
+    if (result) return result;
+    if (!is_there) continue;
+    nsvcd__way_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    return NSVCD_OK;
+  }
+  return NSVCD_OK;
+}
+
+// ---- shortcuts
+
+// A place on the way, this far along it: the corner before and the place.
+static size_t nsvcd__way_at(const nsvcd__router *r, double far, double *at) {
+  const size_t joints = r->joints;
+  size_t k = 0;
+  for (; k + 2 < r->way_count; k++) {
+    const double *from = r->way + k * joints;
+    const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+    if (far <= length) break;
+    far -= length;
+  }
+  const double *from = r->way + k * joints;
+  const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  const double share = length > 0 ? nsvcd__min(far / length, 1) : 0;
+  for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
+  return k;
+}
+
+// Replaces what is between two places on the way by an edge, again and again, where that is free.
+static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  for (size_t n = 0; n < r->options.shortcuts && r->way_count > 2 && !r->is_stopped; n++) {
+    double at[2][NSVCD_MAX_JOINTS];
+    double length = 0;
+    for (size_t k = 0; k + 1 < r->way_count; k++)
+      length += sqrt(nsvcd__way2(r->way + k * joints, r->way + (k + 1) * joints, joints));
+    const double a = length * nsvcd__random(&r->random);
+    const double b = length * nsvcd__random(&r->random);
+    const size_t first = nsvcd__way_at(r, nsvcd__min(a, b), at[0]);
+    const size_t last = nsvcd__way_at(r, nsvcd__max(a, b), at[1]);
+    // on one edge there is nothing to win, and the way grows by a corner where none is cut off
+    if (first == last) continue;
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
+    if (result) return result;
+    if (!is_free) continue;
+    // corners first + 1 to last make way for two
+    const size_t rest = r->way_count - (last + 1);
+    memmove(r->way + (first + 3) * joints, r->way + (last + 1) * joints,
+            rest * joints * sizeof(double));
+    memcpy(r->way + (first + 1) * joints, at[0], joints * sizeof(double));
+    memcpy(r->way + (first + 2) * joints, at[1], joints * sizeof(double));
+    r->way_count = first + 3 + rest;
+  }
+  return NSVCD_OK;
+}
+
+// ---- a route
+
+NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
+  switch (status) {
+    case NSVCD_ROUTE_FOUND:
+      return "found";
+    case NSVCD_ROUTE_LIMIT:
+      return "no way found with so many nodes";
+    case NSVCD_ROUTE_STOPPED:
+      return "stopped";
+    case NSVCD_ROUTE_START:
+      return "start not free";
+    case NSVCD_ROUTE_GOAL:
+      return "no goal free";
+  }
+  return "not a status";
+}
+
+// A configuration in *out, taken into the limits where rounding has it out. Is it free?
+static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
+                                   int *is_free) {
+  const nsvcd_joint_motion motion = {0, 0, out, NULL};
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double off = 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+    out[j] = at[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
+    if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
+  }
+  nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
+  if (result || *is_free || !(r->check.clearance > r->options.clearance)) return result;
+  // nothing to spare here
+  const float was = r->check.clearance;
+  r->check.clearance = r->options.clearance;
+  result = nsvcd__ask_motion(r, &motion, is_free);
+  if (!result && !*is_free) r->check.clearance = was;
+  return result;
+}
+
+// Roots of the trees. Sets the status where there are none.
+static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+  double at[NSVCD_MAX_JOINTS];
+  int is_free;
+  nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
+  if (result) return result;
+  if (!is_free) r->answer.status = NSVCD_ROUTE_START;
+  if (!is_free) return NSVCD_OK;
+  nsvcd__tree_add(&r->trees[0], at, 0);
+  for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
+    result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
+    if (result || !is_free) continue;
+    // as near as whole turns bring it
+    for (size_t j = 0; j < r->joints; j++) {
+      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
+        at[j] -= 6.283185307179586 *
+                 floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
+    }
+    r->goals[r->trees[1].count] = g;
+    nsvcd__tree_add(&r->trees[1], at, r->trees[1].count);
+  }
+  if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
+  return result;
+}
+
+// From the way to a motion, proven as it is: smooth, else with a rest at each corner.
+static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  int is_free = 0;
+  for (int rests = 0; rests < 2 && !is_free; rests++) {
+    nsvcd_result result = NSVCD_OK;
+    if (!nsvcd__course_along(r)) break;
+    if (!rests) result = nsvcd__smooth(r);
+    if (result) return result;
+    const nsvcd_check_options asked = r->check;
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    memset(&r->check, 0, sizeof r->check);
+    r->check.clearance = r->options.clearance;
+    r->answer.checks++;
+    // though the search is stopped: what it has found by then is not given up
+    result = nsvcd_check(r->checker, &motion, &r->check, &r->answer.check);
+    if (result) return result;
+    is_free = r->answer.check.verdict == NSVCD_FREE;
+    r->answer.proven += (size_t)is_free;
+    r->check = asked;
+  }
+  if (!is_free) return NSVCD_OK;
+  nsvcd_route_answer *answer = &r->answer;
+  answer->status = NSVCD_ROUTE_FOUND;
+  answer->motion = nsvcd__motion_of(&r->course);
+  answer->duration = r->course.times[r->course.pieces];
+  for (size_t p = 1; p < r->course.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
+  const double *last = r->way + (r->way_count - 1) * joints;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    answer->unhindered = nsvcd__max(
+        answer->unhindered, nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                             nsvcd__acceleration_of(joint)));
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
+                                  const nsvcd_route_options *options, void *memory,
+                                  size_t size, nsvcd_route_answer *answer) {
+  nsvcd__router *r;
+  nsvcd_result result = nsvcd__route_check(checker, problem, options);
+  if (result) return result;
+  if (!answer) return NSVCD_ERROR_ARGUMENT;
+  if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
+    return NSVCD_ERROR_TOLERANCE;
+  const size_t needed = nsvcd__router_layout(checker, problem, options, NULL, &r);
+  if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__router_layout(checker, problem, options, (char *)memory, &r);
+  r->checker = checker;
+  r->scene = checker->scene;
+  r->joints = checker->scene->joint_count;
+  r->problem = *problem;
+  r->random = r->options.seed;
+  r->check.clearance = r->options.clearance + NSVCD__SPARE;
+  r->check.finest = NSVCD__SEEK_FINEST;
+  r->check.work = NSVCD__SEEK_WORK;
+  r->answer.status = NSVCD_ROUTE_LIMIT;
+  result = nsvcd__plant(r);
+  if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
+  if (!result && r->way_count > 0) result = nsvcd__shorten(r);
+  if (!result && r->way_count > 0) result = nsvcd__time_way(r);
+  if (result) return result;
+  if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)
+    r->answer.status = NSVCD_ROUTE_STOPPED;
+  r->answer.nodes = r->trees[0].count + r->trees[1].count;
+  *answer = r->answer;
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
@@ -18222,16 +19334,10 @@ static nsvcd__cost nsvcd__cost_of(nsvcd__planner *p, const nsvcd__stage *stage,
 // temperature).
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A normal number: splitmix64, then Box and Muller.
+// A normal number: Box and Muller.
 static double nsvcd__normal(nsvcd__planner *p) {
-  double uniform[2];  // (0, 1]
-  for (size_t k = 0; k < 2; k++) {
-    uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    uniform[k] = (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
-  }
-  return sqrt(-2 * log(uniform[0])) * cos(6.283185307179586 * uniform[1]);
+  const double size = nsvcd__random(&p->random);
+  return sqrt(-2 * log(size)) * cos(6.283185307179586 * nsvcd__random(&p->random));
 }
 
 // A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the

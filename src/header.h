@@ -185,6 +185,7 @@ extern "C" {
 #include "interface/bodies.h"   // encoding, loading, scaling, facts
 #include "interface/queries.h"  // movers, options, answers; nsvcd_sweep and its kin
 #include "interface/robots.h"   // joints, parts, checks of motions; nsvcd_check
+#include "interface/routes.h"   // a start and goals; nsvcd_route
 #include "interface/plans.h"    // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
@@ -208,6 +209,7 @@ extern "C" {
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
 #include "ground/spheres.h"    // spheres and discs, as bodies store them
+#include "ground/random.h"     // random numbers
 #include "ground/memory.h"     // the allocator; the rows of a workspace
 #include "ground/slices.h"     // how many of 16 lanes a register holds
 
@@ -298,7 +300,11 @@ extern "C" {
 #include "robot/chain.h"  // what moves what; where everything is
 #include "robot/steps.h"  // what the joints do between two times
 #include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
-#include "robot/path.h"  // pieces, pair by pair
+#include "robot/path.h"   // pieces, pair by pair
+#include "robot/trees.h"  // configurations, and the nearest of them
+#include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
+#include "robot/smooth.h"  // a way in time, then smooth
+#include "robot/route.h"   // two trees of proven edges, shortcuts
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

@@ -36,6 +36,8 @@ typedef struct nsvcd_joint {
   float axis[3];
   // radians or metres; not read of CONTINUOUS
   double low, high;
+  // radians or metres, per s and per s^2: what a route keeps to, and nothing else reads; 0: 1
+  double speed, acceleration;
 } nsvcd_joint;
 
 // A body on a link. What is on link 0 rests.

@@ -1,19 +1,14 @@
 // In: a mean of control points. Out: a better one: smooth random changes, weighted by exp(-cost /
 // temperature).
 #pragma once
+#include "../ground/random.h"
 #include "cost.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
-// A normal number: splitmix64, then Box and Muller.
+// A normal number: Box and Muller.
 static double nsvcd__normal(nsvcd__planner *p) {
-  double uniform[2];  // (0, 1]
-  for (size_t k = 0; k < 2; k++) {
-    uint64_t z = p->random += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    uniform[k] = (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
-  }
-  return sqrt(-2 * log(uniform[0])) * cos(6.283185307179586 * uniform[1]);
+  const double size = nsvcd__random(&p->random);
+  return sqrt(-2 * log(size)) * cos(6.283185307179586 * nsvcd__random(&p->random));
 }
 
 // A smooth random change of the via points, (M, F), zero at the ends: its inverse covariance is the

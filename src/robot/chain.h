@@ -5,6 +5,10 @@
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
+//   trees       configurations, and the nearest of them
+//   ramps       from one state to another, within limits of speed and acceleration
+//   smooth      a way in time, then smooth
+//   route       a start and goals: two trees of proven edges, shortcuts
 //
 // It asks as any program does, by nsvcd_sweep.
 #pragma once
@@ -23,7 +27,13 @@
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
+#ifndef NSVCD__COARSE
 #define NSVCD__COARSE 2e-3
+#endif
+// units that a look for a hit may take, before the last
+#ifndef NSVCD__GLANCE
+#define NSVCD__GLANCE 200
+#endif
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 
@@ -53,13 +63,22 @@ typedef struct nsvcd__configuration {
   nsvcd__d3 axes[NSVCD_MAX_JOINTS];
 } nsvcd__configuration;
 
+// Sides along the world's axes.
+typedef struct nsvcd__bounds {
+  nsvcd__d3 low, high;
+} nsvcd__bounds;
+
 // A part, as the checker has it.
 typedef struct nsvcd__member {
   // in its link
   nsvcd__frame frame;
-  // of a sphere about its triangles, in its link; about what is round as well; from its origin
+  // of a sphere about its triangles, in its link; from its origin
   nsvcd__d3 centre;
-  double radius, whole_radius, extent;
+  double radius, extent;
+  // of a box about all of it, in its own axes, scaled; and half of its sides
+  nsvcd__d3 middle, half;
+  // about all samples, or where it rests
+  nsvcd__bounds box;
   // of a part that moves: where its samples begin
   size_t row;
   // metres, at most: by how much it leaves the way between its samples, and what poses in float are
@@ -76,9 +95,9 @@ struct nsvcd_checker {
   uint32_t *order;
   // (P): those of a stretch that are not proven yet
   uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, and the centres of the parts' spheres there
+  // (movers, NSVCD__MOST_STEPS + 1): samples, and boxes about the parts there
   nsvcd_pose *poses;
-  nsvcd__d3 *centres;
+  nsvcd__bounds *boxes;
   // the times of the samples, and the most that a part strays in the step after each
   double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;

@@ -23,8 +23,11 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   }
   if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_ARGUMENT;
   if (!nsvcd__poses_are_valid(&joint->origin, 1)) return NSVCD_ERROR_POSE;
-  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   const double most = (double)NSVCD_MAX_COORDINATE;
+  if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
+    return NSVCD_ERROR_NUMBER;
+  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_ARGUMENT;
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
     return NSVCD_ERROR_NUMBER;
   return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
@@ -59,6 +62,33 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   return result;
 }
 
+// A box about a part that is in this frame.
+static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
+  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
+  const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
+  nsvcd__d3 half;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
+    nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
+  }
+  const nsvcd__d3 middle =
+      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
+  return out;
+}
+
+static nsvcd__bounds nsvcd__box_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
+  const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
+  return out;
+}
+
+// Are two boxes apart by more than `room` along an axis?
+static int nsvcd__boxes_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
+  return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
+         a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
+         a->low.z - b->high.z > room || b->low.z - a->high.z > room;
+}
+
 // Lays a checker out at base, which is aligned, or, where that is NULL, only counts. Returns the
 // bytes; 0 if they are more than can be counted.
 static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
@@ -77,7 +107,7 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
-  c->centres = (nsvcd__d3 *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__d3));
+  c->boxes = (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = c;
@@ -120,8 +150,16 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
     // spheres are reckoned in float
     m->radius = 1.000001 * scale * (double)part->body->radius;
-    m->whole_radius = 1.000001 * scale * (double)nsvcd__whole_radius(part->body);
     m->extent = 1.000001 * scale * (double)part->body->extent;
+    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(part->body));
+    const nsvcd__d3 low = nsvcd__d3_load(facets.box);
+    const nsvcd__d3 high = nsvcd__d3_load(facets.box + 3);
+    const nsvcd__d3 all = {1, 1, 1};
+    m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
+    // what is round goes beyond
+    m->half = nsvcd__d3_fma(scale * (double)facets.round, all,
+                            nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
+    m->box = nsvcd__box_of(m, &m->frame);
     m->stray = 0;
     m->rounding = 0;
     m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
@@ -143,9 +181,10 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     const size_t link = scene->parts[n].link;
     if (!link) continue;
     const nsvcd__frame frame = nsvcd__frame_in(&at->frames[link], &m->frame);
-    const nsvcd__frame sphere = {{0, 0, 0, 1}, m->centre};
+    const nsvcd__bounds box = nsvcd__box_of(m, &frame);
     c->poses[m->row + k] = nsvcd__pose_in(&frame);
-    c->centres[m->row + k] = nsvcd__frame_in(&at->frames[link], &sphere).place;
+    c->boxes[m->row + k] = box;
+    m->box = k ? nsvcd__box_over(&m->box, &box) : box;
     // places and quaternions as floats are off by no more
     const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
     m->rounding = k ? nsvcd__max(m->rounding, rounding) : rounding;
@@ -209,41 +248,46 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
 
 // ---- pairs
 
-static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part, size_t poses) {
+// A box about a part in a step: it goes no farther from it than it strays.
+static nsvcd__bounds nsvcd__box_in(const nsvcd_checker *c, size_t part, size_t step, size_t steps) {
+  const nsvcd__member *m = &c->members[part];
+  if (!c->scene->parts[part].link || steps == 0) return m->box;
+  return nsvcd__box_over(&c->boxes[m->row + step], &c->boxes[m->row + step + 1]);
+}
+
+// Steps, one after another, of a pair that may come near in the first and in the last of them. As
+// many as 0 with no configuration but one.
+typedef struct nsvcd__spell {
+  size_t first, steps;
+} nsvcd__spell;
+
+// Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
+static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                           double room, nsvcd__spell *spell) {
+  size_t last = 0;
+  if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
+  spell->first = steps;
+  for (size_t k = 0; k < steps; k++) {
+    const nsvcd__bounds a = nsvcd__box_in(c, pair->a, k, steps);
+    const nsvcd__bounds b = nsvcd__box_in(c, pair->b, k, steps);
+    if (nsvcd__boxes_apart(&a, &b, room)) continue;
+    if (spell->first == steps) spell->first = k;
+    last = k + 1;
+  }
+  spell->steps = last - (steps ? spell->first : 0);
+  return steps == 0 || last > 0;
+}
+
+static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part,
+                                   const nsvcd__spell *spell) {
   const nsvcd_part *p = &c->scene->parts[part];
   nsvcd_mover mover;
   memset(&mover, 0, sizeof mover);
   mover.body = p->body;
   mover.scale = p->scale;
-  mover.poses = p->link ? &c->poses[c->members[part].row] : &p->pose;
-  mover.count = p->link ? poses : 1;
+  mover.poses = p->link ? &c->poses[c->members[part].row + spell->first] : &p->pose;
+  mover.count = p->link ? spell->steps + 1 : 1;
   return mover;
-}
-
-// Where the centre of a part's sphere is at a sample.
-static nsvcd__d3 nsvcd__centre_at(const nsvcd_checker *c, size_t part, size_t sample) {
-  const nsvcd__member *m = &c->members[part];
-  return c->scene->parts[part].link ? c->centres[m->row + sample] : m->centre;
-}
-
-// Do two spheres stay apart, by more than `room` between their centres, in all steps?
-static int nsvcd__stay_apart(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
-                             double room) {
-  nsvcd__d3 from =
-      nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, 0), nsvcd__centre_at(c, pair->b, 0));
-  for (size_t k = 1; k <= steps + !steps; k++) {
-    const size_t at = k < steps ? k : steps;
-    const nsvcd__d3 to =
-        nsvcd__d3_sub(nsvcd__centre_at(c, pair->a, at), nsvcd__centre_at(c, pair->b, at));
-    const nsvcd__d3 way = nsvcd__d3_sub(to, from);
-    const double square = nsvcd__d3_dot(way, way);
-    const double share = square > 0 ? -nsvcd__d3_dot(from, way) / square : 0;
-    const double u = nsvcd__max(0, nsvcd__min(1, share));
-    const nsvcd__d3 nearest = nsvcd__d3_fma(u, way, from);
-    if (!(nsvcd__d3_dot(nearest, nearest) > room * room)) return 0;
-    from = to;
-  }
-  return 1;
 }
 
 // By how much a part is off the way that its samples say, at most.
@@ -252,22 +296,22 @@ static double nsvcd__off(const nsvcd_checker *c, size_t part) {
 }
 
 // Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
-// `strays` more.
+// `strays` more. spell: what was asked about; the times of *found are of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
                                     size_t steps, double strays,
-                                    const nsvcd_check_options *options, nsvcd_answer *found,
-                                    nsvcd_check_answer *answer) {
+                                    const nsvcd_check_options *options, nsvcd__spell *spell,
+                                    nsvcd_answer *found, nsvcd_check_answer *answer) {
   const double clearance = (double)options->clearance + strays;
-  const double whole =
-      c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;
+  const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
+  const double room = (double)options->clearance + off;
   nsvcd_question question;
-  if (nsvcd__stay_apart(c, pair, steps, whole * (1 + 1e-9))) {
+  if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
   memset(&question, 0, sizeof question);
-  question.a = nsvcd__mover_of(c, pair->a, steps + 1);
-  question.b = nsvcd__mover_of(c, pair->b, steps + 1);
+  question.a = nsvcd__mover_of(c, pair->a, spell);
+  question.b = nsvcd__mover_of(c, pair->b, spell);
   question.clearance = clearance > 0 ? nsvcd__round_outward(clearance) : 0;
   question.method = NSVCD_METHOD_PROOF;
   question.work = options->work;
@@ -321,8 +365,8 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
 // Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
 // proof reached, then about where the samples' own way hits. found: what the proof said.
 static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                    size_t pair, size_t steps, nsvcd_answer *found,
-                                    const nsvcd_check_options *options,
+                                    size_t pair, size_t steps, nsvcd__spell *spell,
+                                    nsvcd_answer *found, const nsvcd_check_options *options,
                                     nsvcd_check_answer *answer) {
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   double joints[NSVCD_MAX_JOINTS];
@@ -332,9 +376,11 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
   for (int look = 0; look < 2 && !result && found->verdict != NSVCD_FREE; look++) {
     if (steps > 0) {
       // times of a sweep go by samples
-      const double at = nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t k = at < 1 ? (size_t)(at * (double)steps) : steps - 1;
-      const double share = at * (double)steps - (double)k;
+      const double at =
+          (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
+      const size_t k = spell->first + within;
+      const double share = at - (double)within;
       const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
       answer->share = nsvcd__share_at(motion, answer->piece, time);
@@ -344,7 +390,7 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
     result = nsvcd__ask_at(c, pair, joints, options, answer);
     if (answer->verdict == NSVCD_HIT) return result;
     if (look == 0 && !result)
-      result = nsvcd__ask_pair(c, both, steps, 0, options, found, answer);
+      result = nsvcd__ask_pair(c, both, steps, 0, options, spell, found, answer);
   }
   return result;
 }
@@ -358,6 +404,9 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
+  nsvcd__spell spell;
+  nsvcd_check_options glance = *options;
+  if (!glance.work || glance.work > NSVCD__GLANCE) glance.work = NSVCD__GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = steps ? nsvcd__piece_at(motion, t0) : 0;
   answer->share = steps ? nsvcd__share_at(motion, answer->piece, t0) : 0;
@@ -393,9 +442,12 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
       const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
-      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &found, answer);
+      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
-      if (!result) result = nsvcd__seek_hit(c, motion, pair, steps, &found, options, answer);
+      // a glance, but for the last time
+      const int is_last = steps == 0 || allowed <= (double)options->finest;
+      if (!result)
+        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found, is_last ? options : &glance, answer);
       if (result) return result;
       if (answer->verdict == NSVCD_HIT) {
         nsvcd__put_first(c, pair);

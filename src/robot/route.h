@@ -1,0 +1,411 @@
+// In: a start and goals. Out: a motion that is proven free, in the caller's memory.
+#pragma once
+#include "smooth.h"
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+#define NSVCD__NODES 20000
+#define NSVCD__SHORTCUTS 50
+#define NSVCD__SMOOTHINGS 200
+// of all joints whose limits are wider, only what is no farther than this from the start and the
+// goals is drawn from, but for one configuration in eight
+#define NSVCD__BESIDE 3.2
+
+// ---- memory
+
+static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
+                                       const nsvcd_route_problem *problem,
+                                       const nsvcd_route_options *options) {
+  if (!checker || !problem || !problem->start || !problem->goals) return NSVCD_ERROR_ARGUMENT;
+  const size_t most = NSVCD_MAX_NODES;
+  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_ARGUMENT;
+  if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
+    return NSVCD_ERROR_ARGUMENT;
+  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ARGUMENT;
+  const double *rows[3] = {problem->start, problem->goals, problem->guess};
+  const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
+  for (size_t n = 0; n < 3; n++) {
+    for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
+      if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
+        return NSVCD_ERROR_NUMBER;
+    }
+  }
+  return NSVCD_OK;
+}
+
+static void nsvcd__course_take(nsvcd__course *c, char *base, uint64_t *used, size_t pieces,
+                               size_t joints) {
+  c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
+  c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+}
+
+// Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes; 0 if they are more than can be counted.
+static size_t nsvcd__router_layout(const nsvcd_checker *checker,
+                                   const nsvcd_route_problem *problem,
+                                   const nsvcd_route_options *options, char *base,
+                                   nsvcd__router **router) {
+  nsvcd__router counted;
+  uint64_t used = 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__router));
+  nsvcd__router *r = at ? (nsvcd__router *)at : &counted;
+  memset(r, 0, sizeof *r);
+  if (options) r->options = *options;
+  nsvcd_route_options *o = &r->options;
+  o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
+  o->edge = o->edge > 0 ? o->edge : 1;
+  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
+  if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
+  const size_t joints = checker->scene->joint_count;
+  // what is given is not counted as a node
+  const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
+  for (size_t k = 0; k < 2; k++) {
+    nsvcd__tree *t = &r->trees[k];
+    t->joints = joints;
+    t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
+    t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->next = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
+  }
+  r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
+  r->way = (double *)nsvcd__take(base, &used, (nodes + 2) * joints, sizeof(double));
+  nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
+  *router = r;
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
+                                 const nsvcd_route_problem *problem,
+                                 const nsvcd_route_options *options) {
+  nsvcd__router *unused;
+  if (nsvcd__route_check(checker, problem, options)) return 0;
+  return nsvcd__router_layout(checker, problem, options, NULL, &unused);
+}
+
+// ---- trees
+
+// A configuration in the limits, near the start and the goals or anywhere.
+static void nsvcd__draw(nsvcd__router *r, double *out) {
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    double low = r->trees[0].points[j];
+    double high = low;
+    for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count; g++) {
+      low = nsvcd__min(low, r->trees[1].points[g * r->joints + j]);
+      high = nsvcd__max(high, r->trees[1].points[g * r->joints + j]);
+    }
+    low -= NSVCD__BESIDE;
+    high += NSVCD__BESIDE;
+    if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+      low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+      high = is_wide ? joint->high : nsvcd__min(high, joint->high);
+    }
+    out[j] = low + (high - low) * nsvcd__random(&r->random);
+  }
+}
+
+// Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
+// `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
+// is the configuration.
+static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *to,
+                                int is_greedy, size_t *node, int *is_there) {
+  const size_t joints = r->joints;
+  *node = nsvcd__tree_nearest(t, to);
+  *is_there = 0;
+  do {
+    double next[NSVCD_MAX_JOINTS];
+    const double *from = t->points + *node * joints;
+    const double way = sqrt(nsvcd__way2(from, to, joints));
+    const int ends = way <= r->options.edge;
+    for (size_t j = 0; j < joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / way * (to[j] - from[j]);
+    if (!(way > 0)) {
+      *is_there = 1;
+      return NSVCD_OK;
+    }
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
+    if (result) return result;
+    if (!is_free || r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    *node = nsvcd__tree_add(t, next, *node);
+    *is_there = ends;
+  } while (is_greedy && !*is_there);
+  return NSVCD_OK;
+}
+
+// Writes the way through nodes of both trees that are at the same place.
+static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
+  const size_t joints = r->joints;
+  const size_t bytes = joints * sizeof(double);
+  const nsvcd__tree *start = &r->trees[0];
+  const nsvcd__tree *goal = &r->trees[1];
+  size_t count = 1;
+  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
+  r->way_count = count;
+  for (size_t n = from_start; count-- > 0; n = start->parents[n])
+    memcpy(r->way + count * joints, start->points + n * joints, bytes);
+  size_t n = from_goal;
+  for (; goal->parents[n] != n; n = goal->parents[n])
+    memcpy(r->way + r->way_count++ * joints, goal->points + goal->parents[n] * joints, bytes);
+  r->answer.goal = r->goals[n];
+}
+
+// The way that is guessed: the trees take what is free of it from both ends.
+static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
+  const nsvcd_route_problem *p = &r->problem;
+  const size_t joints = r->joints;
+  size_t first = 0;
+  size_t last = p->guess_count;
+  size_t nodes[2] = {0, 0};
+  int is_free = 1;
+  // which goal it leads to
+  if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
+  for (int side = 0; side < 2; side++) {
+    nsvcd__tree *t = &r->trees[side];
+    for (is_free = 1; is_free && first < last;) {
+      const double *to = p->guess + (side ? last - 1 : first) * joints;
+      const nsvcd_result result =
+          nsvcd__prove_edge(r, t->points + nodes[side] * joints, to, &is_free);
+      if (result) return result;
+      if (!is_free) continue;
+      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
+      first += side == 0;
+      last -= side == 1;
+    }
+  }
+  if (first < last) return NSVCD_OK;
+  // what is left between
+  const nsvcd_result result =
+      nsvcd__prove_edge(r, r->trees[0].points + nodes[0] * joints,
+                        r->trees[1].points + nodes[1] * joints, is_found);
+  if (result || !*is_found) return result;
+  nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
+  nsvcd__way_through(r, nodes[0], nodes[1]);
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__seek(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  int is_found = 0;
+  nsvcd_result result = nsvcd__take_guess(r, &is_found);
+  if (result || is_found) return result;
+  // straight lines
+  for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count && !r->is_stopped;
+       g++) {
+    const double *goal = r->trees[1].points + g * joints;
+    result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
+    if (result) return result;
+    if (!is_found) continue;
+    nsvcd__way_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
+    return NSVCD_OK;
+  }
+  for (size_t turn = 0; !r->is_stopped; turn++) {
+    nsvcd__tree *grown = &r->trees[turn % 2];
+    nsvcd__tree *other = &r->trees[1 - turn % 2];
+    double drawn[NSVCD_MAX_JOINTS];
+    size_t node, met;
+    int is_there;
+    nsvcd__draw(r, drawn);
+    const size_t before = grown->count;
+    result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
+    if (result) return result;
+    if (r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (grown->count == before) continue;
+    result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
+    if (result) return result;
+    if (!is_there) continue;
+    nsvcd__way_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    return NSVCD_OK;
+  }
+  return NSVCD_OK;
+}
+
+// ---- shortcuts
+
+// A place on the way, this far along it: the corner before and the place.
+static size_t nsvcd__way_at(const nsvcd__router *r, double far, double *at) {
+  const size_t joints = r->joints;
+  size_t k = 0;
+  for (; k + 2 < r->way_count; k++) {
+    const double *from = r->way + k * joints;
+    const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+    if (far <= length) break;
+    far -= length;
+  }
+  const double *from = r->way + k * joints;
+  const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  const double share = length > 0 ? nsvcd__min(far / length, 1) : 0;
+  for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
+  return k;
+}
+
+// Replaces what is between two places on the way by an edge, again and again, where that is free.
+static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  for (size_t n = 0; n < r->options.shortcuts && r->way_count > 2 && !r->is_stopped; n++) {
+    double at[2][NSVCD_MAX_JOINTS];
+    double length = 0;
+    for (size_t k = 0; k + 1 < r->way_count; k++)
+      length += sqrt(nsvcd__way2(r->way + k * joints, r->way + (k + 1) * joints, joints));
+    const double a = length * nsvcd__random(&r->random);
+    const double b = length * nsvcd__random(&r->random);
+    const size_t first = nsvcd__way_at(r, nsvcd__min(a, b), at[0]);
+    const size_t last = nsvcd__way_at(r, nsvcd__max(a, b), at[1]);
+    // on one edge there is nothing to win, and the way grows by a corner where none is cut off
+    if (first == last) continue;
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
+    if (result) return result;
+    if (!is_free) continue;
+    // corners first + 1 to last make way for two
+    const size_t rest = r->way_count - (last + 1);
+    memmove(r->way + (first + 3) * joints, r->way + (last + 1) * joints,
+            rest * joints * sizeof(double));
+    memcpy(r->way + (first + 1) * joints, at[0], joints * sizeof(double));
+    memcpy(r->way + (first + 2) * joints, at[1], joints * sizeof(double));
+    r->way_count = first + 3 + rest;
+  }
+  return NSVCD_OK;
+}
+
+// ---- a route
+
+NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
+  switch (status) {
+    case NSVCD_ROUTE_FOUND:
+      return "found";
+    case NSVCD_ROUTE_LIMIT:
+      return "no way found with so many nodes";
+    case NSVCD_ROUTE_STOPPED:
+      return "stopped";
+    case NSVCD_ROUTE_START:
+      return "start not free";
+    case NSVCD_ROUTE_GOAL:
+      return "no goal free";
+  }
+  return "not a status";
+}
+
+// A configuration in *out, taken into the limits where rounding has it out. Is it free?
+static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
+                                   int *is_free) {
+  const nsvcd_joint_motion motion = {0, 0, out, NULL};
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double off = 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+    out[j] = at[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
+    if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
+  }
+  nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
+  if (result || *is_free || !(r->check.clearance > r->options.clearance)) return result;
+  // nothing to spare here
+  const float was = r->check.clearance;
+  r->check.clearance = r->options.clearance;
+  result = nsvcd__ask_motion(r, &motion, is_free);
+  if (!result && !*is_free) r->check.clearance = was;
+  return result;
+}
+
+// Roots of the trees. Sets the status where there are none.
+static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+  double at[NSVCD_MAX_JOINTS];
+  int is_free;
+  nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
+  if (result) return result;
+  if (!is_free) r->answer.status = NSVCD_ROUTE_START;
+  if (!is_free) return NSVCD_OK;
+  nsvcd__tree_add(&r->trees[0], at, 0);
+  for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
+    result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
+    if (result || !is_free) continue;
+    // as near as whole turns bring it
+    for (size_t j = 0; j < r->joints; j++) {
+      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
+        at[j] -= 6.283185307179586 *
+                 floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
+    }
+    r->goals[r->trees[1].count] = g;
+    nsvcd__tree_add(&r->trees[1], at, r->trees[1].count);
+  }
+  if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
+  return result;
+}
+
+// From the way to a motion, proven as it is: smooth, else with a rest at each corner.
+static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  int is_free = 0;
+  for (int rests = 0; rests < 2 && !is_free; rests++) {
+    nsvcd_result result = NSVCD_OK;
+    if (!nsvcd__course_along(r)) break;
+    if (!rests) result = nsvcd__smooth(r);
+    if (result) return result;
+    const nsvcd_check_options asked = r->check;
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    memset(&r->check, 0, sizeof r->check);
+    r->check.clearance = r->options.clearance;
+    r->answer.checks++;
+    // though the search is stopped: what it has found by then is not given up
+    result = nsvcd_check(r->checker, &motion, &r->check, &r->answer.check);
+    if (result) return result;
+    is_free = r->answer.check.verdict == NSVCD_FREE;
+    r->answer.proven += (size_t)is_free;
+    r->check = asked;
+  }
+  if (!is_free) return NSVCD_OK;
+  nsvcd_route_answer *answer = &r->answer;
+  answer->status = NSVCD_ROUTE_FOUND;
+  answer->motion = nsvcd__motion_of(&r->course);
+  answer->duration = r->course.times[r->course.pieces];
+  for (size_t p = 1; p < r->course.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
+  const double *last = r->way + (r->way_count - 1) * joints;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    answer->unhindered = nsvcd__max(
+        answer->unhindered, nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                             nsvcd__acceleration_of(joint)));
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
+                                  const nsvcd_route_options *options, void *memory,
+                                  size_t size, nsvcd_route_answer *answer) {
+  nsvcd__router *r;
+  nsvcd_result result = nsvcd__route_check(checker, problem, options);
+  if (result) return result;
+  if (!answer) return NSVCD_ERROR_ARGUMENT;
+  if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
+    return NSVCD_ERROR_TOLERANCE;
+  const size_t needed = nsvcd__router_layout(checker, problem, options, NULL, &r);
+  if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__router_layout(checker, problem, options, (char *)memory, &r);
+  r->checker = checker;
+  r->scene = checker->scene;
+  r->joints = checker->scene->joint_count;
+  r->problem = *problem;
+  r->random = r->options.seed;
+  r->check.clearance = r->options.clearance + NSVCD__SPARE;
+  r->check.finest = NSVCD__SEEK_FINEST;
+  r->check.work = NSVCD__SEEK_WORK;
+  r->answer.status = NSVCD_ROUTE_LIMIT;
+  result = nsvcd__plant(r);
+  if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
+  if (!result && r->way_count > 0) result = nsvcd__shorten(r);
+  if (!result && r->way_count > 0) result = nsvcd__time_way(r);
+  if (result) return result;
+  if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)
+    r->answer.status = NSVCD_ROUTE_STOPPED;
+  r->answer.nodes = r->trees[0].count + r->trees[1].count;
+  *answer = r->answer;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
