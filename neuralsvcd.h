@@ -54,7 +54,7 @@
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
-//   NSVCD_NO_OBJ      no OBJ reader at all
+//   NSVCD_NO_OBJ      no OBJ and STL reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
@@ -159,6 +159,7 @@
 //     mesh            checks, cuts at a box
 //     polygons        polygons into triangles
 //     obj             Wavefront OBJ
+//     stl             STL, binary and text
 //   patches: a mesh in parts
 //     samples         points of the surface, in equal share
 //     clusters        farthest point sampling, then Lloyd's algorithm
@@ -387,7 +388,7 @@ typedef struct nsvcd_allocator {
 } nsvcd_allocator;
 
 // -------------------------------------------------------------------------------- interface/meshes
-// In: an OBJ file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
+// In: an OBJ or STL file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
 
 typedef struct nsvcd_mesh {
   // (vertex_count, 3) metres
@@ -423,6 +424,22 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
+
+// Reads STL, binary or text, into a mesh. Corners at the same place become one vertex; normals and
+// attributes are skipped.
+//   data       (size) bytes, not NULL
+//   allocator, mesh, error_line  as above; of what is binary no line is at fault
+//   allocates  the mesh, with room for three vertices a triangle, and working memory
+//   errors     ARGUMENT, MEMORY, SYNTAX, NUMBER, EMPTY, TOO_LARGE
+//   source     3D Systems, "StereoLithography Interface Specification", 1989
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line);
+#ifndef NSVCD_NO_STDIO
+// nsvcd_stl_parse on what a file holds.
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line);
+#endif
 #endif
 #ifndef NSVCD_NO_ENCODER
 // Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
@@ -439,7 +456,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated, and empties *mesh.
+// Gives back what nsvcd_obj_parse, nsvcd_stl_parse, their files or nsvcd_mesh_cut allocated, and
+// empties *mesh.
 //   mesh       may be NULL
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
@@ -1170,7 +1188,7 @@ typedef struct nsvcd_route_options {
   size_t nodes;
   // radians or metres that an edge is long, at most; 1
   double edge;
-  // tried on the way, and on the timed motion; 50 and 200. NSVCD_NONE: none
+  // tried on the way, and on the timed motion; 20 and 200. NSVCD_NONE: none
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 
@@ -2859,26 +2877,214 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 }
 
 #ifndef NSVCD_NO_STDIO
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+// What a file holds; in the arena.
+static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
+                                     size_t *size) {
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
   // No fseek, so that pipes work and a directory is an error.
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  char *text = NULL;
-  size_t size = 0;
   size_t capacity = 32768;
+  *text = NULL;
+  *size = 0;
   do {
     capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
-    text = (char *)nsvcd__arena_grow(&arena, text, size, capacity, 1);
-    if (text) size += fread(text + size, 1, capacity - size, file);
-  } while (text && size == capacity);
-  nsvcd_result result = text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  if (text && ferror(file)) result = NSVCD_ERROR_IO;
+    *text = (char *)nsvcd__arena_grow(arena, *text, *size, capacity, 1);
+    if (*text) *size += fread(*text + *size, 1, capacity - *size, file);
+  } while (*text && *size == capacity);
+  nsvcd_result result = *text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  if (*text && ferror(file)) result = NSVCD_ERROR_IO;
   fclose(file);
+  return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  char *text;
+  size_t size;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_result result = nsvcd__read_file(path, &arena, &text, &size);
   if (!result) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
+  nsvcd__arena_free(&arena);
+  return result;
+}
+#endif  // NSVCD_NO_STDIO
+#endif  // NSVCD_NO_OBJ
+
+// ---------------------------------------------------------------------------------------- mesh/stl
+// In: an STL file, binary or text. Out: nsvcd_mesh.
+//
+// Binary is what has the size that its count of triangles says, or does not begin with "solid". Of
+// text only the words vertex and endloop count: three vertices a loop.
+
+#ifndef NSVCD_NO_OBJ
+#define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
+#define NSVCD__STL_FACET 50
+
+static uint32_t nsvcd__stl_word(const unsigned char *p) {
+  return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+// Three floats of a file that is binary.
+static nsvcd_result nsvcd__stl_corner(const unsigned char *at, float *out) {
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t bits = nsvcd__stl_word(at + 4 * k);
+    memcpy(&out[k], &bits, sizeof bits);
+    if (!nsvcd__is_finite(out[k]) || fabsf(out[k]) > NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_NUMBER;
+  }
+  return NSVCD_OK;
+}
+
+// Goes to the next token, past the ends of lines; 0 at the end of the text.
+static int nsvcd__stl_token(nsvcd__obj *text) {
+  for (;;) {
+    const size_t newline = nsvcd__obj_newline(text->at, text->end);
+    const size_t skipped = newline ? newline : nsvcd__obj_blank(text->at, text->end);
+    if (!skipped) return text->at < text->end;
+    text->line += newline > 0;
+    text->at += skipped;
+  }
+}
+
+// Is the token this word, in small letters or capitals? Then it is passed.
+static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
+  const char *p = text->at;
+  for (; *word; word++, p++) {
+    if (p == text->end || (*p | 32) != *word) return 0;
+  }
+  nsvcd__obj rest = *text;
+  rest.at = p;
+  if (!nsvcd__obj_token_ends(&rest)) return 0;
+  text->at = p;
+  return 1;
+}
+
+// Reads corners (count, 3) of a text, or, where that is NULL, only counts them.
+static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *count) {
+  size_t in_loop = 0;
+  *count = 0;
+  while (nsvcd__stl_token(text)) {
+    if (nsvcd__stl_accept(text, "solid") || nsvcd__stl_accept(text, "endsolid")) {
+      // a name follows
+      while (!nsvcd__obj_line_ends(text)) text->at++;
+    } else if (nsvcd__stl_accept(text, "endloop")) {
+      if (in_loop != 3) return NSVCD_ERROR_SYNTAX;
+      in_loop = 0;
+    } else if (nsvcd__stl_accept(text, "vertex")) {
+      for (size_t k = 0; k < 3 && corners; k++) {
+        double value;
+        if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
+        const nsvcd_result result = nsvcd__obj_number(text, &value);
+        if (result) return result;
+        if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+        corners[3 * *count + k] = (float)value;
+      }
+      in_loop++;
+      ++*count;
+    } else {
+      nsvcd__obj_skip_token(text);
+    }
+  }
+  return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
+}
+
+// Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
+// their numbers indices. table: (slots), a power of two, of numbers + 1; zeros.
+static void nsvcd__stl_weld(nsvcd_mesh *mesh, uint32_t *table, size_t slots) {
+  const size_t corners = mesh->vertex_count;
+  float *positions = mesh->positions;
+  mesh->vertex_count = 0;
+  for (size_t i = 0; i < corners; i++) {
+    uint32_t bits[3];
+    float corner[3];
+    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
+    memcpy(bits, corner, sizeof bits);
+    uint64_t hash = bits[0];
+    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[1];
+    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[2];
+    hash *= UINT64_C(0x9e3779b97f4a7c15);
+    size_t slot = (size_t)(hash >> 32) & (slots - 1);
+    while (table[slot] &&
+           memcmp(positions + 3 * (size_t)(table[slot] - 1), corner, sizeof corner) != 0)
+      slot = (slot + 1) & (slots - 1);
+    if (!table[slot]) {
+      memcpy(positions + 3 * mesh->vertex_count, corner, sizeof corner);
+      table[slot] = (uint32_t)++mesh->vertex_count;
+    }
+    mesh->indices[i] = table[slot] - 1;
+  }
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  const unsigned char *bytes = (const unsigned char *)data;
+  if (error_line) *error_line = 0;
+  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__obj text;
+  nsvcd_result result = NSVCD_OK;
+  size_t corners = 0;
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
+  const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
+  const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
+  const int is_binary = size == needed || !is_solid;
+  if (is_binary && size < needed) return NSVCD_ERROR_SYNTAX;
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  text.line = 1;
+  if (is_binary) {
+    if (told > NSVCD__MAX_COUNT / 3) return NSVCD_ERROR_TOO_LARGE;
+    corners = 3 * (size_t)told;
+  } else {
+    result = nsvcd__stl_text(&text, NULL, &corners);
+    if (!result && corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  }
+  if (!result && corners == 0) return NSVCD_ERROR_EMPTY;
+  nsvcd_mesh out;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  memset(&out, 0, sizeof out);
+  size_t slots = 16;
+  while (slots < 2 * corners) slots *= 2;
+  uint32_t *table = NULL;
+  if (!result) {
+    table = NSVCD__TAKE(&arena, uint32_t, slots);
+    if (!table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
+      text.line = 0;
+      result = NSVCD_ERROR_MEMORY;
+    }
+  }
+  if (!result && !is_binary) {
+    nsvcd__obj_begin(&text, (const char *)data, size);
+    text.line = 1;
+    result = nsvcd__stl_text(&text, out.positions, &corners);
+  }
+  for (size_t i = 0; i < corners && is_binary && !result; i++) {
+    const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
+    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), out.positions + 3 * i);
+  }
+  if (!result) nsvcd__stl_weld(&out, table, slots);
+  nsvcd__arena_free(&arena);
+  if (result) {
+    if (error_line && !is_binary) *error_line = text.line;
+    nsvcd_mesh_free(&out, allocator);
+    return result;
+  }
+  *mesh = out;
+  return NSVCD_OK;
+}
+
+#ifndef NSVCD_NO_STDIO
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  char *data;
+  size_t size;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
+  if (!result) result = nsvcd_stl_parse(data, size, allocator, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;
 }
@@ -16537,13 +16743,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
-#ifndef NSVCD__COARSE
 #define NSVCD__COARSE 2e-3
-#endif
 // units that a look for a hit may take, before the last
-#ifndef NSVCD__GLANCE
 #define NSVCD__GLANCE 200
-#endif
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 
@@ -16991,8 +17193,7 @@ static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *f
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
   }
-  const nsvcd__d3 middle =
-      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__d3 middle = nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
   const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
   return out;
 }
@@ -17027,10 +17228,11 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
-  c->boxes = (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  c->boxes =
+      (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
-  *checker = c;
+  *checker = (nsvcd_checker *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
@@ -17168,11 +17370,15 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
 
 // ---- pairs
 
-// A box about a part in a step: it goes no farther from it than it strays.
-static nsvcd__bounds nsvcd__box_in(const nsvcd_checker *c, size_t part, size_t step, size_t steps) {
+static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_t k) {
   const nsvcd__member *m = &c->members[part];
-  if (!c->scene->parts[part].link || steps == 0) return m->box;
-  return nsvcd__box_over(&c->boxes[m->row + step], &c->boxes[m->row + step + 1]);
+  return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
+}
+// A box about a part in a step: it goes no farther from it than it strays.
+static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
+  const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
+  const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
+  return nsvcd__box_over(&from, &to);
 }
 
 // Steps, one after another, of a pair that may come near in the first and in the last of them. As
@@ -17188,8 +17394,8 @@ static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, 
   if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
   spell->first = steps;
   for (size_t k = 0; k < steps; k++) {
-    const nsvcd__bounds a = nsvcd__box_in(c, pair->a, k, steps);
-    const nsvcd__bounds b = nsvcd__box_in(c, pair->b, k, steps);
+    const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
+    const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
     if (nsvcd__boxes_apart(&a, &b, room)) continue;
     if (spell->first == steps) spell->first = k;
     last = k + 1;
@@ -17362,12 +17568,14 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
       const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
-      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
+      nsvcd_result result =
+          nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
       // a glance, but for the last time
       const int is_last = steps == 0 || allowed <= (double)options->finest;
       if (!result)
-        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found, is_last ? options : &glance, answer);
+        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found,
+                                 is_last ? options : &glance, answer);
       if (result) return result;
       if (answer->verdict == NSVCD_HIT) {
         nsvcd__put_first(c, pair);
@@ -17623,6 +17831,7 @@ static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
 #define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
 // share of the limits of speed and acceleration that is asked for: the rest is for rounding
 #define NSVCD__RAMP_SHARE (1 - 1e-6)
+#define NSVCD__RAMP_MOST (1 - 5e-7)
 // seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
 // changes no farther apart than that are one
 #define NSVCD__SLIVER 1e-4
@@ -17724,17 +17933,18 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
   double time = 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    time =
-        nsvcd__max(time, nsvcd__ramp_time(states[0][j], states[2][j], states[1][j],
-                                          states[3][j], NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
-                                          NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+    time = nsvcd__max(time,
+                      nsvcd__ramp_time(states[0][j], states[2][j], states[1][j], states[3][j],
+                                       NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
+                                       NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
   }
   if (!(time < longest)) return 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j],
-                           nsvcd__speed_of(joint), nsvcd__acceleration_of(joint), time,
-                           &ramps[j]))
+    const double speed = NSVCD__RAMP_SHARE * nsvcd__speed_of(joint);
+    const double most = NSVCD__RAMP_MOST * nsvcd__acceleration_of(joint);
+    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed, most,
+                           time, &ramps[j]))
       return 0;
     if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
     changes[count++] = ramps[j].t1;
@@ -17785,14 +17995,14 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
 // seconds: half of the windows about a rest, the widest, and how often it may be halved
 #define NSVCD__HALF_WINDOW 0.8
 #define NSVCD__WINDOWS 6
+// of the duration without obstacles: there is nothing to win
+#define NSVCD__FAST_ENOUGH 1.001
 // metres that the search stays farther away than asked for, so that the whole is proven anew
 #define NSVCD__SPARE 1e-4f
 // metres that a part may stray from its sweeps, at least, in the search
-#define NSVCD__SEEK_FINEST 2.5e-4f
+#define NSVCD__SEEK_FINEST 5e-4f
 // units that a question of the search may take
-#ifndef NSVCD__SEEK_WORK
-#define NSVCD__SEEK_WORK 2000
-#endif
+#define NSVCD__SEEK_WORK 1000
 
 // A motion of degree 2 that is being made.
 typedef struct nsvcd__course {
@@ -17825,7 +18035,7 @@ static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
 
 // Is a motion proven free? answer.check says what is wrong. What the caller stops is not.
 static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                 int *is_free) {
+                                      int *is_free) {
   *is_free = 0;
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
   if (r->is_stopped) return NSVCD_OK;
@@ -17978,6 +18188,7 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
     const nsvcd__course *c = &r->course;
     const double end = c->times[c->pieces];
+    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
     double t0 = end * nsvcd__random(&r->random);
     double t1 = end * nsvcd__random(&r->random);
     size_t rests = 0;
@@ -17989,7 +18200,8 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
     }
     if (rests > 0) {
       const double window =
-          NSVCD__HALF_WINDOW / (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
+          NSVCD__HALF_WINDOW /
+          (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
       t0 = nsvcd__max(0, rest - window);
       t1 = nsvcd__min(end, rest + window);
     }
@@ -18005,7 +18217,7 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__NODES 20000
-#define NSVCD__SHORTCUTS 50
+#define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 // of all joints whose limits are wider, only what is no farther than this from the start and the
 // goals is drawn from, but for one configuration in eight
@@ -18074,7 +18286,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
-  *router = r;
+  *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
@@ -18341,6 +18553,13 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
 // From the way to a motion, proven as it is: smooth, else with a rest at each corner.
 static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   const size_t joints = r->joints;
+  const double *last = r->way + (r->way_count - 1) * joints;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double time = nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                         nsvcd__acceleration_of(joint));
+    r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
+  }
   int is_free = 0;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
@@ -18366,13 +18585,6 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   answer->duration = r->course.times[r->course.pieces];
   for (size_t p = 1; p < r->course.pieces; p++)
     answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
-  const double *last = r->way + (r->way_count - 1) * joints;
-  for (size_t j = 0; j < joints; j++) {
-    const nsvcd_joint *joint = &r->scene->joints[j];
-    answer->unhindered = nsvcd__max(
-        answer->unhindered, nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
-                                             nsvcd__acceleration_of(joint)));
-  }
   return NSVCD_OK;
 }
 

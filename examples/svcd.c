@@ -12,6 +12,7 @@
 // these call problem_file.h's
 #include "scenery/load.h"
 #include "scenery/options.h"
+#include "scenery/robot_file.h"
 #include "scenery/problem_summary.h"
 #include "scenery/sweep_motion.h"
 // and these the oracle
@@ -20,7 +21,8 @@
 
 // ---------------------------------------------------------------------------------------- settings
 
-enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8 };
+enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8, PLAN = 16, PATH = 32 };
+#define ALL (CHECK | ENCODE | INFO | SWEEP | PLAN | PATH)
 
 typedef struct settings {  // of all commands
   nsvcd_encode_options encode;
@@ -28,7 +30,8 @@ typedef struct settings {  // of all commands
   float first[2];        // a share of the motion, or metres; 0: not asked for
   float measure;         // metres
   size_t repeat;
-  const char *from, *to, *rotate, *scale, *picture, *details;
+  const char *from, *to, *rotate, *scale, *picture, *details, *only, *joints;
+  size_t seed, samples;
   int int8, help;
   const char *paths[2];
   size_t path_count;
@@ -38,8 +41,8 @@ typedef struct settings {  // of all commands
 #define POINTS NSVCD_MAX_PATCHES
 #define METRES (double)NSVCD_MAX_COORDINATE
 static const option options[] = {
-    {"--help", CHECK | ENCODE | INFO | SWEEP, OPTION_FLAG, AT(help), 0, 0, NULL},
-    {"-h", CHECK | ENCODE | INFO | SWEEP, OPTION_FLAG, AT(help), 0, 0, NULL},
+    {"--help", ALL, OPTION_FLAG, AT(help), 0, 0, NULL},
+    {"-h", ALL, OPTION_FLAG, AT(help), 0, 0, NULL},
     {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL},
     {"--from", SWEEP, OPTION_TEXT, AT(from), 0, 0, NULL},
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL},
@@ -47,7 +50,7 @@ static const option options[] = {
     {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
-    {"--clearance", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
+    {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE"},
     {"--first", CHECK | SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m"},
     {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL},
@@ -67,6 +70,10 @@ static const option options[] = {
     {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL},
     {"--work", CHECK | SWEEP, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL},
+    {"--seed", PLAN, OPTION_COUNT, AT(seed), 0, 1000000000, NULL},
+    {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL},
+    {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL},
+    {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL},
 };
 #define OPTION_COUNT_OF (sizeof options / sizeof options[0])
 
@@ -372,8 +379,8 @@ static int encode(settings *options) {
 
 static void print_mesh(const thing *t) {
   const mesh_report *r = &t->report;
-  printf("%s: an OBJ: %zu triangle%s, %zu vertices\n", t->path, r->triangles,
-         r->triangles == 1 ? "" : "s", r->vertices);
+  printf("%s: an %s: %zu triangle%s, %zu vertices\n", t->path, is_stl(t->path) ? "STL" : "OBJ",
+         r->triangles, r->triangles == 1 ? "" : "s", r->vertices);
   printf("box: %.4g x %.4g x %.4g m, from %.4g %.4g %.4g to %.4g %.4g %.4g\n",
          r->high[0] - r->low[0], r->high[1] - r->low[1], r->high[2] - r->low[2], r->low[0],
          r->low[1], r->low[2], r->high[0], r->high[1], r->high[2]);
@@ -412,6 +419,208 @@ static int info(settings *options) {
   if (good) print_facts(t.path, t.body);
   free_thing(&t);
   return good ? DONE : REFUSED;
+}
+
+// ------------------------------------------------------------------------------------ plan and path
+
+#define PLAN_NODES 100000
+
+// Is an ID one of a list "a,b"? NULL: all are.
+static int is_listed(const char *list, const char *id) {
+  const size_t length = strlen(id);
+  while (list && *list) {
+    const size_t word = strcspn(list, ",");
+    if (word == length && strncmp(list, id, word) == 0) return 1;
+    list += word + (list[word] == ',');
+  }
+  return !list;
+}
+
+static int plan_options(const settings *options, const char *command) {
+  if (options->path_count != 1)
+    return usage_error(command, "a planning file is wanted ('svcd plan --help')");
+  if ((options->samples > 0) != (options->joints != NULL))
+    return usage_error("--samples", "together with --joints OUT.tsv");
+  if (options->joints && !ends_with(options->joints, ".tsv"))
+    return usage_error("--joints", "a file that ends in .tsv is wanted");
+  return DONE;
+}
+
+// The joints at a time of a route's motion.
+static void route_at(const nsvcd_joint_motion *m, size_t joints, double time, double *out) {
+  size_t piece = 0;
+  while (piece + 1 < m->pieces && m->times[piece + 1] <= time) piece++;
+  const double *p = m->points + 2 * piece * joints;
+  const double s = (time - m->times[piece]) / (m->times[piece + 1] - m->times[piece]);
+  for (size_t j = 0; j < joints; j++) {
+    const double a = p[j] + s * (p[joints + j] - p[j]);
+    const double b = p[joints + j] + s * (p[2 * joints + j] - p[joints + j]);
+    out[j] = s < 1 ? a + s * (b - a) : p[2 * joints + j];
+  }
+}
+
+// How far the joints go, radians and metres alike: their ways added up as in space.
+static double route_length(const nsvcd_joint_motion *m, size_t joints) {
+  double length = 0;
+  double q[2][NSVCD_MAX_JOINTS];
+  const size_t looks = 16 * m->pieces;
+  route_at(m, joints, 0, q[0]);
+  for (size_t k = 1; k <= looks; k++) {
+    double sum = 0;
+    const double *times = m->times + (k - 1) / 16;
+    route_at(m, joints, times[0] + (times[1] - times[0]) * (double)((k - 1) % 16 + 1) / 16,
+             q[k % 2]);
+    for (size_t j = 0; j < joints; j++) sum += (q[1][j] - q[0][j]) * (q[1][j] - q[0][j]);
+    length += sqrt(sum);
+  }
+  return length;
+}
+
+// What is wrong with a start or a goal, on standard error.
+static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
+                       const nsvcd_check_answer *found) {
+  if (found->joint != NSVCD_NONE) {
+    complain("%s:%zu: %s: %s: joint %s is out of its limits", in->file->path, task->line, task->id,
+             where, in->file->joint_names[found->joint]);
+  } else if (found->pair != NSVCD_NONE) {
+    const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
+    complain("%s:%zu: %s: %s: %s and %s %s", in->file->path, task->line, task->id, where,
+             robot_name(in, pair->a), robot_name(in, pair->b),
+             found->verdict == NSVCD_HIT ? "meet, or come within the clearance"
+                                         : "are too near each other to tell");
+  }
+}
+
+static const char *plan_word(const nsvcd_route_answer *answer) {
+  const int is_doubt =
+      answer->check.verdict == NSVCD_UNDECIDED && answer->check.joint == NSVCD_NONE;
+  if (answer->status == NSVCD_ROUTE_FOUND) return "certified";
+  if (answer->status == NSVCD_ROUTE_START) return is_doubt ? "undecided" : "start";
+  if (answer->status == NSVCD_ROUTE_GOAL) return is_doubt ? "undecided" : "goal";
+  return "limit";
+}
+
+static int plan_one(const robot_in_room *in, const robot_task *task, const settings *options,
+                    FILE *out) {
+  nsvcd_route_problem problem;
+  nsvcd_route_options asked;
+  nsvcd_route_answer answer;
+  const size_t joints = in->file->joint_count;
+  memset(&problem, 0, sizeof problem);
+  memset(&asked, 0, sizeof asked);
+  problem.start = in->file->numbers + task->first;
+  problem.goals = problem.start + joints;
+  problem.goal_count = 1;
+  asked.seed = options->seed;
+  asked.clearance = options->sweep.clearance;
+  asked.nodes = PLAN_NODES;
+  const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
+  void *memory = allocate(size);
+  const double began = seconds();
+  const nsvcd_result result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
+  const double taken = seconds() - began;
+  if (!result) {
+    const nsvcd_joint_motion *m = &answer.motion;
+    const int is_found = answer.status == NSVCD_ROUTE_FOUND;
+    printf("%s\t%s\t%.6f\t", task->id, plan_word(&answer), taken);
+    if (is_found)
+      printf("%.9g\t%.9g\n", answer.duration, route_length(m, joints));
+    else
+      printf("nan\tnan\n");
+    if (answer.status == NSVCD_ROUTE_START) tell_check(in, task, "the start", &answer.check);
+    if (answer.status == NSVCD_ROUTE_GOAL) tell_check(in, task, "the goal", &answer.check);
+    for (size_t k = 0; is_found && k < options->samples; k++) {
+      double q[NSVCD_MAX_JOINTS];
+      route_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
+      fprintf(out, "%s\t%zu", task->id, k);
+      for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
+      fprintf(out, "\n");
+    }
+  }
+  free(memory);
+  if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
+  return !result;
+}
+
+// Edge by edge.
+static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
+                    FILE *out) {
+  nsvcd_check_options asked;
+  nsvcd_check_answer answer;
+  nsvcd_result result = NSVCD_OK;
+  const size_t joints = in->file->joint_count;
+  const size_t edges = task->points > 1 ? task->points - 1 : 1;
+  size_t edge = 0;
+  memset(&asked, 0, sizeof asked);
+  memset(&answer, 0, sizeof answer);
+  asked.clearance = options->sweep.clearance;
+  (void)out;
+  const double began = seconds();
+  for (size_t k = 0; k < edges && !result; k++) {
+    const double *points = in->file->numbers + task->first + k * joints;
+    const nsvcd_joint_motion motion = {task->points > 1, 1, points, NULL};
+    edge = k;
+    result = nsvcd_check(in->checker, &motion, &asked, &answer);
+    if (answer.verdict != NSVCD_FREE) break;
+  }
+  const double mean = 1e6 * (seconds() - began) / (double)(edge + 1);
+  if (result)
+    return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
+  printf("%s\t%s", task->id, nsvcd_verdict_string(answer.verdict));
+  if (answer.verdict == NSVCD_FREE) {
+    printf("\t-1\tnan\t-\t-");
+  } else {
+    const nsvcd_body_pair *pair = &in->scene.pairs[answer.pair];
+    printf("\t%zu\t%.9g\t%s\t%s", edge, answer.share, robot_name(in, pair->a),
+           robot_name(in, pair->b));
+  }
+  printf("\t%.2f\n", mean);
+  return 1;
+}
+
+// Plans, or paths, one after another. A checker is opened where the scene is another one.
+static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
+  robot_in_room in;
+  int good = 1;
+  memset(&in, 0, sizeof in);
+  for (size_t i = 0; i < file->task_count && good; i++) {
+    const robot_task *task = &file->tasks[i];
+    if ((task->points > 0) != is_path || !is_listed(options->only, task->id)) continue;
+    // a plan does not depend on those before: a checker remembers what was hit
+    if (!is_path || in.room != &file->rooms[task->room]) good = enter_room(file, task->room, &in);
+    if (good) good = (is_path ? path_one : plan_one)(&in, task, options, out);
+  }
+  leave_room(&in);
+  return good;
+}
+
+static int robot_command(settings *options, int is_path) {
+  robot_file file;
+  double taken;
+  FILE *out = NULL;
+  const int status = plan_options(options, is_path ? "path" : "plan");
+  if (status != DONE) return status;
+  int good = read_robot(options->paths[0], &file);
+  good = good && encode_robot(&file, &taken);
+  if (good)
+    fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", file.mesh_count, 1e3 * taken);
+  if (good && options->joints) {
+    out = fopen(options->joints, "w");
+    if (!out) good = complain("%s: %s", options->joints, strerror(errno));
+  }
+  good = good && robot_tasks(&file, options, is_path, out);
+  if (out) {
+    const int is_written = fflush(out) == 0 && !ferror(out);
+    if (fclose(out) != 0 || !is_written) good = complain("%s: cannot be written", options->joints);
+  }
+  free_robot(&file);
+  return good ? DONE : REFUSED;
+}
+static int plan(settings *options) {
+  return robot_command(options, 0);
+}
+static int path(settings *options) {
+  return robot_command(options, 1);
 }
 
 // ------------------------------------------------------------------------------------------- sweep
@@ -764,6 +973,28 @@ static void help_check(FILE *out) {
       NSVCD_DEFAULT_WORK);
 }
 
+static void help_plan(FILE *out) {
+  fprintf(out,
+          "svcd plan [--clearance METRES] [--seed S] [--only ID[,ID]] [--samples N --joints "
+          "OUT.tsv]\n"
+          "          FILE\n"
+          "Seeks a motion for each plan of a planning file, and proves it. A line each, separated\n"
+          "by tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH\n"
+          "  --clearance D       the motion keeps this away from all that it must not touch (0)\n"
+          "  --seed S            of the random numbers (0)\n"
+          "  --only ID,ID        these alone\n"
+          "  --samples N --joints OUT.tsv   the joints at N times, a line each: ID K JOINTS\n");
+}
+static void help_path(FILE *out) {
+  fprintf(out,
+          "svcd path [--clearance METRES] [--only ID[,ID]] FILE\n"
+          "Is each path of a planning file free, between its points as well? A line each,\n"
+          "separated by tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge\n"
+          "that is not free, when, and which two bodies; the mean of an edge.\n"
+          "  --clearance D       to come as near as this is a hit (0)\n"
+          "  --only ID,ID        these alone\n");
+}
+
 typedef struct command {
   const char *name;
   unsigned bit;
@@ -779,19 +1010,24 @@ static const command commands[] = {
     {"info", INFO, info, help_info, 1, 0, 0},
     {"encode", ENCODE, encode, help_encode, 2, 0, 0},
     {"check", CHECK, check, help_check, 1, 5, 0},
+    {"plan", PLAN, plan, help_plan, 1, 0, 0},
+    {"path", PATH, path, help_path, 1, 0, 0},
 };
 #define COMMANDS (sizeof commands / sizeof commands[0])
 
 static void usage(FILE *out) {
-  fprintf(out,
-          "svcd - does a body, moving so, hit another one? (neuralsvcd.h)\n"
-          "  svcd sweep A.obj B.obj            A moves, B rests: do they hit, when and where\n"
-          "  svcd info FILE.obj                what a mesh is, and what is wrong with it\n"
-          "  svcd encode IN.obj OUT.body       a body, ready to be loaded, or a C array OUT.h\n"
-          "  svcd check PROBLEMS.txt           answers a file of problems\n"
-          "  svcd COMMAND --help               its options\n"
-          "Exit status: 0 done, 1 a file or a line was refused, 2 usage.\n"
-          "What it reads and prints: examples/FORMATS.md.\n");
+  fprintf(
+      out,
+      "svcd - does a body, moving so, hit another one? (neuralsvcd.h)\n"
+      "  svcd sweep A.obj B.obj            A moves, B rests: do they hit, when and where\n"
+      "  svcd info FILE.obj                what a mesh is, and what is wrong with it\n"
+      "  svcd encode IN.obj OUT.body       a body, ready to be loaded, or a C array OUT.h\n"
+      "  svcd check PROBLEMS.txt           answers a file of problems\n"
+      "  svcd plan ROBOT.txt               motions of a robot, sought and proven\n"
+      "  svcd path ROBOT.txt               are paths of a robot free, between their points too?\n"
+      "  svcd COMMAND --help               its options\n"
+      "Exit status: 0 done, 1 a file or a line was refused, 2 usage.\n"
+      "What it reads and prints: examples/FORMATS.md.\n");
 }
 
 static const command *find_command(const char *name) {
@@ -808,7 +1044,8 @@ static int no_command(const char *name) {
   if (meant)
     complain("no command '%s'; did you mean 'svcd %s'?", name, meant);
   else
-    complain("no command '%s': there are sweep, info, encode and check ('svcd --help')", name);
+    complain("no command '%s': there are sweep, info, encode, check, plan and path ('svcd --help')",
+             name);
   return USAGE;
 }
 

@@ -54,7 +54,7 @@
 // OPTIONS, defined before the implementation is included
 //   NSVCD_STATIC      all functions static, in a file that has the implementation
 //   NSVCD_NO_STDIO    no file access: nsvcd_obj_load goes, nsvcd_obj_parse stays
-//   NSVCD_NO_OBJ      no OBJ reader at all
+//   NSVCD_NO_OBJ      no OBJ and STL reader at all
 //   NSVCD_NO_ENCODER  no nsvcd_encode, no nsvcd_mesh_cut and no OBJ reader: bodies come from
 //                     nsvcd_body_load
 //   NSVCD_NO_PROOF    no proof: the network answers; triangles are neither stored nor looked at
@@ -217,6 +217,7 @@ extern "C" {
 #include "mesh/mesh.h"      // checks, cuts at a box
 #include "mesh/polygons.h"  // polygons into triangles
 #include "mesh/obj.h"       // Wavefront OBJ
+#include "mesh/stl.h"       // STL, binary and text
 
 // ======================================================================== patches: a mesh in parts
 #include "patches/samples.h"   // points of the surface, in equal share

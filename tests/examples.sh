@@ -184,8 +184,8 @@ expect 1 "large.obj:3: .*NSVCD_MAX_COORDINATE: 1e+06.*: 'v 0 1e9 0'" build/svcd 
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/line.obj"
 expect 1 'line.obj: there is no triangle, or no area' build/svcd info "$dir/line.obj"
 grep -q 'wrong: 1 degenerate triangle' "$dir/out" || fail "info of no area: $(cat "$dir/out")"
-printf 'solid x\n' >"$dir/x.stl"
-expect 1 'x.stl: svcd reads OBJ and .body files' build/svcd info "$dir/x.stl"
+printf 'ply\n' >"$dir/x.ply"
+expect 1 'x.ply: svcd reads OBJ, STL and .body files' build/svcd info "$dir/x.ply"
 
 # svcd sweep: verdicts that are known. verdict TEXT ARGUMENTS...: what the first line says.
 verdict() {

@@ -180,12 +180,25 @@ robot: strays of one part|nsvcd__off(c, both->a) + nsvcd__off(c, both->b);|nsvcd
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
 robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
-robot: bends of a whole piece that is a part|second[i] = steps * steps * twice|second[i] = steps * twice
+robot: bends by the share of a piece|second[i] = steps * steps * twice|second[i] = twice
 robot: no strays|const double clearance = (double)options->clearance + strays;|const double clearance = (double)options->clearance;
-robot: spheres without the clearance|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius + clearance;|c->members[pair->a].whole_radius + c->members[pair->b].whole_radius;
-robot: spheres at samples alone|const double u = nsvcd__max(0, nsvcd__min(1, share));|const double u = share > 0.5 ? 1 : 0;
+robot: boxes without the clearance|const double room = (double)options->clearance + off;|const double room = off;
+robot: boxes at samples alone|return nsvcd__box_over(\&from, \&to);|return from;
+robot: boxes without strays|const double room = (double)options->clearance + off;|const double room = (double)options->clearance;
+robot: the first step of a spell alone|spell->steps = last - (steps ? spell->first : 0);|spell->steps = steps \&\& last > spell->first ? 1 : 0;
 robot: the last piece alone|const size_t steps = next - p == 1|if (next < motion->pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
+robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,
+robot: leaves cut with a hole|if (!(off2 < *best)) return;|if (!(1.5 * off2 < *best)) return;
+robot: ramps that are not proven|if (result \|\| !is_free) return result;\n  const nsvcd__course was|if (result) return result;\n  const nsvcd__course was
+robot: nothing is proven at the end|is_free = r->answer.check.verdict == NSVCD_FREE;|is_free = 1;
+robot: routes without a clearance|r->check.clearance = r->options.clearance + NSVCD__SPARE;|r->check.clearance = NSVCD__SPARE;
+robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
+robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
+robot: ramps that are slow|const double side = way >= least ? 1 : -1;|const double side = way >= 0 ? 1 : -1;
+robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if (0) continue;\n    // corners
+robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
+robot: whole turns are gone|at[j] -= 6.283185307179586 \*|at[j] -= 0 *
 LIST
 
 survived=0

@@ -1,11 +1,11 @@
-// Meshes: OBJ files, checks, polygons, and what is cut at a box.
+// Meshes: OBJ and STL files, checks, polygons, and what is cut at a box.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include <stddef.h>
 static size_t boxes_seen;  // by the search for ears
 #define NSVCD__TALLY(what, amount) (boxes_seen += #what[0] == 'b' ? (size_t)(amount) : 0)
 #include "../src/ground/strings.h"
-#include "../src/mesh/obj.h"
+#include "../src/mesh/stl.h"
 #include "../src/patches/samples.h"
 
 #include "arrays.h"
@@ -101,7 +101,7 @@ static void mesh_obj_refused(void) {
     nsvcd_result result;
     size_t line;
   } cases[] = {
-      {"", NSVCD_ERROR_EMPTY, 0},
+      {"", NSVCD_ERROR_SYNTAX, 0},
       {"# nothing\n", NSVCD_ERROR_EMPTY, 0},
       {TETRAHEDRON, NSVCD_ERROR_EMPTY, 0},
       {"f 1 2 3\n", NSVCD_ERROR_INDEX, 1},
@@ -388,18 +388,18 @@ static void mesh_obj_comments(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-static void mesh_obj_fuzz(void) {
-  static const char seed[] =
-      "# seed\nv 0 0 0 # a \\\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
-      "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 "
-      "5 4";
+// Changes a file at random places: what a reader makes of it is a mesh, or nothing. Returns how many
+// of the files were taken.
+static int mesh_fuzz(const char *seed, size_t seed_size, int rounds,
+                     nsvcd_result (*read)(const char *text, size_t size,
+                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                          size_t *line)) {
   static const char alphabet[] = "0123456789-+.eE/\\ \t\r\n#vfnai\0\xff";
-  enum { ROUNDS = 40000 };
   int accepted = 0;
   mesh_rng = 3;
-  for (int round = 0; round < ROUNDS; ++round) {
-    char text[400];
-    size_t size = sizeof seed - 1;
+  for (int round = 0; round < rounds; ++round) {
+    char text[1000];
+    size_t size = seed_size;
     memcpy(text, seed, size);
     for (size_t i = mesh_below(6); i > 0; --i) {
       size_t at = mesh_below(size);
@@ -429,7 +429,7 @@ static void mesh_obj_fuzz(void) {
     allocator.user = &heap;
     nsvcd_mesh mesh;
     size_t line = 999;
-    nsvcd_result result = nsvcd_obj_parse(exact, size, &allocator, &mesh, &line);
+    nsvcd_result result = read(exact, size, &allocator, &mesh, &line);
     size_t lines = 1;
     for (size_t i = 0; i < size; ++i) lines += exact[i] == '\n' || exact[i] == '\r';
     CHECK_LE(line, lines);
@@ -442,8 +442,169 @@ static void mesh_obj_fuzz(void) {
     CHECK_EQ(heap.live, 0);
     free(exact);
   }
-  printf("%d mutated files, %d accepted\n", ROUNDS, accepted);
-  CHECK(accepted > ROUNDS / 20 && accepted < ROUNDS);
+  printf("  %d files changed, %d taken\n", rounds, accepted);
+  return accepted;
+}
+
+static void mesh_obj_fuzz(void) {
+  static const char seed[] =
+      "# seed\nv 0 0 0 # a \\\nv 1.5e0 0 0 1\nv 1 1 0 .1 .2 .3\r\nv 0 1 -0\nv 0.5 0.5 1\n"
+      "vt 0 0\nvn 0 0 1\no a\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 1//1 2//1 \\\n 5\nf -1 -2 -3 2\nf 1 2 3 "
+      "5 4";
+  const int accepted = mesh_fuzz(seed, sizeof seed - 1, 40000, nsvcd_obj_parse);
+  CHECK(accepted > 40000 / 20 && accepted < 40000);
+}
+
+// --------------------------------------------------------------------------------------------- STL
+
+static nsvcd_result parse_stl(const char *text, size_t size, const nsvcd_allocator *allocator,
+                              nsvcd_mesh *mesh, size_t *line) {
+  return nsvcd_stl_parse(text, size, allocator, mesh, line);
+}
+
+// Triangles as an STL file, binary or text; returns its size.
+static size_t stl_write(const float *corners, uint32_t triangles, int is_binary, char *out) {
+  size_t size = (size_t)sprintf(out, "solid of a vertex and more\n");
+  if (is_binary) memset(out + size, ' ', 80 - size);
+  if (is_binary) size = 80;
+  for (int k = 0; k < 4 && is_binary; k++) out[size++] = (char)(triangles >> (8 * k) & 255);
+  for (uint32_t t = 0; t < triangles; t++) {
+    const float *at = corners + 9 * t;
+    if (!is_binary) size += (size_t)sprintf(out + size, " facet normal 0 0 1\r\n  OUTER loop\n");
+    for (int k = 0; k < 12 && is_binary; k++) {
+      uint32_t bits = 0x7fc00000;  // normals do not matter
+      if (k >= 3) memcpy(&bits, at + k - 3, 4);
+      for (int b = 0; b < 4; b++) out[size++] = (char)(bits >> (8 * b) & 255);
+    }
+    if (is_binary) size += 2;
+    for (int k = 0; k < 3 && !is_binary; k++)
+      size += (size_t)sprintf(out + size, "   vertex %.9g %.9e %.9g\n", (double)at[3 * k],
+                              (double)at[3 * k + 1], (double)at[3 * k + 2]);
+    if (!is_binary) size += (size_t)sprintf(out + size, "  endloop\n endfacet\n");
+  }
+  if (!is_binary) size += (size_t)sprintf(out + size, "endsolid of a vertex");
+  return size;
+}
+
+// Binary and text give the same mesh: each corner where it was, and no place twice.
+static void mesh_stl_is_read(void) {
+  static char text[2][200 * 300];
+  static float corners[9 * 200];
+  mesh_rng = 5;
+  for (uint32_t triangles = 1; triangles <= 200; triangles += 9) {
+    nsvcd_mesh meshes[2];
+    // of few places, so that many corners are the same; 0 and -0 are
+    for (size_t k = 0; k < 9 * triangles; k++) corners[k] = ((float)mesh_below(5) - 2) * 0.1f;
+    for (size_t k = 0; k < 9 * triangles; k += 7) corners[k] = mesh_below(2) ? 0.0f : -0.0f;
+    for (int n = 0; n < 2; n++) {
+      size_t line = 7;
+      const size_t size = stl_write(corners, triangles, n, text[n]);
+      char *exact = (char *)malloc(size);
+      memcpy(exact, text[n], size);
+      CHECK_EQ(nsvcd_stl_parse(exact, size, NULL, &meshes[n], &line), NSVCD_OK);
+      CHECK_EQ(line, 0);
+      free(exact);
+      CHECK_EQ(meshes[n].triangle_count, triangles);
+      CHECK_EQ(nsvcd__mesh_check(&meshes[n]), NSVCD_OK);
+      for (size_t k = 0; k < 9 * triangles; k++)
+        CHECK_EQ(meshes[n].positions[3 * meshes[n].indices[k / 3] + k % 3], corners[k]);
+      for (size_t a = 0; a < meshes[n].vertex_count; a++) {
+        for (size_t b = 0; b < a; b++)
+          CHECK(memcmp(meshes[n].positions + 3 * a, meshes[n].positions + 3 * b, 12) != 0);
+      }
+    }
+    CHECK_EQ(meshes[0].vertex_count, meshes[1].vertex_count);
+    CHECK_EQ(memcmp(meshes[0].indices, meshes[1].indices, 12 * triangles), 0);
+    for (int n = 0; n < 2; n++) nsvcd_mesh_free(&meshes[n], NULL);
+  }
+  nsvcd_mesh mesh;
+  CHECK_EQ(nsvcd_stl_load("no/such/file.stl", NULL, &mesh, NULL), NSVCD_ERROR_IO);
+}
+
+#define STL_LOOP "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+static void mesh_stl_is_refused(void) {
+  static const struct {
+    const char *text;
+    nsvcd_result result;
+    size_t line;
+  } cases[] = {
+      {"solid\n" STL_LOOP, NSVCD_OK, 0},
+      {"solid", NSVCD_ERROR_EMPTY, 0},
+      {"solid a\nendsolid a\n", NSVCD_ERROR_EMPTY, 0},
+      {"solid\n" STL_LOOP "vertex 0 0 0", NSVCD_ERROR_SYNTAX, 7},
+      {"solid\nvertex 0 0 0\nvertex 1 0 0\nendloop", NSVCD_ERROR_SYNTAX, 4},
+      {"solid\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 0 1\nvertex 1 1 0\nendloop", NSVCD_ERROR_SYNTAX,
+       6},
+      {"solid\nvertex 0 0 0\nvertex 1 0 x\nvertex 1 0 1\nendloop", NSVCD_ERROR_SYNTAX, 3},
+      {"solid\nvertex 0 0 0\nvertex 1 0 nan\nvertex 1 0 1\nendloop", NSVCD_ERROR_NUMBER, 3},
+      {"solid\nvertex 0 0 0\nvertex 1 0 9e37\nvertex 1 0 1\nendloop", NSVCD_ERROR_NUMBER, 3},
+      {"solid\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 0", NSVCD_ERROR_SYNTAX, 4},
+      {"", NSVCD_ERROR_SYNTAX, 0},
+      {"ply\n", NSVCD_ERROR_SYNTAX, 0},
+  };
+  for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+    nsvcd_mesh mesh = {NULL, NULL, 7, 7};
+    size_t line = 99;
+    const size_t size = strlen(cases[n].text);
+    char *exact = (char *)malloc(size + 1);
+    memcpy(exact, cases[n].text, size);
+    const nsvcd_result result = nsvcd_stl_parse(exact, size, NULL, &mesh, &line);
+    free(exact);
+    if (result != cases[n].result || line != cases[n].line)
+      printf("  case %zu: %d, line %zu\n", n, (int)result, line);
+    CHECK_EQ(result, cases[n].result);
+    CHECK_EQ(line, cases[n].line);
+    if (!result)
+      nsvcd_mesh_free(&mesh, NULL);
+    else
+      CHECK_EQ(mesh.vertex_count, 7);
+  }
+  // binary: cut off, not finite, too large, a count that is none
+  static char binary[400];
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const size_t size = stl_write(corners, 1, 1, binary);
+  nsvcd_mesh mesh;
+  size_t line = 99;
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_OK);
+  nsvcd_mesh_free(&mesh, NULL);
+  memcpy(binary, "SOLED", 5);
+  CHECK_EQ(nsvcd_stl_parse(binary, size - 1, NULL, &mesh, &line), NSVCD_ERROR_SYNTAX);
+  CHECK_EQ(line, 0);
+  binary[84 + 12 + 3] = 0x7f;
+  binary[84 + 12 + 2] = (char)0x80;
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_ERROR_NUMBER);
+  memset(binary + 80, 0xff, 4);
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_ERROR_SYNTAX);
+  CHECK_EQ(nsvcd_stl_parse(NULL, size, NULL, &mesh, &line), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, NULL, &line), NSVCD_ERROR_ARGUMENT);
+}
+
+static void mesh_stl_fuzz(void) {
+  static char seed[2000];
+  static const float corners[27] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
+                                    0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (int is_binary = 0; is_binary < 2; is_binary++) {
+    const size_t size = stl_write(corners, 3, is_binary, seed);
+    const int accepted = mesh_fuzz(seed, size, 20000, parse_stl);
+    CHECK(accepted > 1000 && accepted < 20000);
+  }
+  // without memory, at whichever place
+  const size_t size = stl_write(corners, 3, 0, seed);
+  int failures = 0;
+  for (nsvcd_result result = NSVCD_ERROR_MEMORY; result; failures++) {
+    failing_heap heap = {0, 0, 0};
+    heap.fail_at = failures;
+    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
+    allocator.user = &heap;
+    nsvcd_mesh mesh;
+    size_t line = 99;
+    result = nsvcd_stl_parse(seed, size, &allocator, &mesh, &line);
+    CHECK_EQ(line, 0);
+    CHECK(result == NSVCD_OK || result == NSVCD_ERROR_MEMORY);
+    if (!result) nsvcd_mesh_free(&mesh, &allocator);
+    CHECK_EQ(heap.live, 0);
+  }
+  CHECK_EQ(failures, 4);
 }
 
 static void mesh_is_checked(void) {
@@ -770,6 +931,9 @@ void test_mesh(void) {
   RUN(mesh_obj_files);
   RUN(mesh_obj_comments);
   RUN(mesh_obj_fuzz);
+  RUN(mesh_stl_is_read);
+  RUN(mesh_stl_is_refused);
+  RUN(mesh_stl_fuzz);
   RUN(mesh_is_checked);
   RUN(mesh_polygons_simple);
   RUN(mesh_polygons_special);

@@ -182,7 +182,7 @@ static void robot_strays_no_farther(void) {
     const size_t pieces = trial % 3 ? 1 : 1 + (size_t)shapes_pick(&rng, PIECES);
     const int jumps = shapes_pick(&rng, 3);  // 0: none; 1: small ones; 2: any
     const nsvcd_joint_motion motion = {pieces, degree, flat, times};
-    const size_t steps = (size_t)1 << shapes_pick(&rng, 5);
+    const size_t steps = (size_t)1 << shapes_pick(&rng, pieces > 1 ? 3 : 5);
     const double size = pow(10, shapes_uniform(&rng, -2, 0.3));
     const double bends = pow(10, shapes_uniform(&rng, -2, 0));
     for (size_t p = 0; p < pieces; p++) times[p + 1] = times[p] + pow(10, shapes_normal(&rng) / 3);
@@ -229,7 +229,7 @@ static void robot_strays_no_farther(void) {
             high = at_u < at_v ? v : high;
             off = fmin(off, fmin(at_u, at_v));
           }
-          CHECK_LE(off, m->stray + 2 * m->rounding);
+          CHECK_LE(off, nsvcd__off(r.checker, part));
           farthest = fmax(farthest, off);
         }
       }
@@ -687,6 +687,335 @@ static void robot_refuses_bad_input(void) {
   free(r.memory);
 }
 
+// -------------------------------------------------------------------------------------------------
+// routes
+
+// The nearest node is the nearest one, whatever was added in which order, more than once as well.
+static void robot_trees_find_the_nearest(void) {
+  enum { NODES = 3000 };
+  static double points[NODES][NSVCD_MAX_JOINTS];
+  static uint32_t parents[NODES], next[NODES];
+  static nsvcd__cell cells[2 * NODES];
+  shapes_rng rng = {81};
+  for (size_t joints = 1; joints <= 7; joints += 3) {
+    nsvcd__tree tree = {joints, 0, 0, &points[0][0], parents, next, cells};
+    for (size_t n = 0; n < NODES; n++) {
+      double at[NSVCD_MAX_JOINTS];
+      for (size_t j = 0; j < joints; j++) {
+        at[j] = n % 7 ? shapes_uniform(&rng, -3, 3) : floor(shapes_uniform(&rng, -2, 2));
+        if (n % 11 == 0) at[j] = 0.5;
+      }
+      if (n > 0) {
+        double best = HUGE_VAL;
+        for (size_t k = 0; k < n; k++)
+          best = fmin(best, nsvcd__way2(tree.points + k * joints, at, joints));
+        const size_t nearest = nsvcd__tree_nearest(&tree, at);
+        CHECK_EQ(nsvcd__way2(tree.points + nearest * joints, at, joints), best);
+      }
+      CHECK_EQ(nsvcd__tree_add(&tree, at, n), n);
+    }
+  }
+}
+
+// A ramp ends where it is to, within the limits, is as quick as its slowest joint can be, and goes
+// on without a jump.
+static void robot_ramps_are_quickest(void) {
+  shapes_rng rng = {82};
+  size_t ramps = 0;
+  for (int trial = 0; trial < 20000; trial++) {
+    const double speed = pow(10, shapes_uniform(&rng, -1, 1));
+    const double most = pow(10, shapes_uniform(&rng, -1, 1));
+    const double x1 = shapes_pick(&rng, 5) ? shapes_normal(&rng) : 0;
+    const double v0 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
+    const double v1 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
+    const double time = nsvcd__ramp_time(0, v0, x1, v1, speed, most);
+    nsvcd__ramp_joint r;
+    double x, v;
+    if (!(time > 1e-3)) continue;
+    CHECK(nsvcd__ramp_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
+    nsvcd__ramp_at(&r, 0, v0, time, &x, &v);
+    CHECK_NEAR(x, x1, 1e-9 * (1 + fabs(x1) + speed * time));
+    CHECK_NEAR(v, v1, 1e-9 * (speed + most * time));
+    // never faster than the limit, and not quicker with less time
+    nsvcd__ramp_at(&r, 0, v0, r.t1, &x, &v);
+    CHECK_LE(fabs(v), speed * (1 + 1e-8));
+    const int sooner = nsvcd__ramp_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
+    CHECK(!sooner);
+    ramps++;
+  }
+  CHECK_GE(ramps, 19000);
+}
+
+// A motion keeps the limits, has no jumps of speed, and is at rest at both ends; all by its points.
+static void robot_motion_is_smooth(const robot *r, const nsvcd_joint_motion *m, const double *start,
+                                   const double *goal) {
+  const size_t joints = r->scene.joint_count;
+  CHECK_EQ(m->degree, 2);
+  CHECK_EQ(m->times[0], 0);
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->joints[j];
+    double last = 0;
+    CHECK_EQ(m->points[j], start[j]);
+    CHECK_NEAR(m->points[2 * m->pieces * joints + j], goal[j], 1e-12);
+    for (size_t p = 0; p < m->pieces; p++) {
+      const double *at = m->points + 2 * p * joints + j;
+      const double time = m->times[p + 1] - m->times[p];
+      const double v0 = 2 * (at[joints] - at[0]) / time;
+      const double v1 = 2 * (at[2 * joints] - at[joints]) / time;
+      CHECK_NEAR(v0, last, 1e-7);
+      CHECK_LE(fabs(v1), joint->speed);
+      CHECK_LE(fabs(v1 - v0) / time, joint->acceleration);
+      last = v1;
+    }
+    CHECK_NEAR(last, 0, 1e-7);
+  }
+}
+
+// A configuration of an arm among boxes that is free by so much.
+static int robot_free_place(robot *r, shapes_rng *rng, float clearance, double *q) {
+  const nsvcd_joint_motion still = {0, 0, q, NULL};
+  nsvcd_check_options options;
+  nsvcd_check_answer answer;
+  memset(&options, 0, sizeof options);
+  options.clearance = clearance;
+  for (int n = 0; n < 200; n++) {
+    for (size_t j = 0; j < 6; j++) q[j] = shapes_uniform(rng, -3.1, 3.1);
+    CHECK_EQ(nsvcd_check(r->checker, &still, &options, &answer), NSVCD_OK);
+    if (answer.verdict == NSVCD_FREE) return 1;
+  }
+  return 0;
+}
+
+typedef struct asked_route {
+  nsvcd_route_problem problem;
+  nsvcd_route_options options;
+  nsvcd_route_answer answer;
+  double start[6], goals[3][6];
+  void *memory;
+  size_t size;
+} asked_route;
+
+static void ask_route(robot *r, asked_route *a) {
+  a->problem.start = a->start;
+  a->problem.goals = &a->goals[0][0];
+  if (!a->problem.goal_count) a->problem.goal_count = 1;
+  a->size = nsvcd_route_size(r->checker, &a->problem, &a->options);
+  free(a->memory);
+  a->memory = calloc(1, a->size);
+  if (!a->size || !a->memory) exit(1);
+  CHECK_EQ(nsvcd_route(r->checker, &a->problem, &a->options, a->memory, a->size, &a->answer),
+           NSVCD_OK);
+}
+
+// Routes of an arm among boxes: found, free at many times by distances in double, smooth and within
+// the limits; the same again from the same seed; quicker as a guess than by search.
+static void robot_routes_are_free(void) {
+  static robot r;
+  shapes_rng rng = {83};
+  size_t routes = 0;
+  size_t found = 0;
+  size_t smooth = 0;
+  size_t sought = 0;
+  for (int trial = 0; trial < 30; trial++) {
+    asked_route a;
+    memset(&a, 0, sizeof a);
+    a.options.clearance = trial % 2 ? 0 : 0.01f;
+    a.options.seed = (uint64_t)trial;
+    robot_arm(&r, &rng, 14);
+    for (size_t j = 0; j < 6; j++) {
+      r.joints[j].speed = shapes_uniform(&rng, 1, 3);
+      r.joints[j].acceleration = shapes_uniform(&rng, 3, 10);
+    }
+    const int is_asked = robot_free_place(&r, &rng, a.options.clearance, a.start) &&
+                         robot_free_place(&r, &rng, a.options.clearance, a.goals[0]);
+    if (is_asked) {
+      ask_route(&r, &a);
+      routes++;
+    }
+    if (is_asked && a.answer.status == NSVCD_ROUTE_FOUND) {
+      const nsvcd_joint_motion *m = &a.answer.motion;
+      const double end = m->times[m->pieces];
+      found++;
+      smooth += a.answer.stops == 0;
+      sought += a.answer.nodes > 3;
+      CHECK_EQ(end, a.answer.duration);
+      CHECK_GE(a.answer.duration, a.answer.unhindered * (1 - 1e-9));
+      robot_motion_is_smooth(&r, m, a.start, a.goals[0]);
+      for (int k = 0; k <= 300; k++) {
+        double q[6];
+        joints_at_time(m, 6, end * k / 300, q);
+        for (size_t p = 0; p < r.scene.pair_count; p++)
+          CHECK_LE((double)a.options.clearance, robot_apart(&r, &r.pairs[p], q, 0.1) + 1e-9);
+      }
+      // again: from the same seed, with a checker that remembers nothing
+      asked_route again = a;
+      again.memory = NULL;
+      CHECK_EQ(nsvcd_checker_open(&r.scene, r.memory, nsvcd_checker_size(&r.scene), &r.checker),
+               NSVCD_OK);
+      ask_route(&r, &again);
+      CHECK_EQ(again.answer.motion.pieces, m->pieces);
+      CHECK_EQ(
+          memcmp(again.answer.motion.points, m->points, (2 * m->pieces + 1) * 6 * sizeof(double)),
+          0);
+      // its middle as a guess: the way is proven, and nothing is sought
+      again.problem.guess = m->points;
+      again.problem.guess_count = 2 * m->pieces + 1;
+      again.options.nodes = 1;
+      ask_route(&r, &again);
+      if (a.options.clearance <= 0) CHECK_EQ(again.answer.status, NSVCD_ROUTE_FOUND);
+      free(again.memory);
+    }
+    free(a.memory);
+    free(r.memory);
+  }
+  printf("  %zu of %zu found, %zu by a search, %zu without stops\n", found, routes, sought, smooth);
+  CHECK_GE(routes, 20);
+  CHECK_GE(found + 2, routes);
+  CHECK_GE(sought, 5);
+  CHECK_GE(smooth + 2, found);
+}
+
+static int robot_stop(void *user) {
+  return --*(int *)user < 0;
+}
+
+// What ends a search otherwise: a start or all goals that are not free, nodes, the caller. Of several
+// goals one that is free is reached, by a joint without limits the shorter way round.
+static void robot_routes_end(void) {
+  static robot r;
+  shapes_rng rng = {84};
+  asked_route a;
+  memset(&a, 0, sizeof a);
+  robot_arm(&r, &rng, 0);
+  // folded back on itself, somehow
+  double folded[6];
+  const nsvcd_joint_motion still = {0, 0, folded, NULL};
+  nsvcd_check_answer found;
+  memset(&found, 0, sizeof found);
+  for (int n = 0; n < 100000 && found.verdict != NSVCD_HIT; n++) {
+    for (int j = 0; j < 6; j++) folded[j] = shapes_uniform(&rng, -3, 3);
+    CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &found), NSVCD_OK);
+  }
+  CHECK_EQ(found.verdict, NSVCD_HIT);
+  const double bent[6] = {2, 0.5, 0.3, 0, 0, 0};
+  memcpy(a.goals[0], folded, sizeof folded);
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_GOAL);
+  CHECK_EQ(a.answer.check.verdict, NSVCD_HIT);
+  CHECK(a.answer.check.pair < r.scene.pair_count);
+  // a goal out of limits; by rounding it is taken in
+  memcpy(a.goals[0], bent, sizeof bent);
+  a.goals[0][5] = 3.2;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_GOAL);
+  CHECK_EQ(a.answer.check.joint, 5);
+  a.goals[0][5] = 3.1 + 1e-10;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  CHECK_EQ(a.answer.motion.points[12 * a.answer.motion.pieces + 5], 3.1);
+  memcpy(a.start, folded, sizeof folded);
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_START);
+  memset(a.start, 0, sizeof a.start);
+  // the second of two goals
+  memcpy(a.goals[0], folded, sizeof folded);
+  memcpy(a.goals[1], bent, sizeof bent);
+  a.problem.goal_count = 2;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  CHECK_EQ(a.answer.goal, 1);
+  a.problem.goal_count = 1;
+  // a turn of 6 is one of 0.28 the other way
+  memcpy(a.goals[0], bent, sizeof bent);
+  a.start[0] = -3;
+  a.goals[0][0] = 3;
+  r.joints[0].kind = NSVCD_JOINT_CONTINUOUS;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  CHECK_NEAR(a.answer.motion.points[12 * a.answer.motion.pieces], 3 - 2 * SHAPES_PI, 1e-12);
+  r.joints[0].kind = NSVCD_JOINT_REVOLUTE;
+  // stopped
+  int left = 2;
+  a.problem.stop = robot_stop;
+  a.problem.user = &left;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_STOPPED);
+  CHECK_EQ(a.answer.checks, 2);
+  // once there is a way it is not given up
+  left = 3;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  a.problem.stop = NULL;
+  free(a.memory);
+  free(r.memory);
+  // a slide through a slab: no way round it
+  static robot slide;
+  memset(&slide, 0, sizeof slide);
+  memset(&a, 0, sizeof a);
+  slide.scene.joint_count = 1;
+  slide.scene.part_count = 2;
+  slide.scene.pair_count = 1;
+  slide.joints[0].kind = NSVCD_JOINT_PRISMATIC;
+  slide.joints[0].axis[2] = 1;
+  slide.joints[0].low = -1;
+  slide.joints[0].high = 1;
+  slide.joints[0].origin.rotation[3] = 1;
+  for (uint32_t n = 0; n < 2; n++) {
+    slide.parts[n].body = robot_shapes()[n ? 2 : 0].body;
+    slide.parts[n].link = 1 - n;
+    slide.parts[n].pose.rotation[3] = 1;
+  }
+  slide.pairs[0].b = 1;
+  robot_open(&slide);
+  a.start[0] = -0.5;
+  a.goals[0][0] = 0.5;
+  a.options.nodes = 40;
+  ask_route(&slide, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_LIMIT);
+  CHECK_EQ(a.answer.nodes, 40);
+  free(a.memory);
+  free(slide.memory);
+  for (int status = NSVCD_ROUTE_FOUND; status <= NSVCD_ROUTE_GOAL + 1; status++)
+    CHECK(nsvcd_route_status_string((nsvcd_route_status)status)[0] != 0);
+}
+
+static void robot_routes_refuse(void) {
+  static robot r;
+  shapes_rng rng = {85};
+  asked_route a;
+  nsvcd_route_answer answer;
+  memset(&a, 0, sizeof a);
+  memset(&answer, 0x33, sizeof answer);
+  const nsvcd_route_answer before = answer;
+  robot_arm(&r, &rng, 0);
+  a.goals[0][1] = 0.5;
+  ask_route(&r, &a);
+#define REFUSED_ROUTE(change, back, code)                                                      \
+  do {                                                                                         \
+    change;                                                                                    \
+    CHECK_EQ(nsvcd_route(r.checker, &a.problem, &a.options, a.memory, a.size, &answer), code); \
+    CHECK_EQ(memcmp(&answer, &before, sizeof answer), 0);                                      \
+    back;                                                                                      \
+  } while (0)
+  REFUSED_ROUTE(a.start[2] = NAN, a.start[2] = 0, NSVCD_ERROR_NUMBER);
+  REFUSED_ROUTE(a.goals[0][2] = HUGE_VAL, a.goals[0][2] = 0, NSVCD_ERROR_NUMBER);
+  REFUSED_ROUTE(a.problem.start = NULL, a.problem.start = a.start, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.problem.goals = NULL, a.problem.goals = a.goals[0], NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.problem.goal_count = 0, a.problem.goal_count = 1, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.problem.guess_count = 1, a.problem.guess_count = 0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.options.clearance = -1, a.options.clearance = 0, NSVCD_ERROR_TOLERANCE);
+  REFUSED_ROUTE(a.options.clearance = NAN, a.options.clearance = 0, NSVCD_ERROR_TOLERANCE);
+  REFUSED_ROUTE(a.options.edge = NAN, a.options.edge = 0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.options.nodes = NSVCD_MAX_NODES + 1, a.options.nodes = 0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.size--, a.size++, NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, NULL, a.size, &answer), NSVCD_ERROR_WORKSPACE);
+  CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, a.memory, a.size, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_route(NULL, &a.problem, NULL, a.memory, a.size, &answer), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, a.memory, a.size, &answer), NSVCD_OK);
+  free(a.memory);
+  free(r.memory);
+}
+
 void test_robot(void) {
   RUN(robot_parts_are_where_joints_say);
   RUN(robot_limits_are_kept);
@@ -695,5 +1024,10 @@ void test_robot(void) {
   RUN(robot_levers_reach);
   RUN(robot_grazes);
   RUN(robot_verdicts_are_right);
+  RUN(robot_trees_find_the_nearest);
+  RUN(robot_ramps_are_quickest);
+  RUN(robot_routes_are_free);
+  RUN(robot_routes_end);
+  RUN(robot_routes_refuse);
 }
 CHECK_ALONE(test_robot)

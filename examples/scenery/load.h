@@ -48,23 +48,31 @@ static const char *file_name(const char *path) {
 
 // Formats that people have, and svcd does not read.
 static const char *foreign(const char *path) {
-  static const char *const ends[] = {".stl", ".ply", ".glb",  ".gltf", ".fbx",
-                                     ".dae", ".3ds", ".step", ".stp",  ".usd"};
+  static const char *const ends[] = {".ply", ".glb",  ".gltf", ".fbx", ".dae",
+                                     ".3ds", ".step", ".stp",  ".usd"};
   const char *dot = strrchr(path, '.');
   for (size_t i = 0; dot && i < sizeof ends / sizeof ends[0]; i++)
     if (strcmp(dot, ends[i]) == 0) return ends[i];
   return NULL;
 }
 
+static int is_stl(const char *path) {
+  const size_t length = strlen(path);
+  const char *end = path + length - 4;
+  return length > 4 && end[0] == '.' && (end[1] | 32) == 's' && (end[2] | 32) == 't' &&
+         (end[3] | 32) == 'l';
+}
+
 // `from`: what asks for it, for messages ("file:line: "), or "". Returns 0 after a complaint.
 static int load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
   size_t line = 0;
   char text[61];
-  const nsvcd_result result = nsvcd_obj_load(path, NULL, mesh, &line);
+  const nsvcd_result result = is_stl(path) ? nsvcd_stl_load(path, NULL, mesh, &line)
+                                           : nsvcd_obj_load(path, NULL, mesh, &line);
   if (!result) return 1;
   if (result != NSVCD_ERROR_IO && foreign(path))
     return complain(
-        "%s%s: svcd reads OBJ and .body files, no %s: convert it, as with Blender or "
+        "%s%s: svcd reads OBJ, STL and .body files, no %s: convert it, as with Blender or "
         "'assimp export'",
         from, path, foreign(path));
   if (!line) return complain("%s%s: %s", from, path, reason_of(result));

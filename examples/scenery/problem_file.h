@@ -135,7 +135,7 @@ typedef struct problem_file {
 
 #define POSE_FIELDS 7
 #define PROBLEM_FIELDS 16
-#define MOST_FIELDS (PROBLEM_FIELDS + 1)
+#define MOST_FIELDS 80  // of a line; those of a problem may be one more than PROBLEM_FIELDS
 
 typedef struct reader {
   const char *path;
@@ -253,7 +253,7 @@ static int read_problem(reader *r, problem_file *file) {
   problem p;
   memset(&p, 0, sizeof p);
   char **fields = r->fields;
-  if (r->field_count != PROBLEM_FIELDS && r->field_count != MOST_FIELDS) {
+  if (r->field_count != PROBLEM_FIELDS && r->field_count != PROBLEM_FIELDS + 1) {
     return refuse(r,
                   "expected: problem ID MOVING SCALE FIXED SCALE x y z qx qy qz qw LABEL MARGIN "
                   "COUNT [FIXED_COUNT]");
@@ -266,7 +266,7 @@ static int read_problem(reader *r, problem_file *file) {
   if (!read_label(r, fields + 13, &p)) return 0;
   if (!parse_count(fields[15], 1, NSVCD_MAX_POSES, &p.count))
     return refuse_field(r, "COUNT is not in 1..65536", fields[15]);
-  if (r->field_count == MOST_FIELDS &&
+  if (r->field_count == PROBLEM_FIELDS + 1 &&
       !parse_count(fields[16], 1, NSVCD_MAX_POSES, &p.fixed_count)) {
     return refuse_field(r, "FIXED_COUNT is not in 1..65536", fields[16]);
   }

@@ -1,4 +1,4 @@
-// In: an OBJ file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
+// In: an OBJ or STL file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
 #pragma once
 #include "results.h"
 
@@ -36,6 +36,22 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
+
+// Reads STL, binary or text, into a mesh. Corners at the same place become one vertex; normals and
+// attributes are skipped.
+//   data       (size) bytes, not NULL
+//   allocator, mesh, error_line  as above; of what is binary no line is at fault
+//   allocates  the mesh, with room for three vertices a triangle, and working memory
+//   errors     ARGUMENT, MEMORY, SYNTAX, NUMBER, EMPTY, TOO_LARGE
+//   source     3D Systems, "StereoLithography Interface Specification", 1989
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line);
+#ifndef NSVCD_NO_STDIO
+// nsvcd_stl_parse on what a file holds.
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line);
+#endif
 #endif
 #ifndef NSVCD_NO_ENCODER
 // Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
@@ -52,7 +68,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_obj_load or nsvcd_mesh_cut allocated, and empties *mesh.
+// Gives back what nsvcd_obj_parse, nsvcd_stl_parse, their files or nsvcd_mesh_cut allocated, and
+// empties *mesh.
 //   mesh       may be NULL
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);

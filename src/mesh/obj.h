@@ -282,25 +282,34 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 }
 
 #ifndef NSVCD_NO_STDIO
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+// What a file holds; in the arena.
+static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
+                                     size_t *size) {
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
   // No fseek, so that pipes work and a directory is an error.
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  char *text = NULL;
-  size_t size = 0;
   size_t capacity = 32768;
+  *text = NULL;
+  *size = 0;
   do {
     capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
-    text = (char *)nsvcd__arena_grow(&arena, text, size, capacity, 1);
-    if (text) size += fread(text + size, 1, capacity - size, file);
-  } while (text && size == capacity);
-  nsvcd_result result = text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  if (text && ferror(file)) result = NSVCD_ERROR_IO;
+    *text = (char *)nsvcd__arena_grow(arena, *text, *size, capacity, 1);
+    if (*text) *size += fread(*text + *size, 1, capacity - *size, file);
+  } while (*text && *size == capacity);
+  nsvcd_result result = *text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  if (*text && ferror(file)) result = NSVCD_ERROR_IO;
   fclose(file);
+  return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  char *text;
+  size_t size;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_result result = nsvcd__read_file(path, &arena, &text, &size);
   if (!result) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;

@@ -27,13 +27,9 @@
 // radians or metres: where the way bends by less, steps go on across
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
-#ifndef NSVCD__COARSE
 #define NSVCD__COARSE 2e-3
-#endif
 // units that a look for a hit may take, before the last
-#ifndef NSVCD__GLANCE
 #define NSVCD__GLANCE 200
-#endif
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 

@@ -71,8 +71,7 @@ static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *f
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
   }
-  const nsvcd__d3 middle =
-      nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__d3 middle = nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
   const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
   return out;
 }
@@ -107,10 +106,11 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
-  c->boxes = (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  c->boxes =
+      (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
-  *checker = c;
+  *checker = (nsvcd_checker *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
@@ -248,11 +248,15 @@ static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed
 
 // ---- pairs
 
-// A box about a part in a step: it goes no farther from it than it strays.
-static nsvcd__bounds nsvcd__box_in(const nsvcd_checker *c, size_t part, size_t step, size_t steps) {
+static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_t k) {
   const nsvcd__member *m = &c->members[part];
-  if (!c->scene->parts[part].link || steps == 0) return m->box;
-  return nsvcd__box_over(&c->boxes[m->row + step], &c->boxes[m->row + step + 1]);
+  return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
+}
+// A box about a part in a step: it goes no farther from it than it strays.
+static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
+  const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
+  const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
+  return nsvcd__box_over(&from, &to);
 }
 
 // Steps, one after another, of a pair that may come near in the first and in the last of them. As
@@ -268,8 +272,8 @@ static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, 
   if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
   spell->first = steps;
   for (size_t k = 0; k < steps; k++) {
-    const nsvcd__bounds a = nsvcd__box_in(c, pair->a, k, steps);
-    const nsvcd__bounds b = nsvcd__box_in(c, pair->b, k, steps);
+    const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
+    const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
     if (nsvcd__boxes_apart(&a, &b, room)) continue;
     if (spell->first == steps) spell->first = k;
     last = k + 1;
@@ -442,12 +446,14 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
       const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
-      nsvcd_result result = nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
+      nsvcd_result result =
+          nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
       // a glance, but for the last time
       const int is_last = steps == 0 || allowed <= (double)options->finest;
       if (!result)
-        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found, is_last ? options : &glance, answer);
+        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found,
+                                 is_last ? options : &glance, answer);
       if (result) return result;
       if (answer->verdict == NSVCD_HIT) {
         nsvcd__put_first(c, pair);

@@ -13,6 +13,7 @@
 #define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
 // share of the limits of speed and acceleration that is asked for: the rest is for rounding
 #define NSVCD__RAMP_SHARE (1 - 1e-6)
+#define NSVCD__RAMP_MOST (1 - 5e-7)
 // seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
 // changes no farther apart than that are one
 #define NSVCD__SLIVER 1e-4
@@ -114,17 +115,18 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
   double time = 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    time =
-        nsvcd__max(time, nsvcd__ramp_time(states[0][j], states[2][j], states[1][j],
-                                          states[3][j], NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
-                                          NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+    time = nsvcd__max(time,
+                      nsvcd__ramp_time(states[0][j], states[2][j], states[1][j], states[3][j],
+                                       NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
+                                       NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
   }
   if (!(time < longest)) return 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j],
-                           nsvcd__speed_of(joint), nsvcd__acceleration_of(joint), time,
-                           &ramps[j]))
+    const double speed = NSVCD__RAMP_SHARE * nsvcd__speed_of(joint);
+    const double most = NSVCD__RAMP_MOST * nsvcd__acceleration_of(joint);
+    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed, most,
+                           time, &ramps[j]))
       return 0;
     if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
     changes[count++] = ramps[j].t1;

@@ -4,7 +4,7 @@
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__NODES 20000
-#define NSVCD__SHORTCUTS 50
+#define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 // of all joints whose limits are wider, only what is no farther than this from the start and the
 // goals is drawn from, but for one configuration in eight
@@ -73,7 +73,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
-  *router = r;
+  *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
 
@@ -340,6 +340,13 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
 // From the way to a motion, proven as it is: smooth, else with a rest at each corner.
 static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   const size_t joints = r->joints;
+  const double *last = r->way + (r->way_count - 1) * joints;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double time = nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                         nsvcd__acceleration_of(joint));
+    r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
+  }
   int is_free = 0;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
@@ -365,13 +372,6 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   answer->duration = r->course.times[r->course.pieces];
   for (size_t p = 1; p < r->course.pieces; p++)
     answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
-  const double *last = r->way + (r->way_count - 1) * joints;
-  for (size_t j = 0; j < joints; j++) {
-    const nsvcd_joint *joint = &r->scene->joints[j];
-    answer->unhindered = nsvcd__max(
-        answer->unhindered, nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
-                                             nsvcd__acceleration_of(joint)));
-  }
   return NSVCD_OK;
 }
 

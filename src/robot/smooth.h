@@ -14,14 +14,14 @@
 // seconds: half of the windows about a rest, the widest, and how often it may be halved
 #define NSVCD__HALF_WINDOW 0.8
 #define NSVCD__WINDOWS 6
+// of the duration without obstacles: there is nothing to win
+#define NSVCD__FAST_ENOUGH 1.001
 // metres that the search stays farther away than asked for, so that the whole is proven anew
 #define NSVCD__SPARE 1e-4f
 // metres that a part may stray from its sweeps, at least, in the search
-#define NSVCD__SEEK_FINEST 2.5e-4f
+#define NSVCD__SEEK_FINEST 5e-4f
 // units that a question of the search may take
-#ifndef NSVCD__SEEK_WORK
-#define NSVCD__SEEK_WORK 2000
-#endif
+#define NSVCD__SEEK_WORK 1000
 
 // A motion of degree 2 that is being made.
 typedef struct nsvcd__course {
@@ -54,7 +54,7 @@ static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
 
 // Is a motion proven free? answer.check says what is wrong. What the caller stops is not.
 static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
-                                 int *is_free) {
+                                      int *is_free) {
   *is_free = 0;
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
   if (r->is_stopped) return NSVCD_OK;
@@ -207,6 +207,7 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
     const nsvcd__course *c = &r->course;
     const double end = c->times[c->pieces];
+    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
     double t0 = end * nsvcd__random(&r->random);
     double t1 = end * nsvcd__random(&r->random);
     size_t rests = 0;
@@ -218,7 +219,8 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
     }
     if (rests > 0) {
       const double window =
-          NSVCD__HALF_WINDOW / (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
+          NSVCD__HALF_WINDOW /
+          (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
       t0 = nsvcd__max(0, rest - window);
       t1 = nsvcd__min(end, rest + window);
     }

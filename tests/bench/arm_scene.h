@@ -25,8 +25,8 @@ typedef enum arm_kind {
   ARM_KINDS
 } arm_kind;
 
-static const char *const arm_kinds[ARM_KINDS] = {"shelf, small",   "shelf, tall", "shelf, thin", "box",
-                                                 "on a table", "under it",    "cage"};
+static const char *const arm_kinds[ARM_KINDS] = {
+    "shelf, small", "shelf, tall", "shelf, thin", "box", "on a table", "under it", "cage"};
 
 typedef struct arm_scene {
   nsvcd_scene scene;
@@ -40,7 +40,8 @@ typedef struct arm_scene {
 } arm_scene;
 
 // Adds a part; the mesh is freed.
-static size_t arm_add(arm_scene *s, shapes_mesh *mesh, uint32_t link, double x, double y, double z) {
+static size_t arm_add(arm_scene *s, shapes_mesh *mesh, uint32_t link, double x, double y,
+                      double z) {
   const size_t n = s->scene.part_count++;
   float *positions = (float *)calloc(3 * mesh->vertices, sizeof(float));
   double *points = (double *)calloc(3 * mesh->vertices, sizeof(double));
@@ -53,7 +54,8 @@ static size_t arm_add(arm_scene *s, shapes_mesh *mesh, uint32_t link, double x, 
   nsvcd_part *part = &s->parts[n];
   memset(part, 0, sizeof *part);
   if (nsvcd_encode(&given, NULL, NULL, NULL, 0, &part->body)) exit(1);
-  if (!oracle_mesh_init(&s->meshes[n], points, mesh->vertices, mesh->indices, mesh->triangles, 1)) exit(1);
+  if (!oracle_mesh_init(&s->meshes[n], points, mesh->vertices, mesh->indices, mesh->triangles, 1))
+    exit(1);
   part->link = link;
   part->pose.rotation[3] = 1;
   part->pose.position[0] = (float)x;
@@ -75,13 +77,13 @@ static void arm_box(arm_scene *s, double x, double y, double z, double dx, doubl
 
 // In the sizes of a common arm of 5 kg; the links are capsules, hollow nowhere.
 static void arm_make(arm_scene *s) {
-  static const double origins[ARM_JOINTS][3] = {{0, 0, 0.089},  {0, 0.136, 0}, {0, -0.12, 0.425},
+  static const double origins[ARM_JOINTS][3] = {{0, 0, 0.089}, {0, 0.136, 0}, {0, -0.12, 0.425},
                                                 {0, 0, 0.392}, {0, 0.093, 0}, {0, 0, 0.095}};
   static const int axes[ARM_JOINTS] = {2, 1, 1, 1, 2, 1};
   // radius and straight length of the link's capsule, and its middle
-  static const double links[ARM_JOINTS][5] = {{0.06, 0.1, 0, 0.03, 0},    {0.055, 0.425, 0, 0, 0.2125},
-                                              {0.045, 0.392, 0, 0, 0.196}, {0.042, 0.06, 0, 0.05, 0},
-                                              {0.042, 0.06, 0, 0, 0.05},  {0, 0, 0, 0, 0}};
+  static const double links[ARM_JOINTS][5] = {
+      {0.06, 0.1, 0, 0.03, 0},   {0.055, 0.425, 0, 0, 0.2125}, {0.045, 0.392, 0, 0, 0.196},
+      {0.042, 0.06, 0, 0.05, 0}, {0.042, 0.06, 0, 0, 0.05},    {0, 0, 0, 0, 0}};
   shapes_mesh mesh;
   memset(s, 0, sizeof *s);
   memset(&mesh, 0, sizeof mesh);
@@ -156,14 +158,17 @@ static void arm_furnish(arm_scene *s, arm_kind kind) {
     const double top = kind == ARM_ON_TABLE ? 0 : 0.42;
     if (top > 0) arm_box(s, 0.6, 0, top - 0.015, 0.6, 1, 0.03);
     for (int leg = 0; leg < 4 && top > 0; leg++)
-      arm_box(s, leg / 2 ? 0.87 : 0.33, leg % 2 ? 0.47 : -0.47, top / 2 - 0.02, 0.04, 0.04, top - 0.04);
+      arm_box(s, leg / 2 ? 0.87 : 0.33, leg % 2 ? 0.47 : -0.47, top / 2 - 0.02, 0.04, 0.04,
+              top - 0.04);
     for (int n = 0; n < 16; n++) {
       shapes_mesh mesh;
       memset(&mesh, 0, sizeof mesh);
       const double high = shapes_uniform(&rng, 0.06, 0.25);
       const double wide = shapes_uniform(&rng, 0.03, 0.08);
-      if (n % 2) shapes_cylinder(&mesh, wide / 2, high, 24);
-      else shapes_box(&mesh, wide, wide, high, 1);
+      if (n % 2)
+        shapes_cylinder(&mesh, wide / 2, high, 24);
+      else
+        shapes_box(&mesh, wide, wide, high, 1);
       arm_add(s, &mesh, 0, shapes_uniform(&rng, 0.35, 0.85), shapes_uniform(&rng, -0.45, 0.45),
               top + high / 2 + 0.001);
     }
@@ -335,8 +340,8 @@ static void arm_target(shapes_rng *rng, arm_kind kind, int second, double *place
 }
 
 // A start or a goal, with `room` metres at least about it.
-static int arm_configuration(const arm_scene *s, shapes_rng *rng, arm_kind kind, int second, double room,
-                             double *q) {
+static int arm_configuration(const arm_scene *s, shapes_rng *rng, arm_kind kind, int second,
+                             double room, double *q) {
   for (int trial = 0; trial < 3000; trial++) {
     double place[3], along[3];
     nsvcd_check_options options;

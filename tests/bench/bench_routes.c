@@ -35,7 +35,8 @@ typedef struct tally {
 } tally;
 
 // How near the motion comes, and is it smooth and within the limits? Speeds by differences of places.
-static double least_apart(const arm_scene *s, const nsvcd_joint_motion *m, size_t looks, int *is_rough) {
+static double least_apart(const arm_scene *s, const nsvcd_joint_motion *m, size_t looks,
+                          int *is_rough) {
   double least = 0.1;
   double last[2][ARM_JOINTS];
   const double end = m->times[m->pieces];
@@ -54,7 +55,8 @@ static double least_apart(const arm_scene *s, const nsvcd_joint_motion *m, size_
       const double before = k > 1 ? (last[0][j] - last[1][j]) / step : 0;
       if (fabs(speed) > joint->speed * (1 + 1e-9)) *is_rough = 1;
       // with a step of 1 ms a jump of speed of 0.01 would show
-      if (k > 1 && fabs(speed - before) > joint->acceleration * step * (1 + 1e-6) + 1e-9) *is_rough = 1;
+      if (k > 1 && fabs(speed - before) > joint->acceleration * step * (1 + 1e-6) + 1e-9)
+        *is_rough = 1;
       if (q[j] < joint->low - 1e-9 || q[j] > joint->high + 1e-9) *is_rough = 1;
       last[1][j] = last[0][j];
       last[0][j] = q[j];
@@ -108,8 +110,9 @@ static void run_problem(arm_scene *s, arm_kind kind, shapes_rng *rng, size_t loo
     free(memory);
   }
   if (answer.status != NSVCD_ROUTE_FOUND)
-    printf("not found: %s, why %d, %zu nodes, %zu checks, %zu proven\n", nsvcd_route_status_string(answer.status),
-           (int)answer.check.why, answer.nodes, answer.checks, answer.proven);
+    printf("not found: %s, why %d, %zu nodes, %zu checks, %zu proven\n",
+           nsvcd_route_status_string(answer.status), (int)answer.check.why, answer.nodes,
+           answer.checks, answer.proven);
 }
 
 int main(int count, char **values) {
@@ -120,7 +123,10 @@ int main(int count, char **values) {
   const int only = count > 4 ? atoi(values[4]) : -1;
   size_t wrong = 0;
   if (problems > MOST_PROBLEMS) return 2;
-  printf("| | problems | found | wrong | with stops | rough | ms: trees, median / mean | + shortcuts | all | duration, of that without obstacles: median | checks, proven | nodes |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  printf(
+      "| | problems | found | wrong | with stops | rough | ms: trees, median / mean | + shortcuts "
+      "| all | duration, of that without obstacles: median | checks, proven | nodes "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int kind = 0; kind < ARM_KINDS; kind++) {
     static arm_scene s;
     shapes_rng rng = {seed * 1000 + (uint64_t)kind};
@@ -129,15 +135,18 @@ int main(int count, char **values) {
     arm_make(&s);
     arm_furnish(&s, (arm_kind)kind);
     arm_open(&s);
-    for (size_t n = 0; n < problems; n++) run_problem(&s, (arm_kind)kind, &rng, looks, t);
+    for (size_t n = 0; n < 20 * problems && t->problems < problems; n++)
+      run_problem(&s, (arm_kind)kind, &rng, looks, t);
     const double found = fmax((double)t->found, 1);
     double means[3];
     for (int part = 0; part < 3; part++) means[part] = mean_of(t->times[part], t->found);
-    printf("| %s | %zu | %zu | %zu | %zu | %zu | %.1f / %.1f | %.1f / %.1f | %.1f / %.1f | %.2f | %.0f, %.0f | %.0f |\n",
-           arm_kinds[kind], t->problems, t->found, t->wrong, t->stopping, t->rough,
-           median_of(t->times[0], t->found), means[0], median_of(t->times[1], t->found), means[1],
-           median_of(t->times[2], t->found), means[2], median_of(t->ratios, t->found),
-           (double)t->checks / found, (double)t->proven / found, (double)t->nodes / found);
+    printf(
+        "| %s | %zu | %zu | %zu | %zu | %zu | %.1f / %.1f | %.1f / %.1f | %.1f / %.1f | %.2f | "
+        "%.0f, %.0f | %.0f |\n",
+        arm_kinds[kind], t->problems, t->found, t->wrong, t->stopping, t->rough,
+        median_of(t->times[0], t->found), means[0], median_of(t->times[1], t->found), means[1],
+        median_of(t->times[2], t->found), means[2], median_of(t->ratios, t->found),
+        (double)t->checks / found, (double)t->proven / found, (double)t->nodes / found);
     fflush(stdout);
     wrong += t->wrong;
     arm_close(&s);

@@ -5,7 +5,8 @@
   "v 0 0 0\n", "v 1 0 0\n", "v 0 1 0\n", "f 1 2 3\n", "f 1 2 3 4\n", "f -1 -2 -3\n", "f 1/2/3",   \
       " 1//2", " # ", "#\n", "\\\n", "\\\r\n", "\r\n", "\r", "\n", "\\", " \\\n", "v", "f", "g ", \
       "\t", " ", "e-5", "1e38", ".5", "nan", "-0", "vn 0 0 1\n", "usemtl a\n", "\xef\xbb\xbf",    \
-      "4294967296", "2147483648", "99999999999999999999", "\v", "# x \\\n", " 1 0.25 -3",
+      "4294967296", "2147483648", "99999999999999999999", "\v", "# x \\\n", " 1 0.25 -3",         \
+      "solid\n", "vertex 0 0 1\n", "vertex 1 0 0\n", "endloop\n",
 #include "main.h"
 
 #include "../../neuralsvcd.h"
@@ -175,6 +176,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   for (int k = 0; k < calls && k < 16; k++) {
     parse((const char *)data, size, k, &again);
     FUZZ_CHECK(again == NSVCD_ERROR_MEMORY);
+  }
+  // the same bytes as STL
+  nsvcd_mesh mesh;
+  size_t line;
+  if (nsvcd_stl_parse(data, size, NULL, &mesh, &line) == NSVCD_OK) {
+    for (size_t k = 0; k < 3 * mesh.triangle_count; k++)
+      FUZZ_CHECK(mesh.indices[k] < mesh.vertex_count);
+    nsvcd_mesh_free(&mesh, NULL);
   }
   return 0;
 }

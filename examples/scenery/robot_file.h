@@ -1,0 +1,369 @@
+// robot_file.h - reads planning files (version 1), with messages that name file, line and reason.
+// Include problem_file.h and load.h first.
+//
+//   nsvcd-plans 1
+//   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
+//   body NAME JOINT PATH
+//   pair NAME NAME
+//   scene NAME
+//   obstacle NAME PATH  x y z qx qy qz qw
+//   plan ID SCENE  start...  goal...
+//   path ID SCENE COUNT        # COUNT lines of joints follow
+//
+// examples/FORMATS.md says what they mean.
+#ifndef NSVCD_SCENERY_ROBOT_FILE_H
+#define NSVCD_SCENERY_ROBOT_FILE_H
+
+// A mesh of a file; the same path is encoded once.
+typedef struct robot_mesh {
+  const char *path;
+  size_t line;  // where it is named first
+  const nsvcd_body *body;
+} robot_mesh;
+
+// A body of the robot, or an obstacle of a scene.
+typedef struct robot_thing {
+  const char *name;
+  size_t mesh;
+  uint32_t link;
+  nsvcd_pose pose;
+} robot_thing;
+
+typedef struct robot_room {  // a scene
+  const char *name;
+  size_t first, count;  // of the things: its obstacles
+} robot_room;
+
+typedef struct robot_task {
+  const char *id;
+  size_t line, room;
+  size_t points;  // 0: a plan, whose start and goal are two rows
+  size_t first;   // of the numbers
+} robot_task;
+
+typedef struct robot_file {
+  const char *path;
+  char *text;
+  const char *joint_names[NSVCD_MAX_JOINTS];
+  nsvcd_joint joints[NSVCD_MAX_JOINTS];
+  robot_mesh *meshes;
+  robot_thing *things;  // the robot's bodies, then obstacles
+  nsvcd_body_pair *pairs;
+  robot_room *rooms;
+  robot_task *tasks;
+  double *numbers;
+  size_t joint_count, mesh_count, thing_count, body_count, pair_count, room_count, task_count,
+      number_count;
+  size_t mesh_capacity, thing_capacity, pair_capacity, room_capacity, task_capacity,
+      number_capacity;
+} robot_file;
+
+// Room for one more item of a list, which is counted, and cleared.
+#define ROBOT_ADD(list, count, capacity)                                       \
+  ((list) = room_for_one(list, count, &(capacity), sizeof *(list)), (count)++, \
+   memset(&(list)[(count)-1], 0, sizeof *(list)), &(list)[(count)-1])
+
+// The link that follows a joint, or the world.
+static int robot_link(const reader *r, const robot_file *file, const char *name, uint32_t *link) {
+  *link = 0;
+  if (strcmp(name, "world") == 0) return 1;
+  for (size_t i = 0; i < file->joint_count; i++)
+    if (strcmp(file->joint_names[i], name) == 0) return *link = (uint32_t)i + 1, 1;
+  return refuse_field(r, "no joint of this name above, nor world", name);
+}
+
+static int robot_number(const reader *r, const char *field, double *out) {
+  if (parse_number(field, out) && fabs(*out) <= (double)NSVCD_MAX_COORDINATE) return 1;
+  return refuse_field(r, "not a finite number, or beyond NSVCD_MAX_COORDINATE", field);
+}
+
+static int robot_read_joint(const reader *r, robot_file *file) {
+  static const char *const kinds[] = {"revolute", "continuous", "prismatic"};
+  char *const *f = r->fields;
+  uint32_t parent, other;
+  if (r->field_count != 17 && r->field_count != 18)
+    return refuse(r,
+                  "expected: joint NAME PARENT x y z qx qy qz qw ax ay az "
+                  "revolute|continuous|prismatic LOW HIGH SPEED [ACCELERATION]");
+  if (file->joint_count == NSVCD_MAX_JOINTS) return refuse(r, "more joints than NSVCD_MAX_JOINTS");
+  if (file->room_count > 0) return refuse(r, "a joint after the first scene");
+  for (other = 0; other < file->joint_count; other++)
+    if (strcmp(file->joint_names[other], f[1]) == 0)
+      return refuse_field(r, "a second joint of this name", f[1]);
+  nsvcd_joint *joint = &file->joints[file->joint_count];
+  if (!robot_link(r, file, f[2], &parent) || !read_pose(r, f + 3, &joint->origin)) return 0;
+  joint->parent = parent;
+  for (size_t k = 0; k < 3; k++)
+    if (!parse_float(f[10 + k], &joint->axis[k]))
+      return refuse_field(r, "not a finite number", f[10 + k]);
+  size_t kind = 0;
+  while (kind < 3 && strcmp(kinds[kind], f[13]) != 0) kind++;
+  if (kind == 3) return refuse_field(r, "none of revolute, continuous, prismatic", f[13]);
+  joint->kind = (nsvcd_joint_kind)kind;
+  double *to[4] = {&joint->low, &joint->high, &joint->speed, &joint->acceleration};
+  for (size_t k = 0; k + 14 < r->field_count; k++)
+    if (!robot_number(r, f[14 + k], to[k])) return 0;
+  if (joint->kind != NSVCD_JOINT_CONTINUOUS && joint->low > joint->high)
+    return refuse(r, "LOW is above HIGH");
+  if (!(joint->speed > 0) || joint->acceleration < 0)
+    return refuse(r, "SPEED or ACCELERATION is not positive");
+  file->joint_names[file->joint_count++] = f[1];
+  return 1;
+}
+
+static size_t robot_find_mesh(robot_file *file, const char *path, size_t line) {
+  for (size_t i = 0; i < file->mesh_count; i++)
+    if (strcmp(file->meshes[i].path, path) == 0) return i;
+  robot_mesh *mesh = ROBOT_ADD(file->meshes, file->mesh_count, file->mesh_capacity);
+  mesh->path = path;
+  mesh->line = line;
+  return file->mesh_count - 1;
+}
+
+// Among the robot's bodies, and the obstacles from the one that is named first on.
+static int robot_find(const robot_file *file, size_t first, const char *name, size_t *at) {
+  for (*at = 0; *at < file->thing_count; ++*at) {
+    if (*at >= file->body_count && *at < first) continue;
+    if (strcmp(file->things[*at].name, name) == 0) return 1;
+  }
+  return 0;
+}
+
+static int robot_read_body(const reader *r, robot_file *file) {
+  size_t found;
+  uint32_t link;
+  if (r->field_count != 4) return refuse(r, "expected: body NAME JOINT PATH");
+  if (file->room_count > 0) return refuse(r, "a body after the first scene");
+  if (robot_find(file, 0, r->fields[1], &found))
+    return refuse_field(r, "a second body of this name", r->fields[1]);
+  if (!robot_link(r, file, r->fields[2], &link)) return 0;
+  const size_t mesh = robot_find_mesh(file, r->fields[3], r->line);
+  robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
+  thing->name = r->fields[1];
+  thing->mesh = mesh;
+  thing->link = link;
+  thing->pose.rotation[3] = 1;
+  file->body_count = file->thing_count;
+  return 1;
+}
+
+static int robot_read_pair(const reader *r, robot_file *file) {
+  size_t at[2];
+  if (r->field_count != 3) return refuse(r, "expected: pair NAME NAME");
+  if (file->room_count > 0) return refuse(r, "a pair after the first scene");
+  for (int k = 0; k < 2; k++)
+    if (!robot_find(file, 0, r->fields[1 + k], &at[k]))
+      return refuse_field(r, "no body of this name above", r->fields[1 + k]);
+  if (file->things[at[0]].link == file->things[at[1]].link)
+    return refuse(r, "both follow the same joint");
+  nsvcd_body_pair *pair = ROBOT_ADD(file->pairs, file->pair_count, file->pair_capacity);
+  pair->a = (uint32_t)at[0];
+  pair->b = (uint32_t)at[1];
+  return 1;
+}
+
+static int robot_find_room(const robot_file *file, const char *name, size_t *at) {
+  for (*at = 0; *at < file->room_count; ++*at)
+    if (strcmp(file->rooms[*at].name, name) == 0) return 1;
+  return 0;
+}
+
+static int robot_read_scene(const reader *r, robot_file *file) {
+  size_t found;
+  if (r->field_count != 2) return refuse(r, "expected: scene NAME");
+  if (file->joint_count == 0) return refuse(r, "no joint above");
+  if (robot_find_room(file, r->fields[1], &found))
+    return refuse_field(r, "a second scene of this name", r->fields[1]);
+  robot_room *room = ROBOT_ADD(file->rooms, file->room_count, file->room_capacity);
+  room->name = r->fields[1];
+  room->first = file->thing_count;
+  return 1;
+}
+
+static int robot_read_obstacle(const reader *r, robot_file *file) {
+  size_t found;
+  nsvcd_pose pose;
+  if (r->field_count != 10) return refuse(r, "expected: obstacle NAME PATH x y z qx qy qz qw");
+  if (file->room_count == 0) return refuse(r, "no scene above");
+  robot_room *room = &file->rooms[file->room_count - 1];
+  if (robot_find(file, room->first, r->fields[1], &found))
+    return refuse_field(r, "a second body of this name", r->fields[1]);
+  if (!read_pose(r, r->fields + 3, &pose)) return 0;
+  const size_t mesh = robot_find_mesh(file, r->fields[2], r->line);
+  robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
+  thing->name = r->fields[1];
+  thing->mesh = mesh;
+  thing->pose = pose;
+  room->count++;
+  return 1;
+}
+
+static int robot_read_joints(const reader *r, robot_file *file, char *const *fields) {
+  for (size_t j = 0; j < file->joint_count; j++) {
+    double number;
+    if (!robot_number(r, fields[j], &number)) return 0;
+    *ROBOT_ADD(file->numbers, file->number_count, file->number_capacity) = number;
+  }
+  return 1;
+}
+
+static int robot_read_task(reader *r, robot_file *file) {
+  robot_task task;
+  const size_t joints = file->joint_count;
+  char *const *f = r->fields;
+  const int is_path = strcmp(f[0], "path") == 0;
+  memset(&task, 0, sizeof task);
+  if (r->field_count != (is_path ? 4 : 3 + 2 * joints)) {
+    if (is_path) return refuse(r, "expected: path ID SCENE COUNT");
+    return complain("%s:%zu: expected: plan ID SCENE, then %zu joints of the start and of the goal",
+                    r->path, r->line, joints);
+  }
+  task.id = f[1];
+  task.line = r->line;
+  task.first = file->number_count;
+  if (!robot_find_room(file, f[2], &task.room))
+    return refuse_field(r, "no scene of this name above", f[2]);
+  if (!is_path &&
+      !(robot_read_joints(r, file, f + 3) && robot_read_joints(r, file, f + 3 + joints)))
+    return 0;
+  if (is_path && !parse_count(f[3], 1, 10000000, &task.points))
+    return refuse_field(r, "COUNT is not in 1..10000000", f[3]);
+  for (size_t i = 0; i < task.points; i++) {
+    if (!next_line(r) || r->field_count != joints)
+      return complain("%s:%zu: path %s has %zu of its %zu lines of %zu joints", r->path, task.line,
+                      task.id, i, task.points, joints);
+    if (!robot_read_joints(r, file, r->fields)) return 0;
+  }
+  *ROBOT_ADD(file->tasks, file->task_count, file->task_capacity) = task;
+  return 1;
+}
+
+static int read_robot(const char *path, robot_file *file) {
+  static const struct {
+    const char *word;
+    int (*read)(const reader *r, robot_file *file);
+  } lines[] = {{"joint", robot_read_joint},
+               {"body", robot_read_body},
+               {"pair", robot_read_pair},
+               {"scene", robot_read_scene},
+               {"obstacle", robot_read_obstacle}};
+  size_t size;
+  reader r;
+  memset(file, 0, sizeof *file);
+  memset(&r, 0, sizeof r);
+  file->path = r.path = path;
+  file->text = r.next = read_file(path, &size);
+  if (!file->text) return 0;
+  if (strlen(file->text) != size) return complain("%s: not a text file: it has a zero byte", path);
+  if (!next_line(&r) || r.field_count != 2 || strcmp(r.fields[0], "nsvcd-plans") != 0)
+    return complain("%s:%zu: the first line is not 'nsvcd-plans 1'", path, r.line ? r.line : 1);
+  if (strcmp(r.fields[1], "1") != 0)
+    return refuse_field(&r, "only version 1 is known", r.fields[1]);
+  while (next_line(&r)) {
+    const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
+    size_t k = 0;
+    while (k < 5 && strcmp(lines[k].word, r.fields[0]) != 0) k++;
+    if (k == 5 && !is_task)
+      return refuse_field(&r,
+                          "expected 'joint', 'body', 'pair', 'scene', 'obstacle', 'plan' or 'path'",
+                          r.fields[0]);
+    if (r.field_count > MOST_FIELDS) return refuse(&r, "too many fields");
+    if (!(is_task ? robot_read_task(&r, file) : lines[k].read(&r, file))) return 0;
+  }
+  return 1;
+}
+
+// Loads and encodes all meshes. Returns 0 after a complaint.
+static int encode_robot(robot_file *file, double *taken) {
+  const size_t folder = (size_t)(file_name(file->path) - file->path);
+  *taken = 0;
+  for (size_t i = 0; i < file->mesh_count; i++) {
+    robot_mesh *mesh = &file->meshes[i];
+    char from[1024], path[4096];
+    double one;
+    nsvcd_mesh loaded;
+    snprintf(from, sizeof from, "%s:%zu: ", file->path, mesh->line);
+    snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
+             mesh->path);
+    if (!load_mesh(from, path, &loaded)) return 0;
+    mesh->body = encode_mesh(from, path, &loaded, NULL, &one);
+    nsvcd_mesh_free(&loaded, NULL);
+    if (!mesh->body) return 0;
+    *taken += one;
+  }
+  return 1;
+}
+
+static void free_robot(robot_file *file) {
+  for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(file->meshes[i].body, NULL);
+  free(file->text);
+  free(file->meshes);
+  free(file->things);
+  free(file->pairs);
+  free(file->rooms);
+  free(file->tasks);
+  free(file->numbers);
+}
+
+// The robot in a scene, and a checker of it.
+typedef struct robot_in_room {
+  const robot_file *file;
+  const robot_room *room;
+  nsvcd_part *parts;
+  nsvcd_body_pair *pairs;
+  nsvcd_scene scene;
+  void *memory;
+  nsvcd_checker *checker;
+} robot_in_room;
+
+static const char *robot_name(const robot_in_room *in, size_t part) {
+  const size_t bodies = in->file->body_count;
+  return in->file->things[part < bodies ? part : in->room->first + part - bodies].name;
+}
+
+static void leave_room(robot_in_room *in) {
+  free(in->parts);
+  free(in->pairs);
+  free(in->memory);
+  memset(in, 0, sizeof *in);
+}
+
+// Pairs are those of the file, and each body that moves with each obstacle. Returns 0 after a
+// complaint.
+static int enter_room(const robot_file *file, size_t room, robot_in_room *in) {
+  const size_t bodies = file->body_count;
+  leave_room(in);
+  in->file = file;
+  in->room = &file->rooms[room];
+  const size_t count = bodies + in->room->count;
+  in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
+  in->pairs = (nsvcd_body_pair *)allocate((file->pair_count + bodies * in->room->count) *
+                                          sizeof *in->pairs);
+  memset(in->parts, 0, count * sizeof *in->parts);
+  for (size_t n = 0; n < count; n++) {
+    const robot_thing *thing = &file->things[n < bodies ? n : in->room->first + n - bodies];
+    in->parts[n].body = file->meshes[thing->mesh].body;
+    in->parts[n].link = thing->link;
+    in->parts[n].pose = thing->pose;
+  }
+  nsvcd_scene *scene = &in->scene;
+  scene->joints = file->joints;
+  scene->joint_count = file->joint_count;
+  scene->parts = in->parts;
+  scene->part_count = count;
+  scene->pairs = in->pairs;
+  if (file->pair_count) memcpy(in->pairs, file->pairs, file->pair_count * sizeof *in->pairs);
+  scene->pair_count = file->pair_count;
+  for (size_t a = 0; a < bodies; a++) {
+    for (size_t b = bodies; b < count && in->parts[a].link > 0; b++) {
+      const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
+      in->pairs[scene->pair_count++] = pair;
+    }
+  }
+  const size_t size = nsvcd_checker_size(scene);
+  in->memory = allocate(size);
+  const nsvcd_result result = nsvcd_checker_open(scene, in->memory, size, &in->checker);
+  if (result) return complain("%s: scene %s: %s", file->path, in->room->name, reason_of(result));
+  return 1;
+}
+#endif  // NSVCD_SCENERY_ROBOT_FILE_H

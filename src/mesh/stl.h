@@ -1,0 +1,179 @@
+// In: an STL file, binary or text. Out: nsvcd_mesh.
+//
+// Binary is what has the size that its count of triangles says, or does not begin with "solid". Of
+// text only the words vertex and endloop count: three vertices a loop.
+#pragma once
+#include "obj.h"
+
+#ifndef NSVCD_NO_OBJ
+#define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
+#define NSVCD__STL_FACET 50
+
+static uint32_t nsvcd__stl_word(const unsigned char *p) {
+  return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+// Three floats of a file that is binary.
+static nsvcd_result nsvcd__stl_corner(const unsigned char *at, float *out) {
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t bits = nsvcd__stl_word(at + 4 * k);
+    memcpy(&out[k], &bits, sizeof bits);
+    if (!nsvcd__is_finite(out[k]) || fabsf(out[k]) > NSVCD_MAX_COORDINATE)
+      return NSVCD_ERROR_NUMBER;
+  }
+  return NSVCD_OK;
+}
+
+// Goes to the next token, past the ends of lines; 0 at the end of the text.
+static int nsvcd__stl_token(nsvcd__obj *text) {
+  for (;;) {
+    const size_t newline = nsvcd__obj_newline(text->at, text->end);
+    const size_t skipped = newline ? newline : nsvcd__obj_blank(text->at, text->end);
+    if (!skipped) return text->at < text->end;
+    text->line += newline > 0;
+    text->at += skipped;
+  }
+}
+
+// Is the token this word, in small letters or capitals? Then it is passed.
+static int nsvcd__stl_accept(nsvcd__obj *text, const char *word) {
+  const char *p = text->at;
+  for (; *word; word++, p++) {
+    if (p == text->end || (*p | 32) != *word) return 0;
+  }
+  nsvcd__obj rest = *text;
+  rest.at = p;
+  if (!nsvcd__obj_token_ends(&rest)) return 0;
+  text->at = p;
+  return 1;
+}
+
+// Reads corners (count, 3) of a text, or, where that is NULL, only counts them.
+static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *count) {
+  size_t in_loop = 0;
+  *count = 0;
+  while (nsvcd__stl_token(text)) {
+    if (nsvcd__stl_accept(text, "solid") || nsvcd__stl_accept(text, "endsolid")) {
+      // a name follows
+      while (!nsvcd__obj_line_ends(text)) text->at++;
+    } else if (nsvcd__stl_accept(text, "endloop")) {
+      if (in_loop != 3) return NSVCD_ERROR_SYNTAX;
+      in_loop = 0;
+    } else if (nsvcd__stl_accept(text, "vertex")) {
+      for (size_t k = 0; k < 3 && corners; k++) {
+        double value;
+        if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
+        const nsvcd_result result = nsvcd__obj_number(text, &value);
+        if (result) return result;
+        if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+        corners[3 * *count + k] = (float)value;
+      }
+      in_loop++;
+      ++*count;
+    } else {
+      nsvcd__obj_skip_token(text);
+    }
+  }
+  return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
+}
+
+// Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
+// their numbers indices. table: (slots), a power of two, of numbers + 1; zeros.
+static void nsvcd__stl_weld(nsvcd_mesh *mesh, uint32_t *table, size_t slots) {
+  const size_t corners = mesh->vertex_count;
+  float *positions = mesh->positions;
+  mesh->vertex_count = 0;
+  for (size_t i = 0; i < corners; i++) {
+    uint32_t bits[3];
+    float corner[3];
+    for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
+    memcpy(bits, corner, sizeof bits);
+    uint64_t hash = bits[0];
+    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[1];
+    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[2];
+    hash *= UINT64_C(0x9e3779b97f4a7c15);
+    size_t slot = (size_t)(hash >> 32) & (slots - 1);
+    while (table[slot] &&
+           memcmp(positions + 3 * (size_t)(table[slot] - 1), corner, sizeof corner) != 0)
+      slot = (slot + 1) & (slots - 1);
+    if (!table[slot]) {
+      memcpy(positions + 3 * mesh->vertex_count, corner, sizeof corner);
+      table[slot] = (uint32_t)++mesh->vertex_count;
+    }
+    mesh->indices[i] = table[slot] - 1;
+  }
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  const unsigned char *bytes = (const unsigned char *)data;
+  if (error_line) *error_line = 0;
+  if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__obj text;
+  nsvcd_result result = NSVCD_OK;
+  size_t corners = 0;
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
+  const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
+  const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
+  const int is_binary = size == needed || !is_solid;
+  if (is_binary && size < needed) return NSVCD_ERROR_SYNTAX;
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  text.line = 1;
+  if (is_binary) {
+    if (told > NSVCD__MAX_COUNT / 3) return NSVCD_ERROR_TOO_LARGE;
+    corners = 3 * (size_t)told;
+  } else {
+    result = nsvcd__stl_text(&text, NULL, &corners);
+    if (!result && corners > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
+  }
+  if (!result && corners == 0) return NSVCD_ERROR_EMPTY;
+  nsvcd_mesh out;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  memset(&out, 0, sizeof out);
+  size_t slots = 16;
+  while (slots < 2 * corners) slots *= 2;
+  uint32_t *table = NULL;
+  if (!result) {
+    table = NSVCD__TAKE(&arena, uint32_t, slots);
+    if (!table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
+      text.line = 0;
+      result = NSVCD_ERROR_MEMORY;
+    }
+  }
+  if (!result && !is_binary) {
+    nsvcd__obj_begin(&text, (const char *)data, size);
+    text.line = 1;
+    result = nsvcd__stl_text(&text, out.positions, &corners);
+  }
+  for (size_t i = 0; i < corners && is_binary && !result; i++) {
+    const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
+    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), out.positions + 3 * i);
+  }
+  if (!result) nsvcd__stl_weld(&out, table, slots);
+  nsvcd__arena_free(&arena);
+  if (result) {
+    if (error_line && !is_binary) *error_line = text.line;
+    nsvcd_mesh_free(&out, allocator);
+    return result;
+  }
+  *mesh = out;
+  return NSVCD_OK;
+}
+
+#ifndef NSVCD_NO_STDIO
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  char *data;
+  size_t size;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
+  if (!result) result = nsvcd_stl_parse(data, size, allocator, mesh, error_line);
+  nsvcd__arena_free(&arena);
+  return result;
+}
+#endif  // NSVCD_NO_STDIO
+#endif  // NSVCD_NO_OBJ
