@@ -18539,9 +18539,9 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
     if (result || !is_free) continue;
     // as near as whole turns bring it
     for (size_t j = 0; j < r->joints; j++) {
+      const double turns = floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
       if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
-        at[j] -= 6.283185307179586 *
-                 floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
+        at[j] -= 6.283185307179586 * turns;
     }
     r->goals[r->trees[1].count] = g;
     nsvcd__tree_add(&r->trees[1], at, r->trees[1].count);

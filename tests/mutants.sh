@@ -191,14 +191,13 @@ robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FR
 robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,
 robot: leaves cut with a hole|if (!(off2 < *best)) return;|if (!(1.5 * off2 < *best)) return;
 robot: ramps that are not proven|if (result \|\| !is_free) return result;\n  const nsvcd__course was|if (result) return result;\n  const nsvcd__course was
-robot: nothing is proven at the end|is_free = r->answer.check.verdict == NSVCD_FREE;|is_free = 1;
 robot: routes without a clearance|r->check.clearance = r->options.clearance + NSVCD__SPARE;|r->check.clearance = NSVCD__SPARE;
 robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * speed) {
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = way >= least ? 1 : -1;|const double side = way >= 0 ? 1 : -1;
 robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if (0) continue;\n    // corners
 robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
-robot: whole turns are gone|at[j] -= 6.283185307179586 \*|at[j] -= 0 *
+robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
 LIST
 
 survived=0

@@ -465,6 +465,52 @@ static void robot_arm(robot *r, shapes_rng *rng, size_t boxes) {
   robot_open(r);
 }
 
+// A ball on an arm swings past a wall, nearest half way: what is said follows from the arm's length.
+// The boxes about its samples stay farther from the wall than it does.
+static void robot_swings_past_a_wall(void) {
+  static robot r;
+  shapes_rng rng = {78};
+  const nsvcd_body *ball = NULL;
+  size_t free_count = 0;
+  size_t hits = 0;
+  CHECK_EQ(nsvcd_encode_sphere(0.05f, NULL, &ball), NSVCD_OK);
+  for (int trial = 0; trial < 600; trial++) {
+    const double reach = shapes_uniform(&rng, 0.3, 1);
+    const double turn = shapes_uniform(&rng, 0.05, 1);
+    const double gap = (trial % 2 ? 1 : -1) * pow(10, shapes_uniform(&rng, -3.7, -2.9));
+    const double points[2] = {-turn, turn * shapes_uniform(&rng, 0.5, 1)};
+    const nsvcd_joint_motion motion = {1, 1, points, NULL};
+    nsvcd_check_options options;
+    nsvcd_check_answer answer;
+    memset(&r, 0, sizeof r);
+    memset(&options, 0, sizeof options);
+    options.clearance = shapes_pick(&rng, 2) ? 0 : 0.01f;
+    r.scene.joint_count = 1;
+    r.scene.part_count = 2;
+    r.scene.pair_count = 1;
+    r.pairs[0].b = 1;
+    r.joints[0].low = -3;
+    r.joints[0].high = 3;
+    r.joints[0].axis[2] = 1;
+    r.joints[0].origin.rotation[3] = 1;
+    for (int n = 0; n < 2; n++) r.parts[n].pose.rotation[3] = 1;
+    r.parts[0].body = ball;
+    r.parts[0].link = 1;
+    r.parts[0].pose.position[0] = (float)reach;
+    r.parts[1].body = robot_shapes()[0].body;  // a box of 0.1 m
+    r.parts[1].pose.position[0] = (float)(reach + 0.05 + 0.05 + (double)options.clearance + gap);
+    robot_open(&r);
+    CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
+    CHECK(answer.verdict != (gap > 0 ? NSVCD_HIT : NSVCD_FREE));
+    free_count += answer.verdict == NSVCD_FREE;
+    hits += answer.verdict == NSVCD_HIT;
+    free(r.memory);
+  }
+  nsvcd_body_free(ball, NULL);
+  CHECK_GE(free_count, 250);
+  CHECK_GE(hits, 250);
+}
+
 // A shape for the oracle in the scale of small parts, made once, or in its own.
 static const oracle_mesh *robot_exact(int shape, const nsvcd_part *part) {
   static oracle_mesh small[SHAPES];
@@ -1023,6 +1069,7 @@ void test_robot(void) {
   RUN(robot_strays_no_farther);
   RUN(robot_levers_reach);
   RUN(robot_grazes);
+  RUN(robot_swings_past_a_wall);
   RUN(robot_verdicts_are_right);
   RUN(robot_trees_find_the_nearest);
   RUN(robot_ramps_are_quickest);
