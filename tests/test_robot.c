@@ -465,8 +465,8 @@ static void robot_arm(robot *r, shapes_rng *rng, size_t boxes) {
   robot_open(r);
 }
 
-// A ball on an arm swings past a wall, nearest half way: what is said follows from the arm's length.
-// The boxes about its samples stay farther from the wall than it does.
+// A ball on an arm swings past a wall, and is turned back as it goes: what is said follows from the
+// arm's length. The boxes about its samples stay farther from the wall than it does.
 static void robot_swings_past_a_wall(void) {
   static robot r;
   shapes_rng rng = {78};
@@ -478,25 +478,29 @@ static void robot_swings_past_a_wall(void) {
     const double reach = shapes_uniform(&rng, 0.3, 1);
     const double turn = shapes_uniform(&rng, 0.05, 1);
     const double gap = (trial % 2 ? 1 : -1) * pow(10, shapes_uniform(&rng, -3.7, -2.9));
-    const double points[2] = {-turn, turn * shapes_uniform(&rng, 0.5, 1)};
-    const nsvcd_joint_motion motion = {1, 1, points, NULL};
+    const double end = turn * shapes_uniform(&rng, 0.5, 1);
+    const double points[2][2] = {{-turn, turn}, {end, -end}};
+    const nsvcd_joint_motion motion = {1, 1, &points[0][0], NULL};
     nsvcd_check_options options;
     nsvcd_check_answer answer;
     memset(&r, 0, sizeof r);
     memset(&options, 0, sizeof options);
     options.clearance = shapes_pick(&rng, 2) ? 0 : 0.01f;
-    r.scene.joint_count = 1;
+    r.scene.joint_count = 2;
     r.scene.part_count = 2;
     r.scene.pair_count = 1;
     r.pairs[0].b = 1;
-    r.joints[0].low = -3;
-    r.joints[0].high = 3;
-    r.joints[0].axis[2] = 1;
-    r.joints[0].origin.rotation[3] = 1;
-    for (int n = 0; n < 2; n++) r.parts[n].pose.rotation[3] = 1;
+    for (uint32_t n = 0; n < 2; n++) {
+      r.joints[n].parent = n;
+      r.joints[n].low = -3;
+      r.joints[n].high = 3;
+      r.joints[n].axis[2] = 1;
+      r.joints[n].origin.rotation[3] = 1;
+      r.parts[n].pose.rotation[3] = 1;
+    }
+    r.joints[1].origin.position[0] = (float)reach;
     r.parts[0].body = ball;
-    r.parts[0].link = 1;
-    r.parts[0].pose.position[0] = (float)reach;
+    r.parts[0].link = 2;
     r.parts[1].body = robot_shapes()[0].body;  // a box of 0.1 m
     r.parts[1].pose.position[0] = (float)(reach + 0.05 + 0.05 + (double)options.clearance + gap);
     robot_open(&r);
