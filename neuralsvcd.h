@@ -17188,7 +17188,7 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
 static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
   const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
   const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
-  nsvcd__d3 half;
+  nsvcd__d3 half = {0, 0, 0};
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
@@ -18440,18 +18440,18 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // A place on the way, this far along it: the corner before and the place.
-static size_t nsvcd__way_at(const nsvcd__router *r, double far, double *at) {
+static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
   const size_t joints = r->joints;
   size_t k = 0;
   for (; k + 2 < r->way_count; k++) {
     const double *from = r->way + k * joints;
     const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-    if (far <= length) break;
-    far -= length;
+    if (gone <= length) break;
+    gone -= length;
   }
   const double *from = r->way + k * joints;
   const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-  const double share = length > 0 ? nsvcd__min(far / length, 1) : 0;
+  const double share = length > 0 ? nsvcd__min(gone / length, 1) : 0;
   for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
   return k;
 }

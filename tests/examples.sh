@@ -429,6 +429,55 @@ expect 1 'zero byte' build/svcd check "$dir/zero.txt"
 expect 1 'none.txt: No such file' build/svcd check "$dir/none.txt"
 expect 1 "$dir: Is a directory" build/svcd check "$dir"
 
+# A robot, from its URDF: plans and paths, and what planning files refuse.
+shelf="--srdf examples/robot/arm.srdf --scene shelf examples/robot/shelf.urdf"
+# shellcheck disable=SC2086
+python3 examples/robot/urdf.py examples/robot/arm.urdf $shelf "$dir/arm.txt" || fail "urdf.py"
+cp "$dir/arm.txt" "$dir/robot.txt"
+cat examples/robot/plans.txt >>"$dir/robot.txt"
+expect 0 'stuck: the start: forearm and left_side meet' build/svcd plan "$dir/robot.txt" --samples 50 --joints "$dir/joints.tsv"
+awk -F '\t' 'NF != 5 || ($1 == "stuck" ? $2 != "start" : $2 != "certified" || !($4 > 1 && $4 < 3 && $5 > 2)) { exit 1 }
+  END { exit NR != 3 }' "$dir/out" || fail "svcd plan says: $(cat "$dir/out")"
+# the motion as it is given out begins and ends where it is to, and is free as a path too
+awk -F '\t' 'NF != 8 { exit 1 } END { exit NR != 100 }' "$dir/joints.tsv" || fail "joints.tsv"
+awk '$1 == "up" && $2 == 0 { good += $3 == -2.649 && $8 == -1.057 } $1 == "up" && $2 == 49 { good += $3 == -0.493 && $8 == 0.076 }
+  END { exit good != 2 }' "$dir/joints.tsv" || fail "the ends of joints.tsv"
+{ cat "$dir/arm.txt"; echo "path given shelf 50"; awk -F '\t' '$1 == "up" { print $3, $4, $5, $6, $7, $8 }' "$dir/joints.tsv"; } >"$dir/given.txt"
+expect 0 '' build/svcd path "$dir/given.txt"
+grep -q '^given	free	-1	nan	-	-	' "$dir/out" || fail "the motion as a path: $(cat "$dir/out")"
+expect 0 '' build/svcd path "$dir/robot.txt"
+grep -q '^straight	hit	0	0[.][0-9]*	wrist_a	board_2	' "$dir/out" || fail "svcd path says: $(cat "$dir/out")"
+grep -q '^aside	free	-1	nan	-	-	' "$dir/out" || fail "svcd path says: $(cat "$dir/out")"
+expect 0 '' build/svcd plan "$dir/robot.txt" --only turned --clearance 0.001 --seed 7
+grep -q '^turned	certified' "$dir/out" || fail "svcd plan --only says: $(cat "$dir/out")"
+test "$(wc -l <"$dir/out")" = 1 || fail "--only turned: $(cat "$dir/out")"
+robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
+  { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
+  expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"
+}
+robot_refused "no scene of this name" 'plan x nowhere 0 0 0 0 0 0 0 0 0 0 0 0'
+robot_refused "expected: plan ID SCENE, then 6 joints" 'plan x shelf 0 0 0 0 0 0'
+robot_refused "not a finite number" 'plan x shelf 0 0 0 0 0 0 0 0 0 0 0 nan'
+robot_refused "a second scene of this name" 'scene shelf'
+robot_refused "a joint after the first scene" 'joint x world 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1'
+robot_refused "the quaternion is not of unit length" 'obstacle x shelf_shelf_floor.obj 0 0 0 0 0 0 2'
+robot_refused "a second body of this name" 'obstacle palm arm_shelf_floor.obj 0 0 0 0 0 0 1'
+robot_refused "expected 'joint', 'body'" 'link x'
+{ cat "$dir/arm.txt"; printf 'path x shelf 2\n0 0 0 0 0 0\n1 1\n'; } >"$dir/bad_robot.txt"
+expect 1 "path x has 1 of its 2 lines of 6 joints" build/svcd path "$dir/bad_robot.txt"
+printf 'nsvcd-plans 1\njoint a a 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1\n' >"$dir/cycle.txt"
+expect 1 "cycle.txt:2: no joint of this name above, nor world: 'a'" build/svcd plan "$dir/cycle.txt"
+printf 'nsvcd-plans 1\njoint a world 0 0 0 0 0 0 1 0 0 1 revolute 1 -1 1\n' >"$dir/cross.txt"
+expect 1 'cross.txt:2: LOW is above HIGH' build/svcd plan "$dir/cross.txt"
+printf 'nsvcd-plans 1\njoint a world 0 0 0 0 0 0 1 0 0 0 revolute -1 1 1\nscene s\nplan x s 0 0\n' >"$dir/axis.txt"
+expect 1 'axis.txt: scene s: ' build/svcd plan "$dir/axis.txt"
+expect 2 'together with --joints' build/svcd plan "$dir/robot.txt" --samples 5
+expect 2 'ends in .tsv' build/svcd plan "$dir/robot.txt" --samples 5 --joints "$dir/x.txt"
+# STL, as OBJ
+printf 'solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n' >"$dir/one.STL"
+expect 0 '' build/svcd info "$dir/one.STL"
+grep -q 'an STL: 1 triangle, 3 vertices' "$dir/out" || fail "svcd info of an STL: $(cat "$dir/out")"
+
 # Usage.
 expect 2 'svcd check' build/svcd
 expect 2 "no command 'frobnicate'" build/svcd frobnicate

@@ -101,7 +101,7 @@ static void mesh_obj_refused(void) {
     nsvcd_result result;
     size_t line;
   } cases[] = {
-      {"", NSVCD_ERROR_SYNTAX, 0},
+      {"", NSVCD_ERROR_EMPTY, 0},
       {"# nothing\n", NSVCD_ERROR_EMPTY, 0},
       {TETRAHEDRON, NSVCD_ERROR_EMPTY, 0},
       {"f 1 2 3\n", NSVCD_ERROR_INDEX, 1},

@@ -66,7 +66,7 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
 static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
   const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
   const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
-  nsvcd__d3 half;
+  nsvcd__d3 half = {0, 0, 0};
   for (size_t k = 0; k < 3; k++) {
     const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
     nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));

@@ -227,18 +227,18 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
 // ---- shortcuts
 
 // A place on the way, this far along it: the corner before and the place.
-static size_t nsvcd__way_at(const nsvcd__router *r, double far, double *at) {
+static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
   const size_t joints = r->joints;
   size_t k = 0;
   for (; k + 2 < r->way_count; k++) {
     const double *from = r->way + k * joints;
     const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-    if (far <= length) break;
-    far -= length;
+    if (gone <= length) break;
+    gone -= length;
   }
   const double *from = r->way + k * joints;
   const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-  const double share = length > 0 ? nsvcd__min(far / length, 1) : 0;
+  const double share = length > 0 ? nsvcd__min(gone / length, 1) : 0;
   for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
   return k;
 }
