@@ -16737,7 +16737,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // steps that are looked at together, at most, and how often a motion is halved where that is too
 // few
 #define NSVCD__MOST_STEPS 256
-#define NSVCD__STRETCHES 8
+#define NSVCD__STRETCHES 24
 // steps of what bends, at first
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: where the way bends by less, steps go on across
@@ -17551,6 +17551,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     const size_t finer = nsvcd__refine_steps(c, steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
+      answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
       const nsvcd_result result =
           nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);

@@ -569,6 +569,8 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   printf("%s\t%s", task->id, nsvcd_verdict_string(answer.verdict));
   if (answer.verdict == NSVCD_FREE) {
     printf("\t-1\tnan\t-\t-");
+  } else if (answer.pair == NSVCD_NONE) {
+    printf("\t%zu\t%.9g\t-\t-", edge, answer.share);
   } else {
     const nsvcd_body_pair *pair = &in->scene.pairs[answer.pair];
     printf("\t%zu\t%.9g\t%s\t%s", edge, answer.share, robot_name(in, pair->a),

@@ -515,6 +515,34 @@ static void robot_swings_past_a_wall(void) {
   CHECK_GE(hits, 250);
 }
 
+// A thousand turns past a wall, in one piece: as many steps as it takes.
+static void robot_turns_for_long(void) {
+  static robot r;
+  const double points[2] = {1, 6000};
+  const nsvcd_joint_motion motion = {1, 1, points, NULL};
+  for (int hits = 0; hits < 2; hits++) {
+    nsvcd_check_answer answer;
+    memset(&r, 0, sizeof r);
+    r.scene.joint_count = 1;
+    r.scene.part_count = 2;
+    r.scene.pair_count = 1;
+    r.pairs[0].b = 1;
+    r.joints[0].kind = NSVCD_JOINT_CONTINUOUS;
+    r.joints[0].axis[2] = 1;
+    r.joints[0].origin.rotation[3] = 1;
+    for (uint32_t n = 0; n < 2; n++) {
+      r.parts[n].body = robot_shapes()[0].body;
+      r.parts[n].link = 1 - n;
+      r.parts[n].pose.rotation[3] = 1;
+      r.parts[n].pose.position[0] = n ? (hits ? 0.6f : 0.65f) : 0.5f;
+    }
+    robot_open(&r);
+    CHECK_EQ(nsvcd_check(r.checker, &motion, NULL, &answer), NSVCD_OK);
+    CHECK_EQ(answer.verdict, hits ? NSVCD_HIT : NSVCD_FREE);
+    free(r.memory);
+  }
+}
+
 // A shape for the oracle in the scale of small parts, made once, or in its own.
 static const oracle_mesh *robot_exact(int shape, const nsvcd_part *part) {
   static oracle_mesh small[SHAPES];
@@ -1074,6 +1102,7 @@ void test_robot(void) {
   RUN(robot_levers_reach);
   RUN(robot_grazes);
   RUN(robot_swings_past_a_wall);
+  RUN(robot_turns_for_long);
   RUN(robot_verdicts_are_right);
   RUN(robot_trees_find_the_nearest);
   RUN(robot_ramps_are_quickest);

@@ -21,7 +21,7 @@
 // steps that are looked at together, at most, and how often a motion is halved where that is too
 // few
 #define NSVCD__MOST_STEPS 256
-#define NSVCD__STRETCHES 8
+#define NSVCD__STRETCHES 24
 // steps of what bends, at first
 #define NSVCD__FIRST_STEPS 4
 // radians or metres: where the way bends by less, steps go on across

@@ -429,6 +429,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     const size_t finer = nsvcd__refine_steps(c, steps, allowed);
     if (finer > NSVCD__MOST_STEPS) {
       const double middle = 0.5 * (t0 + t1);
+      answer->why = NSVCD_WHY_WORK;
       if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
       const nsvcd_result result =
           nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);
