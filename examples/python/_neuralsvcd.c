@@ -27,6 +27,16 @@ void nsvcd_spline(const float *, size_t, size_t, float, size_t, float *);
 size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *, const nsvcd_plan_options *);
 nsvcd_result nsvcd_plan(const nsvcd_plan_problem *, const nsvcd_plan_options *, void *, size_t,
                         float *, nsvcd_plan_answer *);
+nsvcd_result nsvcd_stl_parse(const void *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
+size_t nsvcd_checker_size(const nsvcd_scene *);
+nsvcd_result nsvcd_checker_open(const nsvcd_scene *, void *, size_t, nsvcd_checker **);
+void nsvcd_checker_place(const nsvcd_checker *, const double *, nsvcd_pose *);
+nsvcd_result nsvcd_check(nsvcd_checker *, const nsvcd_joint_motion *, const nsvcd_check_options *,
+                         nsvcd_check_answer *);
+size_t nsvcd_route_size(const nsvcd_checker *, const nsvcd_route_problem *,
+                        const nsvcd_route_options *);
+nsvcd_result nsvcd_route(nsvcd_checker *, const nsvcd_route_problem *, const nsvcd_route_options *,
+                         void *, size_t, nsvcd_route_answer *);
 
 // A struct is at 0, a field at its offset; a constant has its value for the place, and no size.
 typedef struct neuralsvcd_layout {
@@ -97,6 +107,33 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(plan_answer, smoothness),
     FIELD(plan_answer, via_points), FIELD(plan_answer, seeds), FIELD(plan_answer, iterations),
     FIELD(plan_answer, trajectories), FIELD(plan_answer, sweeps),
+    STRUCT(joint), FIELD(joint, kind), FIELD(joint, parent), FIELD(joint, origin),
+    FIELD(joint, axis), FIELD(joint, low), FIELD(joint, high), FIELD(joint, speed),
+    FIELD(joint, acceleration),
+    STRUCT(part), FIELD(part, body), FIELD(part, link), FIELD(part, pose), FIELD(part, scale),
+    STRUCT(scene), FIELD(scene, joints), FIELD(scene, joint_count), FIELD(scene, parts),
+    FIELD(scene, part_count), FIELD(scene, pairs), FIELD(scene, pair_count),
+    STRUCT(joint_motion), FIELD(joint_motion, pieces), FIELD(joint_motion, degree),
+    FIELD(joint_motion, points), FIELD(joint_motion, times),
+    STRUCT(check_options), FIELD(check_options, clearance), FIELD(check_options, finest),
+    FIELD(check_options, work),
+    STRUCT(check_answer), FIELD(check_answer, verdict), FIELD(check_answer, why),
+    FIELD(check_answer, pair), FIELD(check_answer, piece), FIELD(check_answer, share),
+    FIELD(check_answer, contact), FIELD(check_answer, joint), FIELD(check_answer, placed),
+    FIELD(check_answer, sweeps),
+    STRUCT(route_problem), FIELD(route_problem, start), FIELD(route_problem, goals),
+    FIELD(route_problem, goal_count), FIELD(route_problem, guess),
+    FIELD(route_problem, guess_count), FIELD(route_problem, stop), FIELD(route_problem, user),
+    STRUCT(route_options), FIELD(route_options, seed), FIELD(route_options, clearance),
+    FIELD(route_options, nodes), FIELD(route_options, edge), FIELD(route_options, shortcuts),
+    FIELD(route_options, smoothings),
+    STRUCT(route_answer), FIELD(route_answer, status), FIELD(route_answer, goal),
+    FIELD(route_answer, motion), FIELD(route_answer, stops), FIELD(route_answer, duration),
+    FIELD(route_answer, unhindered), FIELD(route_answer, check), FIELD(route_answer, nodes),
+    FIELD(route_answer, checks), FIELD(route_answer, proven),
+    CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
+    CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),
+    CONSTANT(ROUTE_GOAL),
     CONSTANT(ERROR_ARGUMENT), CONSTANT(ERROR_IO), CONSTANT(ERROR_MEMORY), CONSTANT(ERROR_SYNTAX),
     CONSTANT(ERROR_INDEX), CONSTANT(ERROR_NUMBER), CONSTANT(ERROR_EMPTY), CONSTANT(ERROR_TOO_LARGE),
     CONSTANT(ERROR_POSE), CONSTANT(ERROR_SCALE), CONSTANT(ERROR_TOLERANCE), CONSTANT(ERROR_SAME),

@@ -25,7 +25,7 @@ import os
 import struct
 import threading
 from collections.abc import Callable, Sequence
-from ctypes import byref, c_char, c_char_p, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, Optional, Union
@@ -34,10 +34,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "Answer", "Ask", "Body", "By", "Code", "Contact", "Error", "Facts", "Gradient", "LEAVE_OUT", "Mesh", "Method",
-    "Model", "NO_TRIANGLE", "Opinion", "Options", "Plan", "PlanOptions", "PlanStatus", "Precision", "Progress", "Range",
-    "SafePlace", "Stage", "Verdict", "Why", "cut_mesh", "load_obj", "parse_obj", "plan", "spline", "sweep",
-    "sweep_batch", "sweep_gradient",
+    "Answer", "Ask", "Body", "By", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint", "JointKind",
+    "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan", "PlanOptions",
+    "PlanStatus", "Precision", "Progress", "Range", "Robot", "Route", "RouteStatus", "SafePlace", "Stage", "Verdict",
+    "Why", "cut_mesh", "load_obj", "load_stl", "parse_obj", "parse_stl", "plan", "spline", "sweep", "sweep_batch",
+    "sweep_gradient",
 ]
 
 Floats = NDArray[np.float32]
@@ -129,6 +130,22 @@ class PlanStatus(enum.IntEnum):
     GOAL = 4
 
 
+class JointKind(_Word):
+    """nsvcd_joint_kind."""
+    REVOLUTE = "revolute"
+    CONTINUOUS = "continuous"
+    PRISMATIC = "prismatic"
+
+
+class RouteStatus(enum.IntEnum):
+    """What a route is: nsvcd_route_status."""
+    FOUND = 0
+    LIMIT = 1
+    STOPPED = 2
+    START = 3
+    GOAL = 4
+
+
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
 _MAX_CONTACTS = 4
 _MAX_VIA_POINTS = 32
@@ -136,7 +153,7 @@ LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
 
 _PREFIXES: dict[Any, str] = {
     Code: "ERROR_", Ask: "ASK_", Verdict: "", By: "BY_", Why: "WHY_", Model: "MODEL_", Precision: "PRECISION_",
-    Method: "METHOD_", PlanStatus: "PLAN_"}
+    Method: "METHOD_", PlanStatus: "PLAN_", JointKind: "JOINT_", RouteStatus: "ROUTE_"}
 _VERDICTS, _BYS, _WHYS = tuple(Verdict), tuple(By), tuple(Why)
 
 
@@ -199,8 +216,27 @@ _PlanAnswer = _struct(
     "nsvcd_plan_answer", status=c_int, collides=c_int, joint=c_size_t, pair=c_size_t, logit=c_float, time=c_float,
     stray=c_float, cost=c_float, smoothness=c_float, via_points=c_size_t, seeds=c_size_t, iterations=c_size_t, trajectories=c_size_t,
     sweeps=c_size_t)
-_STRUCTS = (_Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact, _SafePlace,
-            _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
+_STOP = ctypes.CFUNCTYPE(c_int, c_void_p)
+_Joint = _struct("nsvcd_joint", kind=c_int, parent=c_uint32, origin=_Pose, axis=c_float * 3, low=c_double,
+                 high=c_double, speed=c_double, acceleration=c_double)
+_Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_float)
+_Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
+                 pairs=c_void_p, pair_count=c_size_t)
+_JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
+_CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t)
+_CheckAnswer = _struct(
+    "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, share=c_double, contact=_Contact,
+    joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
+_RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
+                        guess_count=c_size_t, stop=_STOP, user=c_void_p)
+_RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, edge=c_double,
+                        shortcuts=c_size_t, smoothings=c_size_t)
+_RouteAnswer = _struct(
+    "nsvcd_route_answer", status=c_int, goal=c_size_t, motion=_JointMotion, stops=c_size_t, duration=c_double,
+    unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
+_STRUCTS = (_Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _RouteProblem, _RouteOptions,
+            _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
+            _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
 
 _PROTOTYPES = {
@@ -221,6 +257,13 @@ _PROTOTYPES = {
     "nsvcd_spline": (None, c_void_p, c_size_t, c_size_t, c_float, c_size_t, c_void_p),
     "nsvcd_plan_workspace_size": (c_size_t, c_void_p, c_void_p),
     "nsvcd_plan": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "nsvcd_stl_parse": (c_int, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_checker_size": (c_size_t, c_void_p),
+    "nsvcd_checker_open": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_checker_place": (None, c_void_p, c_void_p, c_void_p),
+    "nsvcd_check": (c_int, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_route": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
 
@@ -407,14 +450,28 @@ def _taken(mesh: Any) -> Mesh:
         _library.nsvcd_mesh_free(byref(mesh), None)
 
 
-def parse_obj(text: Union[str, bytes], where: str = "") -> Mesh:
-    """The mesh that OBJ text describes. `where` names it in an Error, which has the line at fault."""
+def _parsed(parse: Any, text: Union[str, bytes], where: str) -> Mesh:
     data = text.encode() if isinstance(text, str) else bytes(text)
     mesh, line = _Mesh(), c_size_t()
-    code = _library.nsvcd_obj_parse(data, len(data), None, byref(mesh), byref(line))
+    code = parse(data, len(data), None, byref(mesh), byref(line))
     if code:
         raise Error(code, where, line.value)
     return _taken(mesh)
+
+
+def parse_obj(text: Union[str, bytes], where: str = "") -> Mesh:
+    """The mesh that OBJ text describes. `where` names it in an Error, which has the line at fault."""
+    return _parsed(_library.nsvcd_obj_parse, text, where)
+
+
+def parse_stl(data: Union[str, bytes], where: str = "") -> Mesh:
+    """The mesh in STL data, binary or text."""
+    return _parsed(_library.nsvcd_stl_parse, data, where)
+
+
+def load_stl(path: Union[str, os.PathLike[str]]) -> Mesh:
+    """The mesh in an STL file. OSError if it cannot be read."""
+    return parse_stl(Path(path).read_bytes(), os.fspath(path))
 
 
 def load_obj(path: Union[str, os.PathLike[str]]) -> Mesh:
@@ -1168,3 +1225,199 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
     return Plan(control[:answer.via_points + 2].copy(), PlanStatus(answer.status), bool(answer.collides), joint, pair,
                 answer.logit, answer.time, answer.stray, answer.cost, answer.smoothness, answer.seeds, answer.iterations,
                 answer.trajectories, answer.sweeps)
+
+# -------------------------------------------------------------------------------------------------------------- robots
+
+Doubles = NDArray[np.float64]
+_IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+class Joint(NamedTuple):
+    """nsvcd_joint. Joint i carries link i + 1; link 0 is the world.
+
+    parent         the link that it is on
+    origin, axis   where it is in that link, a pose (7); any length but 0
+    low, high      limits, radians or metres; not read of CONTINUOUS
+    speed, acceleration  what a route keeps to; 0: 1
+    """
+    parent: int
+    origin: ArrayLike = _IDENTITY
+    axis: ArrayLike = (0.0, 0.0, 1.0)
+    kind: JointKind = JointKind.REVOLUTE
+    low: float = -math.pi
+    high: float = math.pi
+    speed: float = 0
+    acceleration: float = 0
+
+
+class Part(NamedTuple):
+    """A body on a link: nsvcd_part."""
+    body: Body
+    link: int = 0
+    pose: ArrayLike = _IDENTITY
+    scale: float = 0
+
+
+class Checked(NamedTuple):
+    """nsvcd_check_answer.
+
+    verdict       FREE: at all times of the joints' own motion
+    why           it is UNDECIDED
+    pair          of a HIT, or of what is UNDECIDED: its index, or None
+    piece, share  where in the motion, or None
+    point, normal of a HIT
+    joint         one that leaves its limits, or None
+    placed, sweeps  what it took
+    """
+    verdict: Verdict
+    why: Why
+    pair: Optional[int]
+    piece: Optional[int]
+    share: float
+    point: Optional[Vector]
+    normal: Optional[Vector]
+    joint: Optional[int]
+    placed: int
+    sweeps: int
+
+
+class Route(NamedTuple):
+    """nsvcd_route_answer.
+
+    points, times  (2 pieces + 1, F) and (pieces + 1): pieces of degree 2; None unless FOUND
+    """
+    status: RouteStatus
+    goal: Optional[int]
+    points: Optional[Doubles]
+    times: Optional[Doubles]
+    stops: int
+    duration: float
+    unhindered: float
+    check: Checked
+    nodes: int
+    checks: int
+    proven: int
+
+    def at(self, times: ArrayLike) -> Doubles:
+        """The joints at times (n), seconds: (n, F)."""
+        if self.points is None or self.times is None:
+            raise ValueError("no route was found")
+        t = np.clip(np.asarray(times, np.float64), 0, self.duration)
+        piece = np.clip(np.searchsorted(self.times, t, "right") - 1, 0, len(self.times) - 2)
+        s = ((t - self.times[piece]) / (self.times[piece + 1] - self.times[piece]))[..., None]
+        a, b, c = (self.points[2 * piece + k] for k in range(3))
+        return np.asarray((1 - s) ** 2 * a + 2 * s * (1 - s) * b + s ** 2 * c)
+
+
+def _index_or_none(index: int) -> Optional[int]:
+    return None if index == LEAVE_OUT else index
+
+
+def _checked(c: Any) -> Checked:
+    is_hit = _VERDICTS[c.verdict] is Verdict.HIT
+    return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.share,
+                   tuple(c.contact.point) if is_hit else None, tuple(c.contact.normal) if is_hit else None,
+                   _index_or_none(c.joint), c.placed, c.sweeps)
+
+
+def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> Doubles:
+    return np.array(_numeric(value, shape, name), np.float64, order="C")
+
+
+class Robot:
+    """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
+
+    pairs  (P, 2) of parts, on links that differ
+    """
+
+    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: ArrayLike) -> None:
+        def pose_of(pose: ArrayLike, name: str) -> Any:
+            row = _floats(pose, (7,), name).tolist()
+            return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
+        self.joint_count, self.part_count = len(joints), len(parts)
+        self._joints = (_Joint * max(len(joints), 1))(*(
+            _Joint(_number_of(JointKind(j.kind)), _number(c_uint32, j.parent, "parent"), pose_of(j.origin, "origin"),
+                   (c_float * 3)(*_floats(j.axis, (3,), "axis").tolist()), j.low, j.high, j.speed, j.acceleration)
+            for j in joints))
+        self._bodies = [part.body for part in parts]
+        self._parts = (_Part * max(len(parts), 1))(*(
+            _Part(part.body._address, _number(c_uint32, part.link, "link"), pose_of(part.pose, "pose"), part.scale)
+            for part in parts))
+        self._pairs = _indices(pairs, 2, "pairs")
+        self._scene = _Scene(ctypes.addressof(self._joints), len(joints), ctypes.addressof(self._parts), len(parts),
+                             _address(self._pairs), len(self._pairs))
+        size = _library.nsvcd_checker_size(byref(self._scene))
+        self._memory = _memory(size)
+        self._checker = c_void_p()
+        _check(_library.nsvcd_checker_open(byref(self._scene), _address(self._memory), size, byref(self._checker)))
+
+    def place(self, joints: ArrayLike) -> Floats:
+        """Where the parts are: poses (B, 7)."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        poses = np.empty((self.part_count, 7), np.float32)
+        _library.nsvcd_checker_place(self._checker, _address(row), _address(poses))
+        return poses
+
+    def check(self, points: ArrayLike, *, degree: int = 1, times: Optional[ArrayLike] = None, clearance: float = 0,
+              finest: float = 0, work: int = 0) -> Checked:
+        """Is a motion free, as the joints make it? nsvcd_check.
+
+        points  (F): a configuration; (pieces degree + 1, F): Bezier pieces, a polyline if the degree is 1
+        times   (pieces + 1), seconds; None: each piece takes one
+        """
+        rows = np.atleast_2d(np.asarray(points))
+        kept = _doubles(rows, (None, self.joint_count), "points")
+        degree = _number(c_size_t, degree, "degree")
+        if degree < 1 or (len(kept) - 1) % degree:
+            raise ValueError(f"points: pieces of degree {degree} have a multiple of that, and 1, not {len(kept)}")
+        pieces = (len(kept) - 1) // degree
+        motion = _JointMotion(pieces, degree, _address(kept))
+        if times is not None and pieces:
+            kept_times = _doubles(times, (pieces + 1,), "times")
+            motion.times = _address(kept_times)
+        options = _filled(_CheckOptions, clearance=clearance, finest=finest, work=work)
+        answer = _CheckAnswer()
+        _check(_library.nsvcd_check(self._checker, byref(motion), byref(options), byref(answer)))
+        return _checked(answer)
+
+    def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
+              seed: int = 0, nodes: int = 0, edge: float = 0, shortcuts: int = 0, smoothings: int = 0,
+              stop: Optional[Callable[[], Any]] = None) -> Route:
+        """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
+
+        guess  (n, F) a way that may be free, its ends left out
+        stop   asked before each proof; something true ends the search
+        """
+        rows = [_doubles(start, (self.joint_count,), "start"),
+                _doubles(np.atleast_2d(np.asarray(goals)), (None, self.joint_count), "goals")]
+        problem = _RouteProblem(_address(rows[0]), _address(rows[1]), len(rows[1]))
+        if guess is not None:
+            rows.append(_doubles(guess, (None, self.joint_count), "guess"))
+            problem.guess, problem.guess_count = _address(rows[2]), len(rows[2])
+        caught: list[BaseException] = []
+        if stop:
+            asked = stop
+            problem.stop = _STOP(lambda _: _cancels(lambda _: asked(), caught, None, None))
+        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, shortcuts=shortcuts,
+                          smoothings=smoothings)
+        options.edge = edge
+        size = _library.nsvcd_route_size(self._checker, byref(problem), byref(options))
+        memory = _memory(size)
+        answer = _RouteAnswer()
+        code = _library.nsvcd_route(self._checker, byref(problem), byref(options), _address(memory), size,
+                                    byref(answer))
+        if caught:
+            raise caught[0]
+        _check(code)
+        points: Optional[Doubles] = None
+        times: Optional[Doubles] = None
+        is_found = answer.status == RouteStatus.FOUND
+        if is_found:
+            count = answer.motion.pieces
+            shape = (2 * count + 1, self.joint_count)
+            numbers = (c_double * math.prod(shape)).from_address(answer.motion.points)
+            points = np.frombuffer(numbers).reshape(shape).copy()
+            times = np.frombuffer((c_double * (count + 1)).from_address(answer.motion.times)).copy()
+        return Route(RouteStatus(answer.status), answer.goal if is_found else None, points, times, answer.stops,
+                     answer.duration, answer.unhindered, _checked(answer.check), answer.nodes, answer.checks,
+                     answer.proven)

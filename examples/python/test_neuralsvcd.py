@@ -865,6 +865,79 @@ class Planning(unittest.TestCase):
             nsvcd.spline(control, 0, 4)
 
 
+class Robots(unittest.TestCase):
+    """Two joints: a slide along x, and on it an arm of a metre that turns about z, past a post."""
+
+    def setUp(self) -> None:
+        kind = nsvcd.JointKind
+        joints = [nsvcd.Joint(0, axis=[1, 0, 0], kind=kind.PRISMATIC, low=-2, high=2, speed=1, acceleration=2),
+                  nsvcd.Joint(1, low=-3, high=3, speed=2, acceleration=4)]
+        arm = Body.capsule([0, 0, 0], [1, 0, 0], 0.05)
+        post = Body.sphere(0.2)
+        self.robot = nsvcd.Robot(joints, [nsvcd.Part(arm, 2), nsvcd.Part(post, 0, [0, 0.8, 0, 0, 0, 0, 1])], [[0, 1]])
+
+    def test_checks(self) -> None:
+        self.assertEqual(self.robot.check([0, 0]).verdict, "free")
+        found = self.robot.check([0, np.pi / 2])
+        self.assertEqual((found.verdict, found.pair, found.joint), ("hit", 0, None))
+        # ends that are free, and a post between; the arm's tip goes by it at 0.75 m
+        edge = self.robot.check([[0, 0], [0, 3]])
+        self.assertEqual((edge.verdict, edge.piece), ("hit", 0))
+        self.assertTrue(0 < edge.share < 1)
+        self.assertEqual(self.robot.check([[2, 0], [2, 3]], clearance=0.5).verdict, "free")
+        self.assertEqual(self.robot.check([[0, 0], [0, 0.3], [0, 0.5]], degree=2, times=[0, 2]).verdict, "free")
+        self.assertEqual(self.robot.check([0, 3.1]).joint, 1)
+        turned = [1, 0, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]
+        self.assertLess(np.abs(self.robot.place([1, np.pi / 2])[0] - turned).max(), 1e-6)
+
+    def test_routes(self) -> None:
+        route = self.robot.route([0, 0], [[0, np.pi / 2], [0, 3]], clearance=0.01)
+        self.assertEqual((route.status, route.goal, route.stops), (nsvcd.RouteStatus.FOUND, 1, 0))
+        self.assertGreater(route.duration, route.unhindered)
+        times = np.linspace(0, route.duration, 2000)
+        way = route.at(times)
+        self.assertEqual(way.shape, (2000, 2))
+        np.testing.assert_allclose(way[[0, -1]], [[0, 0], [0, 3]], atol=1e-12)
+        speeds = np.diff(way, axis=0) / (times[1] - times[0])
+        self.assertTrue((np.abs(speeds) < [1 + 1e-9, 2 + 1e-9]).all())
+        # the arm is a segment, and the post a point: their distance in closed form
+        tip = np.stack([np.cos(way[:, 1]), np.sin(way[:, 1])], 1)
+        off = np.stack([-way[:, 0], np.full(2000, 0.8)], 1)
+        along = np.clip((off * tip).sum(1), 0, 1)[:, None]
+        self.assertGreater(np.linalg.norm(off - along * tip, axis=1).min(), 0.26 - 1e-9)
+        self.assertEqual(self.robot.check(route.points, degree=2, times=route.times, clearance=0.01).verdict, "free")
+        again = self.robot.route([0, 0], [0, 3], guess=route.at(times[100:-100:100]), nodes=1)
+        self.assertEqual(again.status, nsvcd.RouteStatus.FOUND)
+
+    def test_ends(self) -> None:
+        status = nsvcd.RouteStatus
+        stuck = self.robot.route([0, np.pi / 2], [0, 0])
+        self.assertEqual((stuck.status, stuck.check.verdict, stuck.points), (status.START, "hit", None))
+        self.assertRaises(ValueError, stuck.at, 0)
+        self.assertEqual(self.robot.route([0, 0], [0, np.pi / 2]).status, status.GOAL)
+        self.assertEqual(self.robot.route([0, 0], [0, 3], stop=lambda: True).status, status.STOPPED)
+        self.assertEqual(self.robot.route([0, 0], [0, 3], nodes=2).status, status.LIMIT)
+        with self.assertRaises(ZeroDivisionError):
+            self.robot.route([0, 0], [0, 3], stop=lambda: 1 // 0)
+        with self.assertRaises(Error):
+            self.robot.check([0, np.nan])
+        self.assertRaises(ValueError, self.robot.check, [[0, 0], [0, 1]], degree=2)
+        self.assertRaises(ValueError, self.robot.check, [0, 0, 0])
+        with self.assertRaises(Error) as raised:
+            nsvcd.Robot([nsvcd.Joint(0, axis=[0, 0, 0])], [], np.empty((0, 2), int))
+        self.assertEqual(raised.exception.code, Code.ARGUMENT)
+
+    def test_stl(self) -> None:
+        text = "solid\n" + "".join("outer loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in CUBE[face])
+                                   + "endloop\n" for face in FACES)
+        mesh = nsvcd.parse_stl(text)
+        self.assertEqual((mesh.vertices.shape, mesh.triangles.shape), ((8, 3), (12, 3)))
+        np.testing.assert_array_equal(mesh.vertices[mesh.triangles], CUBE[FACES])
+        with self.assertRaises(Error) as raised:
+            nsvcd.parse_stl("solid\nvertex 1 2 x", "a.stl")
+        self.assertEqual((raised.exception.code, raised.exception.line), (Code.SYNTAX, 2))
+
+
 class Layouts(unittest.TestCase):
     """The module as it stands, but for one mistake, does not load."""
 
