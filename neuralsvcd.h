@@ -18023,7 +18023,7 @@ typedef struct nsvcd__router {
   int is_stopped;
   nsvcd__tree trees[2];  // from the start, from the goals
   size_t *goals;         // (G): of those that are free, which; the roots of trees[1]
-  double *way;           // (nodes + guess + 2, F)
+  double *way;           // (2 nodes + 2 + shortcuts, F)
   size_t way_count;
   nsvcd__course course, other, ramp;
   nsvcd_route_answer answer;
@@ -18283,7 +18283,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
   }
   r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
-  r->way = (double *)nsvcd__take(base, &used, (nodes + 2) * joints, sizeof(double));
+  // a shortcut within two edges adds a corner
+  const uint64_t rows = (uint64_t)2 * nodes + 2 + o->shortcuts;
+  r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);

@@ -69,7 +69,9 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
   }
   r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
-  r->way = (double *)nsvcd__take(base, &used, (nodes + 2) * joints, sizeof(double));
+  // a shortcut within two edges adds a corner
+  const uint64_t rows = (uint64_t)2 * nodes + 2 + o->shortcuts;
+  r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
