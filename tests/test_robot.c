@@ -941,6 +941,14 @@ static void robot_routes_are_free(void) {
       again.options.nodes = 1;
       ask_route(&r, &again);
       if (a.options.clearance <= 0) CHECK_EQ(again.answer.status, NSVCD_ROUTE_FOUND);
+      // shortcuts add corners, more than there are nodes
+      again.options.shortcuts = 400;
+      again.options.smoothings = NSVCD_NONE;
+      ask_route(&r, &again);
+      if (a.options.clearance <= 0) {
+        CHECK_EQ(again.answer.status, NSVCD_ROUTE_FOUND);
+        robot_motion_is_smooth(&r, &again.answer.motion, a.start, a.goals[0]);
+      }
       free(again.memory);
     }
     free(a.memory);
@@ -1085,6 +1093,8 @@ static void robot_routes_refuse(void) {
   REFUSED_ROUTE(a.options.clearance = NAN, a.options.clearance = 0, NSVCD_ERROR_TOLERANCE);
   REFUSED_ROUTE(a.options.edge = NAN, a.options.edge = 0, NSVCD_ERROR_ARGUMENT);
   REFUSED_ROUTE(a.options.nodes = NSVCD_MAX_NODES + 1, a.options.nodes = 0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.options.shortcuts = NSVCD_MAX_NODES + 1, a.options.shortcuts = 0,
+                NSVCD_ERROR_ARGUMENT);
   REFUSED_ROUTE(a.size--, a.size++, NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, NULL, a.size, &answer), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, a.memory, a.size, NULL), NSVCD_ERROR_ARGUMENT);

@@ -50,7 +50,7 @@ typedef struct nsvcd_route_options {
   size_t nodes;
   // radians or metres that an edge is long, at most; 1
   double edge;
-  // tried on the way, and on the timed motion; 20 and 200. NSVCD_NONE: none
+  // tried on the way, up to NSVCD_MAX_NODES, and on the timed motion; 20 and 200. NSVCD_NONE: none
   size_t shortcuts, smoothings;
 } nsvcd_route_options;
 

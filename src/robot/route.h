@@ -9,6 +9,8 @@
 // of all joints whose limits are wider, only what is no farther than this from the start and the
 // goals is drawn from, but for one configuration in eight
 #define NSVCD__BESIDE 3.2
+// radians or metres: corners of a way that are no farther apart are one
+#define NSVCD__SAME_CORNER 1e-9
 
 // ---- memory
 
@@ -21,6 +23,8 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
   if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
     return NSVCD_ERROR_ARGUMENT;
   if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ARGUMENT;
+  if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
+    return NSVCD_ERROR_ARGUMENT;
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
@@ -69,8 +73,8 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
     t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
   }
   r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
-  // a shortcut within two edges adds a corner
-  const uint64_t rows = (uint64_t)2 * nodes + 2 + o->shortcuts;
+  // a shortcut from an edge to the next adds a corner
+  const size_t rows = 2 * nodes + o->shortcuts;
   r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
@@ -274,6 +278,24 @@ static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
   return NSVCD_OK;
 }
 
+// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
+// acceleration is. What is timed is proven as a whole.
+static void nsvcd__thin_way(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  const size_t bytes = joints * sizeof(double);
+  const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = r->way + (r->way_count - 1) * joints;
+  size_t kept = 1;
+  for (size_t k = 1; k < r->way_count; k++) {
+    const double *at = r->way + k * joints;
+    if (nsvcd__way2(r->way + (kept - 1) * joints, at, joints) < least) continue;
+    memmove(r->way + kept++ * joints, at, bytes);
+  }
+  // the end stays where it is
+  memmove(r->way + (kept - 1) * joints, last, bytes);
+  r->way_count = kept;
+}
+
 // ---- a route
 
 NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
@@ -402,7 +424,10 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
   if (!result && r->way_count > 0) result = nsvcd__shorten(r);
-  if (!result && r->way_count > 0) result = nsvcd__time_way(r);
+  if (!result && r->way_count > 0) {
+    nsvcd__thin_way(r);
+    result = nsvcd__time_way(r);
+  }
   if (result) return result;
   if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)
     r->answer.status = NSVCD_ROUTE_STOPPED;

@@ -41,7 +41,7 @@ typedef struct nsvcd__router {
   int is_stopped;
   nsvcd__tree trees[2];  // from the start, from the goals
   size_t *goals;         // (G): of those that are free, which; the roots of trees[1]
-  double *way;           // (2 nodes + 2 + shortcuts, F)
+  double *way;           // (nodes of both trees + shortcuts, F)
   size_t way_count;
   nsvcd__course course, other, ramp;
   nsvcd_route_answer answer;
