@@ -446,30 +446,17 @@ static int plan_options(const settings *options, const char *command) {
   return DONE;
 }
 
-// The joints at a time of a route's motion.
-static void route_at(const nsvcd_joint_motion *m, size_t joints, double time, double *out) {
-  size_t piece = 0;
-  while (piece + 1 < m->pieces && m->times[piece + 1] <= time) piece++;
-  const double *p = m->points + 2 * piece * joints;
-  const double s = (time - m->times[piece]) / (m->times[piece + 1] - m->times[piece]);
-  for (size_t j = 0; j < joints; j++) {
-    const double a = p[j] + s * (p[joints + j] - p[j]);
-    const double b = p[joints + j] + s * (p[2 * joints + j] - p[joints + j]);
-    out[j] = s < 1 ? a + s * (b - a) : p[2 * joints + j];
-  }
-}
-
 // How far the joints go, radians and metres alike: their ways added up as in space.
 static double route_length(const nsvcd_joint_motion *m, size_t joints) {
   double length = 0;
   double q[2][NSVCD_MAX_JOINTS];
   const size_t looks = 16 * m->pieces;
-  route_at(m, joints, 0, q[0]);
+  nsvcd_motion_at(m, joints, 0, q[0]);
   for (size_t k = 1; k <= looks; k++) {
     double sum = 0;
     const double *times = m->times + (k - 1) / 16;
-    route_at(m, joints, times[0] + (times[1] - times[0]) * (double)((k - 1) % 16 + 1) / 16,
-             q[k % 2]);
+    nsvcd_motion_at(m, joints, times[0] + (times[1] - times[0]) * (double)((k - 1) % 16 + 1) / 16,
+                    q[k % 2]);
     for (size_t j = 0; j < joints; j++) sum += (q[1][j] - q[0][j]) * (q[1][j] - q[0][j]);
     length += sqrt(sum);
   }
@@ -531,7 +518,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
     if (answer.status == NSVCD_ROUTE_GOAL) tell_check(in, task, "the goal", &answer.check);
     for (size_t k = 0; is_found && k < options->samples; k++) {
       double q[NSVCD_MAX_JOINTS];
-      route_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
+      nsvcd_motion_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
       fprintf(out, "%s\t%zu", task->id, k);
       for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
       fprintf(out, "\n");

@@ -77,6 +77,14 @@ typedef struct nsvcd_joint_motion {
   const double *times;
 } nsvcd_joint_motion;
 
+// The joints at a time of a motion.
+//   motion     not NULL, as nsvcd_check takes it
+//   joints     F
+//   time       seconds, as motion->times has them; taken into the motion
+//   out        (F), not NULL
+NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
+                              double *out);
+
 // What is zero is the default.
 typedef struct nsvcd_check_options {
   // metres: to come as near as this is a hit

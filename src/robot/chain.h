@@ -28,10 +28,10 @@
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
 #define NSVCD__COARSE 2e-3
-// units that a look for a hit may take, before the last
-#define NSVCD__GLANCE 200
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
+// units that a look for a hit may take, before the last
+#define NSVCD__GLANCE 200
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
@@ -86,7 +86,6 @@ struct nsvcd_checker {
   const nsvcd_scene *scene;
   nsvcd__link links[NSVCD_MAX_JOINTS];
   nsvcd__member *members;  // (B)
-  size_t mover_count;      // parts that move
   // (P): the pairs, as they are asked: what was hit last first
   uint32_t *order;
   // (P): those of a stretch that are not proven yet

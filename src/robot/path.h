@@ -101,7 +101,6 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   const size_t parts = scene->part_count;
   const size_t pairs = scene->pair_count;
   const size_t samples = NSVCD__MOST_STEPS + 1;
-  c->mover_count = movers;
   c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
@@ -178,9 +177,8 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
   const nsvcd_scene *scene = c->scene;
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
-    const size_t link = scene->parts[n].link;
-    if (!link) continue;
-    const nsvcd__frame frame = nsvcd__frame_in(&at->frames[link], &m->frame);
+    if (!scene->parts[n].link) continue;
+    const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
     const nsvcd__bounds box = nsvcd__box_of(m, &frame);
     c->poses[m->row + k] = nsvcd__pose_in(&frame);
     c->boxes[m->row + k] = box;
@@ -191,8 +189,8 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
   }
 }
 
-// Fills in, for each part that moves, its samples at c->times, and by how much it strays between
-// them.
+// Fills in, for each part that moves, its samples at c->times, one more than steps, and by how much
+// it strays between them.
 static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
   const nsvcd_scene *scene = c->scene;
   const size_t bytes = scene->joint_count * sizeof(double);
@@ -200,13 +198,11 @@ static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, si
   nsvcd__configuration *from = &c->at;
   nsvcd__configuration *to = &c->next;
   for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
+  nsvcd_motion_at(motion, scene->joint_count, c->times[0], from->joints);
+  nsvcd__place_links(c, from);
+  nsvcd__sample_put(c, from, 0);
   for (size_t k = 0; k < steps; k++) {
     nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
-    if (k == 0) {
-      memcpy(from->joints, step.from, bytes);
-      nsvcd__place_links(c, from);
-      nsvcd__sample_put(c, from, 0);
-    }
     memcpy(to->joints, step.to, bytes);
     nsvcd__place_links(c, to);
     nsvcd__sample_put(c, to, k + 1);
@@ -282,21 +278,32 @@ static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, 
   return steps == 0 || last > 0;
 }
 
-static nsvcd_mover nsvcd__mover_of(const nsvcd_checker *c, size_t part,
-                                   const nsvcd__spell *spell) {
-  const nsvcd_part *p = &c->scene->parts[part];
-  nsvcd_mover mover;
-  memset(&mover, 0, sizeof mover);
-  mover.body = p->body;
-  mover.scale = p->scale;
-  mover.poses = p->link ? &c->poses[c->members[part].row + spell->first] : &p->pose;
-  mover.count = p->link ? spell->steps + 1 : 1;
-  return mover;
-}
-
 // By how much a part is off the way that its samples say, at most.
 static double nsvcd__off(const nsvcd_checker *c, size_t part) {
   return c->members[part].stray + 2 * c->members[part].rounding;
+}
+
+// Asks whether two parts come as near as the clearance, in so many poses each; what rests has one.
+static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                     const nsvcd_pose *const *poses, size_t count,
+                                     float clearance, const nsvcd_check_options *options,
+                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
+  const size_t parts[2] = {pair->a, pair->b};
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_part *part = &c->scene->parts[parts[n]];
+    nsvcd_mover *mover = n ? &question.b : &question.a;
+    mover->body = part->body;
+    mover->scale = part->scale;
+    mover->poses = part->link ? poses[n] : &part->pose;
+    mover->count = part->link ? count : 1;
+  }
+  question.clearance = clearance;
+  question.method = NSVCD_METHOD_PROOF;
+  question.work = options->work;
+  answer->sweeps++;
+  return nsvcd_sweep(&question, c->query, c->query_size, found);
 }
 
 // Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
@@ -308,50 +315,35 @@ static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pai
   const double clearance = (double)options->clearance + strays;
   const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
   const double room = (double)options->clearance + off;
-  nsvcd_question question;
   if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
-  memset(&question, 0, sizeof question);
-  question.a = nsvcd__mover_of(c, pair->a, spell);
-  question.b = nsvcd__mover_of(c, pair->b, spell);
-  question.clearance = clearance > 0 ? nsvcd__round_outward(clearance) : 0;
-  question.method = NSVCD_METHOD_PROOF;
-  question.work = options->work;
-  answer->sweeps++;
-  return nsvcd_sweep(&question, c->query, c->query_size, found);
+  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row + spell->first,
+                                      c->poses + c->members[pair->b].row + spell->first};
+  return nsvcd__ask_poses(c, pair, poses, spell->steps + 1,
+                          clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
+                          answer);
 }
 
-// Is a pair hit in one configuration? Then the answer says so.
+// Is a pair hit at joints of its motion? Then the answer says so.
 static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *joints,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
   nsvcd_answer found;
-  nsvcd_question question;
+  nsvcd_pose at[2];
+  const nsvcd_pose *const poses[2] = {&at[0], &at[1]};
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   const size_t parts[2] = {both->a, both->b};
-  nsvcd_pose poses[2];
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
   nsvcd__place_links(c, &c->at);
-  memset(&question, 0, sizeof question);
-  for (size_t n = 0; n < 2; n++) {
-    const nsvcd_part *part = &c->scene->parts[parts[n]];
-    nsvcd_mover *mover = n ? &question.b : &question.a;
-    const nsvcd__frame frame =
-        nsvcd__frame_in(&c->at.frames[part->link], &c->members[parts[n]].frame);
-    poses[n] = part->link ? nsvcd__pose_in(&frame) : part->pose;
-    mover->body = part->body;
-    mover->scale = part->scale;
-    mover->poses = &poses[n];
-    mover->count = 1;
-  }
-  question.clearance = options->clearance;
-  question.method = NSVCD_METHOD_PROOF;
-  question.work = options->work;
-  answer->sweeps++;
   answer->placed++;
-  const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__frame frame = nsvcd__frame_of_part(c, &c->at, parts[n]);
+    at[n] = nsvcd__pose_in(&frame);
+  }
+  const nsvcd_result result =
+      nsvcd__ask_poses(c, both, poses, 1, options->clearance, options, &found, answer);
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
@@ -412,18 +404,11 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   nsvcd_check_options glance = *options;
   if (!glance.work || glance.work > NSVCD__GLANCE) glance.work = NSVCD__GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
-  answer->piece = steps ? nsvcd__piece_at(motion, t0) : 0;
-  answer->share = steps ? nsvcd__share_at(motion, answer->piece, t0) : 0;
+  answer->piece = nsvcd__piece_at(motion, t0);
+  answer->share = nsvcd__share_at(motion, answer->piece, t0);
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
-  if (steps > 0) {
-    nsvcd__sample(c, motion, steps);
-  } else {
-    memcpy(c->at.joints, motion->points, c->scene->joint_count * sizeof(double));
-    nsvcd__place_links(c, &c->at);
-    nsvcd__sample_put(c, &c->at, 0);
-    for (size_t n = 0; n < c->scene->part_count; n++) c->members[n].stray = 0;
-  }
+  nsvcd__sample(c, motion, steps);
   answer->placed += steps + 1;
   while (left > 0) {
     const size_t finer = nsvcd__refine_steps(c, steps, allowed);
@@ -481,6 +466,11 @@ static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, siz
   return !(jumps * nsvcd__min(before, after) <= NSVCD__CORNER);
 }
 
+// What a joint may be out of its limits by rounding.
+static double nsvcd__limit_off(const nsvcd_joint *joint) {
+  return 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+}
+
 // Does a joint leave its limits in a piece? Halved until it is within at all its points, or out at
 // an end.
 static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
@@ -491,26 +481,24 @@ static int nsvcd__leaves(const double *points, size_t degree, double low, double
   if (within) return 0;
   if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
   if (!(points[degree] >= low && points[degree] <= high)) return 1;
+  memcpy(first, points, (degree + 1) * sizeof *points);
   memcpy(second, points, (degree + 1) * sizeof *points);
-  first[0] = second[0];
-  for (size_t level = 1; level <= degree; level++) {
-    for (size_t i = 0; i + level <= degree; i++) second[i] = 0.5 * (second[i] + second[i + 1]);
-    first[level] = second[0];
-  }
+  nsvcd__cut_curve(first, degree, 0, 0.5);
+  nsvcd__cut_curve(second, degree, 0.5, 1);
   return nsvcd__leaves(first, degree, low, high, depth - 1) ||
          nsvcd__leaves(second, degree, low, high, depth - 1);
 }
 
-// A joint that leaves its limits by more than rounding, or NSVCD_NONE.
-static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const double *points,
-                                   size_t degree) {
+// A joint that leaves its limits in a piece by more than rounding, or NSVCD_NONE.
+static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_motion *motion,
+                                   size_t piece) {
   double own[NSVCD_MAX_DEGREE + 1];
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
     if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
-    for (size_t i = 0; i <= degree; i++) own[i] = points[i * scene->joint_count + j];
-    const double off = 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
-    if (nsvcd__leaves(own, degree, joint->low - off, joint->high + off, 30)) return j;
+    nsvcd__joint_points(motion, piece, scene->joint_count, j, own);
+    const double off = nsvcd__limit_off(joint);
+    if (nsvcd__leaves(own, motion->degree, joint->low - off, joint->high + off, 30)) return j;
   }
   return NSVCD_NONE;
 }
@@ -523,17 +511,17 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
   const size_t joints = scene->joint_count;
-  const size_t degree = motion->pieces ? motion->degree : 0;
-  if (motion->pieces && (degree < 1 || degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
-  if (motion->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  if (m.pieces && (m.degree < 1 || m.degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
+  if (m.pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
     return NSVCD_ERROR_ARGUMENT;
   const double most = (double)NSVCD_MAX_COORDINATE;
-  for (size_t k = 0; k < (motion->pieces * degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(motion->points[k], most)) return NSVCD_ERROR_NUMBER;
+  for (size_t k = 0; k < (m.pieces * m.degree + 1) * joints; k++) {
+    if (!nsvcd__is_number(m.points[k], most)) return NSVCD_ERROR_NUMBER;
   }
-  for (size_t p = 0; p <= motion->pieces && motion->times; p++) {
-    if (!nsvcd__is_number(motion->times[p], most)) return NSVCD_ERROR_NUMBER;
-    if (p > 0 && !(motion->times[p] > motion->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
+  for (size_t p = 0; p <= m.pieces && m.times; p++) {
+    if (!nsvcd__is_number(m.times[p], most)) return NSVCD_ERROR_NUMBER;
+    if (p > 0 && !(m.times[p] > m.times[p - 1])) return NSVCD_ERROR_ARGUMENT;
   }
   memset(&o, 0, sizeof o);
   if (options) o = *options;
@@ -543,21 +531,20 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
-  for (size_t p = 0; p < motion->pieces + !motion->pieces && found.joint == NSVCD_NONE; p++)
-    found.joint = nsvcd__joint_outside(scene, motion->points + p * degree * joints, degree);
+  for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
+    found.joint = nsvcd__joint_outside(scene, &m, p);
   found.verdict = NSVCD_UNDECIDED;
   nsvcd_result result = NSVCD_OK;
-  if (motion->pieces == 0)
-    result = nsvcd__check_stretch(checker, motion, 0, 0, 0, 0, &o, &found);
+  if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
   // from corner to corner
-  for (size_t p = 0, next; p < motion->pieces && !result; p = next) {
+  for (size_t p = 0, next; p < m.pieces && !result; p = next) {
     next = p + 1;
-    while (next < motion->pieces && !nsvcd__is_corner(motion, joints, next)) next++;
-    const size_t steps = next - p == 1 && degree == 1 ? 1 : NSVCD__FIRST_STEPS;
+    while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
+    const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
     found.verdict = NSVCD_UNDECIDED;
-    result = nsvcd__check_stretch(checker, motion, nsvcd__piece_start(motion, p),
-                                  nsvcd__piece_start(motion, next), steps, NSVCD__STRETCHES,
-                                  &o, &found);
+    result = nsvcd__check_stretch(checker, &m, nsvcd__piece_start(&m, p),
+                                  nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
+                                  &found);
     if (found.verdict != NSVCD_FREE) break;
   }
   if (result) return result;

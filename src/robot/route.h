@@ -320,7 +320,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double off = 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+    const double off = nsvcd__limit_off(joint);
     out[j] = at[j];
     if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
     if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
@@ -372,22 +372,18 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
     r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
   }
   int is_free = 0;
+  nsvcd_check_options whole;
+  memset(&whole, 0, sizeof whole);
+  whole.clearance = r->options.clearance;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
     if (!nsvcd__course_along(r)) break;
     if (!rests) result = nsvcd__smooth(r);
     if (result) return result;
-    const nsvcd_check_options asked = r->check;
-    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
-    memset(&r->check, 0, sizeof r->check);
-    r->check.clearance = r->options.clearance;
-    r->answer.checks++;
     // though the search is stopped: what it has found by then is not given up
-    result = nsvcd_check(r->checker, &motion, &r->check, &r->answer.check);
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    result = nsvcd__prove_by(r, &motion, &whole, &is_free);
     if (result) return result;
-    is_free = r->answer.check.verdict == NSVCD_FREE;
-    r->answer.proven += (size_t)is_free;
-    r->check = asked;
   }
   if (!is_free) return NSVCD_OK;
   nsvcd_route_answer *answer = &r->answer;

@@ -52,18 +52,23 @@ static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
   return out;
 }
 
-// Is a motion proven free? answer.check says what is wrong. What the caller stops is not.
+// Is a motion proven free, and within the limits? answer.check says what is wrong.
+static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                                    const nsvcd_check_options *options, int *is_free) {
+  r->answer.checks++;
+  const nsvcd_result result = nsvcd_check(r->checker, motion, options, &r->answer.check);
+  *is_free =
+      !result && r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
+  r->answer.proven += (size_t)*is_free;
+  return result;
+}
+
+// The same by what the search asks for. What the caller stops is not free.
 static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
                                       int *is_free) {
   *is_free = 0;
   if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
-  if (r->is_stopped) return NSVCD_OK;
-  r->answer.checks++;
-  const nsvcd_result result = nsvcd_check(r->checker, motion, &r->check, &r->answer.check);
-  if (result) return result;
-  *is_free = r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
-  r->answer.proven += (size_t)*is_free;
-  return NSVCD_OK;
+  return r->is_stopped ? NSVCD_OK : nsvcd__prove_by(r, motion, &r->check, is_free);
 }
 
 static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to,

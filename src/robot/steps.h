@@ -13,6 +13,12 @@ typedef struct nsvcd__step {
   double bend[NSVCD_MAX_JOINTS];
 } nsvcd__step;
 
+// A motion as it is meant: of no pieces, a point and nothing else.
+static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
+  const nsvcd_joint_motion still = {0, 0, motion->points, NULL};
+  return motion->pieces ? *motion : still;
+}
+
 static double nsvcd__piece_start(const nsvcd_joint_motion *motion, size_t piece) {
   return motion->times ? motion->times[piece] : (double)piece;
 }
@@ -65,11 +71,10 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
 // The joints in a piece at a share of it, and, unless NULL, their speeds.
 static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
                              double share, double *at, double *speeds) {
-  const size_t degree = motion->pieces ? motion->degree : 0;
+  const size_t degree = motion->degree;
   for (size_t j = 0; j < joints; j++) {
     double p[NSVCD_MAX_DEGREE + 1];
-    for (size_t i = 0; i <= degree; i++)
-      p[i] = motion->points[(piece * degree + i) * joints + j];
+    nsvcd__joint_points(motion, piece, joints, j, p);
     for (size_t level = degree; level > 0; level--) {
       if (level == 1 && speeds)
         speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
@@ -79,6 +84,13 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
     }
     at[j] = p[0];
   }
+}
+
+NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
+                              double *out) {
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  const size_t piece = nsvcd__piece_at(&m, time);
+  nsvcd__joints_at(&m, joints, piece, nsvcd__share_at(&m, piece, time), out, NULL);
 }
 
 // By how much the speed of a joint jumps where a piece begins.
