@@ -1159,7 +1159,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes as options allow, and no way
+  // as many nodes as options allow, and no way; or one of more than 680 corners, as a guess may be
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
@@ -1204,7 +1204,8 @@ typedef struct nsvcd_route_answer {
   nsvcd_route_status status;
   // FOUND: which one is reached
   size_t goal;
-  // of degree 2, with times, at rest at both ends; in the memory that was given. Of what is FOUND
+  // of degree 2, with times, at rest at both ends; in the memory that was given. Of no pieces where
+  // the goal is the start. Of what is FOUND
   nsvcd_joint_motion motion;
   // times within that it rests at, for want of a smooth way round a corner
   size_t stops;
@@ -18028,8 +18029,10 @@ typedef struct nsvcd__router {
   uint64_t random;
   int is_stopped;
   nsvcd__tree trees[2];  // from the start, from the goals
-  size_t *goals;         // (G): of those that are free, which; the roots of trees[1]
-  double *way;           // (nodes of both trees + shortcuts, F)
+  // (F): the range of their roots
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
+  double *way;    // (nodes of both trees + shortcuts, F)
   size_t way_count;
   nsvcd__course course, other, ramp;
   nsvcd_route_answer answer;
@@ -18084,7 +18087,8 @@ static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *a
   memcpy(c->points, at, joints * sizeof *at);
 }
 
-// Goes along the way, with a rest at each corner. Returns 0 where there are too many.
+// Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
+// place is a rest, of no pieces.
 static int nsvcd__course_along(nsvcd__router *r) {
   nsvcd__course *c = &r->course;
   const size_t joints = r->joints;
@@ -18123,7 +18127,7 @@ static int nsvcd__course_along(nsvcd__router *r) {
       nsvcd__course_add(c, joints, middle, end, lasts[n]);
     }
   }
-  return c->pieces > 0;
+  return 1;
 }
 
 // Is the motion at rest where a piece begins?
@@ -18323,14 +18327,8 @@ static void nsvcd__draw(nsvcd__router *r, double *out) {
   const int is_wide = nsvcd__random(&r->random) < 0.125;
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    double low = r->trees[0].points[j];
-    double high = low;
-    for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count; g++) {
-      low = nsvcd__min(low, r->trees[1].points[g * r->joints + j]);
-      high = nsvcd__max(high, r->trees[1].points[g * r->joints + j]);
-    }
-    low -= NSVCD__BESIDE;
-    high += NSVCD__BESIDE;
+    double low = r->low[j] - NSVCD__BESIDE;
+    double high = r->high[j] + NSVCD__BESIDE;
     if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
       low = is_wide ? joint->low : nsvcd__max(low, joint->low);
       high = is_wide ? joint->high : nsvcd__min(high, joint->high);
@@ -18561,6 +18559,16 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
   return result;
 }
 
+// Adds a root to a tree, and takes it into the range of all roots.
+static void nsvcd__plant_root(nsvcd__router *r, nsvcd__tree *t, const double *at) {
+  const int is_first = r->trees[0].count == 0;
+  for (size_t j = 0; j < r->joints; j++) {
+    r->low[j] = is_first ? at[j] : nsvcd__min(r->low[j], at[j]);
+    r->high[j] = is_first ? at[j] : nsvcd__max(r->high[j], at[j]);
+  }
+  nsvcd__tree_add(t, at, t->count);
+}
+
 // Roots of the trees. Sets the status where there are none.
 static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   double at[NSVCD_MAX_JOINTS];
@@ -18569,7 +18577,7 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   if (result) return result;
   if (!is_free) r->answer.status = NSVCD_ROUTE_START;
   if (!is_free) return NSVCD_OK;
-  nsvcd__tree_add(&r->trees[0], at, 0);
+  nsvcd__plant_root(r, &r->trees[0], at);
   for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
     result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
     if (result || !is_free) continue;
@@ -18580,7 +18588,7 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
         at[j] -= 6.283185307179586 * turns;
     }
     r->goals[r->trees[1].count] = g;
-    nsvcd__tree_add(&r->trees[1], at, r->trees[1].count);
+    nsvcd__plant_root(r, &r->trees[1], at);
   }
   if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
   return result;

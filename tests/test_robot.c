@@ -921,7 +921,10 @@ static void robot_routes_are_free(void) {
       robot_motion_is_smooth(&r, m, a.start, a.goals[0]);
       for (int k = 0; k <= 300; k++) {
         double q[6];
+        double told[6];
         joints_at_time(m, 6, end * k / 300, q);
+        nsvcd_motion_at(m, 6, end * k / 300, told);
+        for (int j = 0; j < 6; j++) CHECK_NEAR(told[j], q[j], 1e-12);
         for (size_t p = 0; p < r.scene.pair_count; p++)
           CHECK_LE((double)a.options.clearance, robot_apart(&r, &r.pairs[p], q, 0.1) + 1e-9);
       }
@@ -1003,6 +1006,15 @@ static void robot_routes_end(void) {
   ask_route(&r, &a);
   CHECK_EQ(a.answer.status, NSVCD_ROUTE_START);
   memset(a.start, 0, sizeof a.start);
+  // to where it is
+  memset(a.goals[0], 0, sizeof a.goals[0]);
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  CHECK_EQ(a.answer.motion.pieces, 0);
+  CHECK_EQ(a.answer.duration, 0);
+  double there[6];
+  nsvcd_motion_at(&a.answer.motion, 6, 1, there);
+  CHECK_EQ(memcmp(there, a.start, sizeof there), 0);
   // the second of two goals
   memcpy(a.goals[0], folded, sizeof folded);
   memcpy(a.goals[1], bent, sizeof bent);

@@ -1303,6 +1303,8 @@ class Route(NamedTuple):
         if self.points is None or self.times is None:
             raise ValueError("no route was found")
         t = np.clip(np.asarray(times, np.float64), 0, self.duration)
+        if len(self.times) == 1:
+            return np.broadcast_to(self.points[0], (*t.shape, len(self.points[0]))).copy()
         piece = np.clip(np.searchsorted(self.times, t, "right") - 1, 0, len(self.times) - 2)
         s = ((t - self.times[piece]) / (self.times[piece + 1] - self.times[piece]))[..., None]
         a, b, c = (self.points[2 * piece + k] for k in range(3))

@@ -908,6 +908,9 @@ class Robots(unittest.TestCase):
         self.assertEqual(self.robot.check(route.points, degree=2, times=route.times, clearance=0.01).verdict, "free")
         again = self.robot.route([0, 0], [0, 3], guess=route.at(times[100:-100:100]), nodes=1)
         self.assertEqual(again.status, nsvcd.RouteStatus.FOUND)
+        here = self.robot.route([0, 3], [0, 3])
+        self.assertEqual((here.status, here.duration), (nsvcd.RouteStatus.FOUND, 0))
+        np.testing.assert_array_equal(here.at([0, 1]), [[0, 3], [0, 3]])
 
     def test_ends(self) -> None:
         status = nsvcd.RouteStatus

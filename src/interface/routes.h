@@ -13,7 +13,7 @@
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes as options allow, and no way
+  // as many nodes as options allow, and no way; or one of more than 680 corners, as a guess may be
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
@@ -58,7 +58,8 @@ typedef struct nsvcd_route_answer {
   nsvcd_route_status status;
   // FOUND: which one is reached
   size_t goal;
-  // of degree 2, with times, at rest at both ends; in the memory that was given. Of what is FOUND
+  // of degree 2, with times, at rest at both ends; in the memory that was given. Of no pieces where
+  // the goal is the start. Of what is FOUND
   nsvcd_joint_motion motion;
   // times within that it rests at, for want of a smooth way round a corner
   size_t stops;

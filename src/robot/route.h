@@ -98,14 +98,8 @@ static void nsvcd__draw(nsvcd__router *r, double *out) {
   const int is_wide = nsvcd__random(&r->random) < 0.125;
   for (size_t j = 0; j < r->joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    double low = r->trees[0].points[j];
-    double high = low;
-    for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count; g++) {
-      low = nsvcd__min(low, r->trees[1].points[g * r->joints + j]);
-      high = nsvcd__max(high, r->trees[1].points[g * r->joints + j]);
-    }
-    low -= NSVCD__BESIDE;
-    high += NSVCD__BESIDE;
+    double low = r->low[j] - NSVCD__BESIDE;
+    double high = r->high[j] + NSVCD__BESIDE;
     if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
       low = is_wide ? joint->low : nsvcd__max(low, joint->low);
       high = is_wide ? joint->high : nsvcd__min(high, joint->high);
@@ -336,6 +330,16 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
   return result;
 }
 
+// Adds a root to a tree, and takes it into the range of all roots.
+static void nsvcd__plant_root(nsvcd__router *r, nsvcd__tree *t, const double *at) {
+  const int is_first = r->trees[0].count == 0;
+  for (size_t j = 0; j < r->joints; j++) {
+    r->low[j] = is_first ? at[j] : nsvcd__min(r->low[j], at[j]);
+    r->high[j] = is_first ? at[j] : nsvcd__max(r->high[j], at[j]);
+  }
+  nsvcd__tree_add(t, at, t->count);
+}
+
 // Roots of the trees. Sets the status where there are none.
 static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   double at[NSVCD_MAX_JOINTS];
@@ -344,7 +348,7 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
   if (result) return result;
   if (!is_free) r->answer.status = NSVCD_ROUTE_START;
   if (!is_free) return NSVCD_OK;
-  nsvcd__tree_add(&r->trees[0], at, 0);
+  nsvcd__plant_root(r, &r->trees[0], at);
   for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
     result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
     if (result || !is_free) continue;
@@ -355,7 +359,7 @@ static nsvcd_result nsvcd__plant(nsvcd__router *r) {
         at[j] -= 6.283185307179586 * turns;
     }
     r->goals[r->trees[1].count] = g;
-    nsvcd__tree_add(&r->trees[1], at, r->trees[1].count);
+    nsvcd__plant_root(r, &r->trees[1], at);
   }
   if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
   return result;

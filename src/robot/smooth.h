@@ -40,8 +40,10 @@ typedef struct nsvcd__router {
   uint64_t random;
   int is_stopped;
   nsvcd__tree trees[2];  // from the start, from the goals
-  size_t *goals;         // (G): of those that are free, which; the roots of trees[1]
-  double *way;           // (nodes of both trees + shortcuts, F)
+  // (F): the range of their roots
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
+  double *way;    // (nodes of both trees + shortcuts, F)
   size_t way_count;
   nsvcd__course course, other, ramp;
   nsvcd_route_answer answer;
@@ -96,7 +98,8 @@ static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *a
   memcpy(c->points, at, joints * sizeof *at);
 }
 
-// Goes along the way, with a rest at each corner. Returns 0 where there are too many.
+// Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
+// place is a rest, of no pieces.
 static int nsvcd__course_along(nsvcd__router *r) {
   nsvcd__course *c = &r->course;
   const size_t joints = r->joints;
@@ -135,7 +138,7 @@ static int nsvcd__course_along(nsvcd__router *r) {
       nsvcd__course_add(c, joints, middle, end, lasts[n]);
     }
   }
-  return c->pieces > 0;
+  return 1;
 }
 
 // Is the motion at rest where a piece begins?
