@@ -88,17 +88,11 @@ static int usage_error(const char *what, const char *reason) {
 // zeroed.
 static int encode_meshes(const problem_file *file, const nsvcd_encode_options *options,
                          encoded *bodies) {
-  const size_t folder = (size_t)(file_name(file->path) - file->path);
   for (size_t i = 0; i < file->mesh_count; i++) {
     const mesh_entry *mesh = &file->meshes[i];
-    char from[1024], path[4096];
+    char from[1024];
     snprintf(from, sizeof from, "%s:%zu: mesh %s: ", file->path, mesh->line, mesh->name);
-    snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
-             mesh->path);
-    nsvcd_mesh loaded;
-    if (!load_mesh(from, path, &loaded)) return 0;
-    bodies[i].body = encode_mesh(from, path, &loaded, options, &bodies[i].seconds);
-    nsvcd_mesh_free(&loaded, NULL);
+    bodies[i].body = encode_named(from, file->path, mesh->path, options, &bodies[i].seconds);
     if (!bodies[i].body) return 0;
   }
   return 1;
@@ -197,8 +191,7 @@ static int write_details(const session *s, const char *path) {
     }
     fprintf(out, "\n");
   }
-  const int is_written = fflush(out) == 0 && !ferror(out);
-  return fclose(out) == 0 && is_written ? 1 : complain("%s: cannot be written", path);
+  return close_written(out, path);
 }
 
 // The library knows which recalls it was calibrated for: ask it before any work is done. A body of
@@ -313,7 +306,6 @@ static int may_write_body(const char *path) {
 
 static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   int header = ends_with(out, ".h");
-  int good;
   FILE *file = fopen(out, header ? "w" : "wb");
   if (!file) return complain("%s: %s", out, strerror(errno));
   if (header) {
@@ -323,9 +315,7 @@ static int write_body(const char *in, const char *out, const nsvcd_body *body) {
   } else {
     fwrite(body, 1, nsvcd_body_describe(body).size, file);
   }
-  good = !ferror(file);
-  if (fclose(file) != 0 || !good) return complain("%s: cannot be written", out);
-  return 1;
+  return close_written(file, out);
 }
 
 static void print_facts(const char *path, const nsvcd_body *body) {
@@ -599,8 +589,7 @@ static int robot_command(settings *options, int is_path) {
   }
   good = good && robot_tasks(&file, options, is_path, out);
   if (out) {
-    const int is_written = fflush(out) == 0 && !ferror(out);
-    if (fclose(out) != 0 || !is_written) good = complain("%s: cannot be written", options->joints);
+    good = close_written(out, options->joints) && good;
   }
   free_robot(&file);
   return good ? DONE : REFUSED;

@@ -91,6 +91,19 @@ static const nsvcd_body *encode_mesh(const char *from, const char *path, const n
   return body;
 }
 
+// A mesh that a file names, by its path from that file's folder: loaded and encoded.
+static const nsvcd_body *encode_named(const char *from, const char *file, const char *name,
+                                      const nsvcd_encode_options *options, double *taken) {
+  char path[4096];
+  nsvcd_mesh mesh;
+  const size_t folder = (size_t)(file_name(file) - file);
+  snprintf(path, sizeof path, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
+  if (!load_mesh(from, path, &mesh)) return NULL;
+  const nsvcd_body *body = encode_mesh(from, path, &mesh, options, taken);
+  nsvcd_mesh_free(&mesh, NULL);
+  return body;
+}
+
 // ------------------------------------------------------------------------------------------ things
 
 // "0.001", or "0.001,1" where two files are given: of each. 0 after a complaint.

@@ -81,6 +81,12 @@ static char *read_file(const char *path, size_t *size) {
   return good ? text : NULL;
 }
 
+// Closes a file that was written. Returns 0 after a complaint.
+static int close_written(FILE *file, const char *path) {
+  const int is_written = fflush(file) == 0 && !ferror(file);
+  return fclose(file) == 0 && is_written ? 1 : complain("%s: cannot be written", path);
+}
+
 // ----------------------------------------------------------------------------------------- numbers
 
 static int parse_number(const char *text, double *out) {
@@ -277,21 +283,25 @@ static int read_problem(reader *r, problem_file *file) {
   return 1;
 }
 
-static int read_problems(const char *path, problem_file *file) {
+// Begins to read a text file whose first line is `format` and version 1. *text: to be freed. Returns
+// 0 after a complaint.
+static int open_reader(const char *path, const char *format, char **text, reader *r) {
   size_t size;
+  memset(r, 0, sizeof *r);
+  r->path = path;
+  r->next = *text = read_file(path, &size);
+  if (!*text) return 0;
+  if (strlen(*text) != size) return complain("%s: not a text file: it has a zero byte", path);
+  if (!next_line(r) || r->field_count != 2 || strcmp(r->fields[0], format) != 0)
+    return complain("%s:%zu: the first line is not '%s 1'", path, r->line ? r->line : 1, format);
+  return strcmp(r->fields[1], "1") == 0 || refuse_field(r, "only version 1 is known", r->fields[1]);
+}
+
+static int read_problems(const char *path, problem_file *file) {
+  reader r;
   memset(file, 0, sizeof *file);
   file->path = path;
-  file->text = read_file(path, &size);
-  if (!file->text) return 0;
-  reader r;
-  memset(&r, 0, sizeof r);
-  r.path = path;
-  r.next = file->text;
-  if (strlen(file->text) != size) return complain("%s: not a text file: it has a zero byte", path);
-  if (!next_line(&r) || r.field_count != 2 || strcmp(r.fields[0], "nsvcd-problems") != 0)
-    return complain("%s:%zu: the first line is not 'nsvcd-problems 1'", path, r.line ? r.line : 1);
-  if (strcmp(r.fields[1], "1") != 0)
-    return refuse_field(&r, "only version 1 is known", r.fields[1]);
+  if (!open_reader(path, "nsvcd-problems", &file->text, &r)) return 0;
   while (next_line(&r)) {
     int is_mesh = strcmp(r.fields[0], "mesh") == 0;
     int is_problem = strcmp(r.fields[0], "problem") == 0;

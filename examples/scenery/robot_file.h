@@ -247,18 +247,10 @@ static int read_robot(const char *path, robot_file *file) {
                {"pair", robot_read_pair},
                {"scene", robot_read_scene},
                {"obstacle", robot_read_obstacle}};
-  size_t size;
   reader r;
   memset(file, 0, sizeof *file);
-  memset(&r, 0, sizeof r);
-  file->path = r.path = path;
-  file->text = r.next = read_file(path, &size);
-  if (!file->text) return 0;
-  if (strlen(file->text) != size) return complain("%s: not a text file: it has a zero byte", path);
-  if (!next_line(&r) || r.field_count != 2 || strcmp(r.fields[0], "nsvcd-plans") != 0)
-    return complain("%s:%zu: the first line is not 'nsvcd-plans 1'", path, r.line ? r.line : 1);
-  if (strcmp(r.fields[1], "1") != 0)
-    return refuse_field(&r, "only version 1 is known", r.fields[1]);
+  file->path = path;
+  if (!open_reader(path, "nsvcd-plans", &file->text, &r)) return 0;
   while (next_line(&r)) {
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;
     size_t k = 0;
@@ -275,19 +267,13 @@ static int read_robot(const char *path, robot_file *file) {
 
 // Loads and encodes all meshes. Returns 0 after a complaint.
 static int encode_robot(robot_file *file, double *taken) {
-  const size_t folder = (size_t)(file_name(file->path) - file->path);
   *taken = 0;
   for (size_t i = 0; i < file->mesh_count; i++) {
     robot_mesh *mesh = &file->meshes[i];
-    char from[1024], path[4096];
+    char from[1024];
     double one;
-    nsvcd_mesh loaded;
     snprintf(from, sizeof from, "%s:%zu: ", file->path, mesh->line);
-    snprintf(path, sizeof path, "%.*s%s", mesh->path[0] == '/' ? 0 : (int)folder, file->path,
-             mesh->path);
-    if (!load_mesh(from, path, &loaded)) return 0;
-    mesh->body = encode_mesh(from, path, &loaded, NULL, &one);
-    nsvcd_mesh_free(&loaded, NULL);
+    mesh->body = encode_named(from, file->path, mesh->path, NULL, &one);
     if (!mesh->body) return 0;
     *taken += one;
   }
