@@ -18005,6 +18005,10 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
 #define NSVCD__WINDOWS 6
 // of the duration without obstacles: there is nothing to win
 #define NSVCD__FAST_ENOUGH 1.001
+// what a ramp is to win, to be worth its proof: a share of its own time, and, unless a rest goes
+// with it, of what the motion takes longer than without obstacles
+#define NSVCD__LEAST_GAIN 1e-4
+#define NSVCD__WORTHY_GAIN 0.02
 // metres that the search stays farther away than asked for, so that the whole is proven anew
 #define NSVCD__SPARE 1e-4f
 // metres that a part may stray from its sweeps, at least, in the search
@@ -18163,8 +18167,8 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
   return 1;
 }
 
-// Replaces the course from time t0 to t1 by a ramp, if that is quicker and proven.
-static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1) {
+// Replaces the course from time t0 to t1 by a ramp, if that is quicker by `gain` and proven.
+static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   double states[4][NSVCD_MAX_JOINTS];
   const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
@@ -18176,7 +18180,7 @@ static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1) {
   }
   nsvcd__course *ramp = &r->ramp;
   ramp->pieces =
-      nsvcd__ramp_write(r->scene, states, (t1 - t0) * (1 - 1e-4), ramp->points, ramp->times);
+      nsvcd__ramp_write(r->scene, states, t1 - t0 - gain, ramp->points, ramp->times);
   if (!ramp->pieces) return NSVCD_OK;
   // the whole as it would be: what is left of the course, and the ramp between
   nsvcd__course *out = &r->other;
@@ -18221,7 +18225,10 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
       t0 = nsvcd__max(0, rest - window);
       t1 = nsvcd__min(end, rest + window);
     }
-    const nsvcd_result result = nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1));
+    const double least = NSVCD__LEAST_GAIN * fabs(t1 - t0);
+    const double worthy = NSVCD__WORTHY_GAIN * (end - r->answer.unhindered);
+    const nsvcd_result result = nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1),
+                                                   rests ? least : nsvcd__max(least, worthy));
     if (result) return result;
   }
   return NSVCD_OK;
