@@ -142,6 +142,7 @@
 //     bodies          encoding, loading, scaling, facts
 //     queries         movers, options, answers; nsvcd_sweep and its kin
 //     robots          joints, parts, checks of motions; nsvcd_check
+//     postures        one configuration: what is near, a way out; nsvcd_gaps
 //     routes          a start and goals; nsvcd_route
 //     plans           splines, planning problems; nsvcd_plan
 //   ground: numbers and memory
@@ -228,6 +229,7 @@
 //     steps           what the joints do between two times
 //     stray           by how much a part leaves the line and the slerp between two samples
 //     path            pieces, pair by pair
+//     postures        one configuration: gaps and their slopes, a way out, who can meet
 //     trees           configurations, and the nearest of them
 //     ramps           from one state to another, within limits of speed and acceleration
 //     smooth          a way in time, then smooth
@@ -1143,6 +1145,123 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------ interface/postures
+// In: a robot in one configuration. Out: what is near, how that changes with the joints, a way out;
+// who can meet whom at all; a part as another link would carry it.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+// Two parts of a pair that are near each other.
+typedef struct nsvcd_gap {
+  // of the scene's
+  size_t pair;
+  // metres: no less than `low`, no more than `high`. 0, 0: they touch, or one is inside of the
+  // other
+  nsvcd_range distance;
+  // metres, computed, not proven: of parts that touch, how far a is to be lifted off b. 0: they do
+  // not touch; HUGE_VALF: by more than options.deepest, or one is inside of the other
+  float depth;
+  // where: as nsvcd_answer.nearest has it; of parts that touch, its normal is that of the lift, if
+  // there is one
+  nsvcd_contact contact;
+  // (F), metres by radian or metre: how the distance between the two places of the contact changes
+  // with each joint; of parts that touch, how the lift that is needed shrinks. 0 without a normal
+  double slope[NSVCD_MAX_JOINTS];
+} nsvcd_gap;
+
+// What is zero is the default.
+typedef struct nsvcd_gap_options {
+  // metres: pairs that are as near as this are told; 0.05
+  float within;
+  // metres: how wide a bracket of a distance may be, beside both bodies' quanta; 0.1 mm
+  float to;
+  // metres: how deep a depth is told; 20 mm
+  float deepest;
+  // units that each question may take; NSVCD_DEFAULT_WORK
+  size_t work;
+} nsvcd_gap_options;
+
+// All pairs that are near in a configuration: what is wrong with a start or a goal, or what a
+// controller is to keep away from.
+//   checker    not NULL
+//   joints     (F), radians or metres
+//   options    NULL: the defaults
+//   gaps       (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
+//              is always enough
+//   count      not NULL: how many there are; where that is more than the capacity, the first are
+//              written
+//   allocates  nothing
+//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
+NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
+                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
+                                 size_t capacity, size_t *count);
+
+// What is zero is the default.
+typedef struct nsvcd_escape_options {
+  // metres: the configuration that is sought stays farther apart than this
+  float clearance;
+  // radians and metres alike: how far it may be, as the root of the sum of squares; 0.5
+  double farthest;
+  // of the random numbers
+  uint64_t seed;
+} nsvcd_escape_options;
+
+// A configuration near another one that is proven free, within the limits: a way out of a start or
+// a goal that is not. It is sought down the slopes of what touches, then at random, and drawn back
+// as far as that can be; none may be nearer, but that is not promised. What lies in between is not
+// free as far as that reaches.
+//   checker    not NULL
+//   joints     (F), radians or metres; out of the limits, they are taken in first
+//   options    NULL: the defaults
+//   gaps       (scene.pair_count), for its own use
+//   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
+//              is found
+//   is_found   not NULL
+//   allocates  nothing
+//   errors     ARGUMENT, NUMBER, TOLERANCE
+//   source     this library
+NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
+                                   const nsvcd_escape_options *options, nsvcd_gap *gaps,
+                                   double *out, int *is_found);
+
+// What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
+typedef struct nsvcd_pair_counts {
+  // that can meet: to be asked
+  size_t asked;
+  // of parts on two links that one joint parts, the world not among them
+  size_t adjacent;
+  // that touch in all configurations that were tried
+  size_t touching;
+} nsvcd_pair_counts;
+
+// Which pairs of parts can meet? All on links that differ; those that one joint parts, and those
+// that always touch, which are not worth asking, come last. Nothing that may stay apart is left
+// out: who never comes near costs little.
+//   checker    of the parts and joints, whatever pairs its scene has
+//   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
+//   seed       of them
+//   pairs      (capacity), not NULL; left as it was on failure
+//   capacity   B (B - 1) / 2 is always enough, of B parts
+//   counts     not NULL
+//   allocates  nothing
+//   errors     ARGUMENT, WORKSPACE (capacity)
+//   source     as setup assistants do (MoveIt's), but none is left out as "never"
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+                                       nsvcd_body_pair *pairs, size_t capacity,
+                                       nsvcd_pair_counts *counts);
+
+// A part as another link would carry it from where it is: to take hold of a thing, or, on link 0,
+// to let go of it. Put it into the scene, say which pairs are asked now, and open a checker.
+//   joints     (F), where it is taken over
+//   part       which, of the scene's
+//   link       the new one; 0: the world
+//   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
+//              off: 1e-7 of its distance from the link
+//   errors     ARGUMENT, NUMBER
+NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
+                                      size_t part, uint32_t link, nsvcd_part *out);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
 // -------------------------------------------------------------------------------- interface/routes
@@ -16734,6 +16853,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
+//   postures    one configuration: what is near, a way out; which pairs can meet
 //   trees       configurations, and the nearest of them
 //   ramps       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
@@ -17425,11 +17545,10 @@ static double nsvcd__off(const nsvcd_checker *c, size_t part) {
   return c->members[part].stray + 2 * c->members[part].rounding;
 }
 
-// Asks whether two parts come as near as the clearance, in so many poses each; what rests has one.
-static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                     const nsvcd_pose *const *poses, size_t count,
-                                     float clearance, const nsvcd_check_options *options,
-                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
+// Of two parts in so many poses each; what rests has one.
+static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                         const nsvcd_pose *const *poses, size_t count,
+                                         size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -17441,9 +17560,18 @@ static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pa
     mover->poses = part->link ? poses[n] : &part->pose;
     mover->count = part->link ? count : 1;
   }
-  question.clearance = clearance;
   question.method = NSVCD_METHOD_PROOF;
-  question.work = options->work;
+  question.work = work;
+  return question;
+}
+
+// Asks whether two parts come as near as the clearance.
+static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                     const nsvcd_pose *const *poses, size_t count,
+                                     float clearance, const nsvcd_check_options *options,
+                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
+  nsvcd_question question = nsvcd__question_of(c, pair, poses, count, options->work);
+  question.clearance = clearance;
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }
@@ -17696,6 +17824,382 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
     found.why = NSVCD_WHY_NOTHING;
   }
   *answer = found;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ---------------------------------------------------------------------------------- robot/postures
+// In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
+// a configuration near by that is free; which pairs can meet.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+#define NSVCD__GAP_WITHIN 0.05f
+#define NSVCD__GAP_TO 1e-4f
+#define NSVCD__GAP_DEEPEST 0.02f
+#define NSVCD__FARTHEST_ESCAPE 0.5
+// metres that an escape leaves beside the clearance, so that a route can begin there
+#define NSVCD__ESCAPE_ROOM 5e-4f
+// steps down the slopes, each no longer than this, radians or metres; and turns by which one is
+// found that opens all gaps
+#define NSVCD__ESCAPE_STEPS 32
+#define NSVCD__ESCAPE_STEP 0.1
+#define NSVCD__ESCAPE_TURNS 32
+// spheres about the joints that random configurations are drawn on, and how many on each; halvings
+// of the way back
+#define NSVCD__ESCAPE_RINGS 8
+#define NSVCD__ESCAPE_DRAWS 64
+#define NSVCD__ESCAPE_HALVINGS 10
+#define NSVCD__PAIR_SAMPLES 64
+
+static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
+  if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
+  for (size_t j = 0; j < checker->scene->joint_count; j++) {
+    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  }
+  return NSVCD_OK;
+}
+
+// Places all parts where the joints say, as the first of their samples.
+static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
+  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(c, &c->at);
+  nsvcd__sample_put(c, &c->at, 0);
+}
+
+// Of two parts where they stand.
+static nsvcd_question nsvcd__standing_question(const nsvcd_checker *c,
+                                               const nsvcd_body_pair *pair, size_t work) {
+  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row,
+                                      c->poses + c->members[pair->b].row};
+  return nsvcd__question_of(c, pair, poses, 1, work);
+}
+
+// ---- gaps
+
+// How the point of a part that is at `point` now moves along a normal, by each joint: added to the
+// slope, times `sign`.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, nsvcd__d3 point,
+                             nsvcd__d3 normal, double sign, double *slope) {
+  const uint32_t link = c->scene->parts[part].link;
+  for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
+    const size_t j = nsvcd__low_bit(path);
+    const nsvcd__d3 lever = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
+    const nsvcd__d3 speed =
+        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], lever);
+    slope[j] += sign * nsvcd__d3_dot(normal, speed);
+  }
+}
+
+// The gap of a pair where it stands. Returns its `low` as HUGE_VALF where it is not within.
+static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap_options *o,
+                                  nsvcd_gap *gap) {
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  nsvcd_answer found;
+  memset(gap, 0, sizeof *gap);
+  gap->pair = pair;
+  gap->distance.low = HUGE_VALF;
+  if (nsvcd__boxes_apart(&c->members[both->a].box, &c->members[both->b].box,
+                         1.000001 * (double)o->within))
+    return NSVCD_OK;
+  nsvcd_question question = nsvcd__standing_question(c, both, o->work);
+  question.clearance = o->within;
+  nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict == NSVCD_FREE) return result;
+  question.clearance = 0;
+  question.ask = NSVCD_ASK_DISTANCE;
+  question.to = o->to;
+  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.distance.low > o->within) return result;
+  gap->distance = found.distance;
+  gap->contact = found.nearest;
+  if (found.verdict == NSVCD_HIT) {
+    gap->distance.low = gap->distance.high = 0;
+    gap->depth = HUGE_VALF;
+    question.ask = NSVCD_ASK_HIT;
+    question.to = 0;
+    question.skin = o->deepest;
+    if (!found.inside) result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    const nsvcd__d3 lift = nsvcd__d3_load(found.lift);
+    const double length = nsvcd__d3_length(lift);
+    if (!found.inside && length > 0) {
+      gap->depth = found.depth;
+      nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(lift, 1 / length)), gap->contact.normal);
+    }
+  }
+  const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
+  const nsvcd__d3 on_b = nsvcd__d3_load(gap->contact.point);
+  const nsvcd__d3 on_a = nsvcd__d3_fma((double)gap->contact.gap, normal, on_b);
+  nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);
+  nsvcd__slope_add(c, both->b, on_b, normal, -1, gap->slope);
+  return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
+                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
+                                 size_t capacity, size_t *count) {
+  nsvcd_gap_options o;
+  size_t near_ones = 0;
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (!result && (!count || (!gaps && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
+  if (result) return result;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  const float *lengths[3] = {&o.within, &o.to, &o.deepest};
+  for (size_t n = 0; n < 3; n++) {
+    if (!nsvcd__is_finite(*lengths[n]) || *lengths[n] < 0) return NSVCD_ERROR_TOLERANCE;
+  }
+  o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
+  o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
+  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
+  nsvcd__stand(checker, joints);
+  for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
+    nsvcd_gap gap;
+    result = nsvcd__gap_of(checker, n, &o, &gap);
+    if (result || !(gap.distance.low < HUGE_VALF)) continue;
+    if (near_ones < capacity) gaps[near_ones] = gap;
+    near_ones++;
+  }
+  if (!result) *count = near_ones;
+  return result;
+}
+
+// ---- a way out
+
+static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));
+  }
+}
+
+static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints, float clearance,
+                                      int *is_free) {
+  const nsvcd_joint_motion still = {0, 0, joints, NULL};
+  nsvcd_check_options options;
+  nsvcd_check_answer answer;
+  memset(&options, 0, sizeof options);
+  options.clearance = clearance;
+  const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
+  *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
+  return result;
+}
+
+// Goes a step that opens all gaps to `room`, as far as their slopes can say: gap by gap, by turns.
+static void nsvcd__open_gaps(const nsvcd_scene *scene, const nsvcd_gap *gaps, size_t count,
+                             double room, double *joints) {
+  const size_t n = scene->joint_count;
+  double way[NSVCD_MAX_JOINTS] = {0};
+  double length = 0;
+  for (size_t turn = 0; turn < NSVCD__ESCAPE_TURNS * count; turn++) {
+    const nsvcd_gap *gap = &gaps[turn % count];
+    const float depth = gap->depth < HUGE_VALF ? gap->depth : NSVCD__GAP_DEEPEST;
+    double lack = room - (double)gap->distance.low + (double)depth;
+    double square = 0;
+    for (size_t j = 0; j < n; j++) {
+      lack -= gap->slope[j] * way[j];
+      square += gap->slope[j] * gap->slope[j];
+    }
+    if (!(lack > 0) || !(square > 1e-12)) continue;
+    for (size_t j = 0; j < n; j++) way[j] += lack / square * gap->slope[j];
+  }
+  for (size_t j = 0; j < n; j++) length += way[j] * way[j];
+  const double share = nsvcd__min(1, NSVCD__ESCAPE_STEP / sqrt(nsvcd__max(length, 1e-30)));
+  for (size_t j = 0; j < n; j++) joints[j] += share * way[j];
+  nsvcd__take_into_limits(scene, joints);
+}
+
+static double nsvcd__joints_apart(const double *a, const double *b, size_t joints) {
+  double square = 0;
+  for (size_t j = 0; j < joints; j++) square += (a[j] - b[j]) * (a[j] - b[j]);
+  return sqrt(square);
+}
+
+// Down the slopes from `from` to a place that is free and no farther away than `farthest`.
+static nsvcd_result nsvcd__escape_down(nsvcd_checker *c, const double *from, float clearance,
+                                       double farthest, nsvcd_gap *gaps, double *at,
+                                       int *is_found) {
+  const nsvcd_scene *scene = c->scene;
+  nsvcd_gap_options options;
+  memset(&options, 0, sizeof options);
+  options.within = nsvcd__round_outward((double)clearance);
+  memcpy(at, from, scene->joint_count * sizeof *at);
+  for (size_t step = 0; step < NSVCD__ESCAPE_STEPS; step++) {
+    size_t count;
+    nsvcd_result result = nsvcd__is_free_at(c, at, clearance, is_found);
+    if (result || *is_found) return result;
+    result = nsvcd_gaps(c, at, &options, gaps, scene->pair_count, &count);
+    if (result || count == 0) return result;
+    // by a tenth more than slopes say
+    nsvcd__open_gaps(scene, gaps, count, 1.1 * (double)clearance, at);
+    if (nsvcd__joints_apart(from, at, scene->joint_count) > farthest) return NSVCD_OK;
+  }
+  return NSVCD_OK;
+}
+
+// Draws on spheres about `from`, from the inside to the outside, until one is free.
+static nsvcd_result nsvcd__escape_by_luck(nsvcd_checker *c, const double *from,
+                                          float clearance, double farthest, uint64_t random,
+                                          double *at, int *is_found) {
+  const size_t joints = c->scene->joint_count;
+  for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS && !*is_found; n++) {
+    const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
+    double way[NSVCD_MAX_JOINTS];
+    double square = 0;
+    for (size_t j = 0; j < joints; j++) {
+      way[j] = 2 * nsvcd__random(&random) - 1;
+      square += way[j] * way[j];
+    }
+    for (size_t j = 0; j < joints; j++)
+      at[j] = from[j] + ring * farthest / sqrt(square) * way[j];
+    nsvcd__take_into_limits(c->scene, at);
+    const nsvcd_result result = nsvcd__is_free_at(c, at, clearance, is_found);
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
+                                   const nsvcd_escape_options *options, nsvcd_gap *gaps,
+                                   double *out, int *is_found) {
+  nsvcd_escape_options o;
+  double from[NSVCD_MAX_JOINTS], at[NSVCD_MAX_JOINTS];
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (!result && (!out || !is_found)) result = NSVCD_ERROR_ARGUMENT;
+  if (result) return result;
+  const nsvcd_scene *scene = checker->scene;
+  const size_t bytes = scene->joint_count * sizeof(double);
+  if (!gaps && scene->pair_count > 0) return NSVCD_ERROR_ARGUMENT;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
+    return NSVCD_ERROR_NUMBER;
+  const double farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
+  memcpy(from, joints, bytes);
+  nsvcd__take_into_limits(scene, from);
+  int is_free;
+  result = nsvcd__is_free_at(checker, from, o.clearance, &is_free);
+  if (result) return result;
+  const float wanted = o.clearance + NSVCD__ESCAPE_ROOM;
+  int is_there = 0;
+  if (!is_free) {
+    result = nsvcd__escape_down(checker, from, wanted, farthest, gaps, at, &is_there);
+    if (!result && !is_there)
+      result = nsvcd__escape_by_luck(checker, from, wanted, farthest, o.seed, at, &is_there);
+    // back to where it begins to be free
+    for (size_t n = 0; n < NSVCD__ESCAPE_HALVINGS && is_there && !result; n++) {
+      double middle[NSVCD_MAX_JOINTS];
+      int is_nearer;
+      for (size_t j = 0; j < scene->joint_count; j++) middle[j] = 0.5 * (from[j] + at[j]);
+      result = nsvcd__is_free_at(checker, middle, wanted, &is_nearer);
+      memcpy(is_nearer ? at : from, middle, bytes);
+    }
+  }
+  if (result) return result;
+  *is_found = is_free || is_there;
+  if (*is_found) memcpy(out, is_free ? from : at, bytes);
+  return NSVCD_OK;
+}
+
+// ---- pairs
+
+typedef enum nsvcd__pair_kind {
+  NSVCD__PAIR_ASKED = 0,
+  NSVCD__PAIR_ADJACENT,
+  NSVCD__PAIR_TOUCHING
+} nsvcd__pair_kind;
+
+// Do two parts touch in so many configurations, drawn within the limits?
+static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                        size_t samples, uint64_t random, int *always) {
+  nsvcd_answer found;
+  nsvcd_result result = NSVCD_OK;
+  *always = 1;
+  for (size_t n = 0; n < samples && *always && !result; n++) {
+    double joints[NSVCD_MAX_JOINTS];
+    for (size_t j = 0; j < c->scene->joint_count; j++) {
+      const nsvcd_joint *joint = &c->scene->joints[j];
+      const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+      const double low = is_endless ? 0 : joint->low;
+      const double high = is_endless ? 6.283185307179586 : joint->high;
+      joints[j] = low + (high - low) * nsvcd__random(&random);
+    }
+    nsvcd__stand(c, joints);
+    const nsvcd_question question = nsvcd__standing_question(c, pair, 0);
+    result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    *always = !result && found.verdict == NSVCD_HIT;
+  }
+  return result;
+}
+
+static nsvcd_result nsvcd__pair_kind_of(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                        size_t samples, uint64_t random, int *kind) {
+  const size_t a = c->scene->parts[pair->a].link;
+  const size_t b = c->scene->parts[pair->b].link;
+  const nsvcd_joint *joints = c->scene->joints;
+  *kind = NSVCD__PAIR_ADJACENT;
+  if (a > 0 && b > 0 && (joints[a - 1].parent == b || joints[b - 1].parent == a))
+    return NSVCD_OK;
+  int always;
+  const nsvcd_result result = nsvcd__touch_always(c, pair, samples, random, &always);
+  *kind = always ? NSVCD__PAIR_TOUCHING : NSVCD__PAIR_ASKED;
+  return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+                                       nsvcd_body_pair *pairs, size_t capacity,
+                                       nsvcd_pair_counts *counts) {
+  if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = checker->scene;
+  size_t found[3] = {0, 0, 0};
+  size_t total = 0;
+  for (size_t a = 0; a < scene->part_count; a++) {
+    for (size_t b = a + 1; b < scene->part_count; b++)
+      total += scene->parts[a].link != scene->parts[b].link;
+  }
+  if (capacity < total) return NSVCD_ERROR_WORKSPACE;
+  total = 0;
+  for (int kind = NSVCD__PAIR_ASKED; kind <= NSVCD__PAIR_TOUCHING; kind++) {
+    for (size_t a = 0; a < scene->part_count; a++) {
+      for (size_t b = a + 1; b < scene->part_count; b++) {
+        const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
+        int is_of;
+        if (scene->parts[a].link == scene->parts[b].link) continue;
+        const nsvcd_result result = nsvcd__pair_kind_of(
+            checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &is_of);
+        if (result) return result;
+        if (is_of != kind) continue;
+        pairs[total++] = pair;
+        found[kind]++;
+      }
+    }
+  }
+  counts->asked = found[NSVCD__PAIR_ASKED];
+  counts->adjacent = found[NSVCD__PAIR_ADJACENT];
+  counts->touching = found[NSVCD__PAIR_TOUCHING];
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
+                                      size_t part, uint32_t link, nsvcd_part *out) {
+  nsvcd__configuration c;
+  const nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (result) return result;
+  const nsvcd_scene *scene = checker->scene;
+  if (!out || part >= scene->part_count || link > scene->joint_count)
+    return NSVCD_ERROR_ARGUMENT;
+  memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
+  nsvcd__place_links(checker, &c);
+  const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
+  const nsvcd__frame *to = &c.frames[link];
+  const nsvcd__dquat back = {-to->turn.x, -to->turn.y, -to->turn.z, to->turn.w};
+  const nsvcd__frame inner = {nsvcd__dquat_inverse_mul(to->turn, at.turn),
+                              nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};
+  nsvcd_part moved = scene->parts[part];
+  moved.link = link;
+  moved.pose = nsvcd__pose_in(&inner);
+  *out = moved;
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

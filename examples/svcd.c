@@ -21,8 +21,8 @@
 
 // ---------------------------------------------------------------------------------------- settings
 
-enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8, PLAN = 16, PATH = 32 };
-#define ALL (CHECK | ENCODE | INFO | SWEEP | PLAN | PATH)
+enum { CHECK = 1, ENCODE = 2, INFO = 4, SWEEP = 8, PLAN = 16, PATH = 32, PAIRS = 64 };
+#define ALL (CHECK | ENCODE | INFO | SWEEP | PLAN | PATH | PAIRS)
 
 typedef struct settings {  // of all commands
   nsvcd_encode_options encode;
@@ -70,7 +70,7 @@ static const option options[] = {
     {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL},
     {"--work", CHECK | SWEEP, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL},
-    {"--seed", PLAN, OPTION_COUNT, AT(seed), 0, 1000000000, NULL},
+    {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL},
     {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL},
@@ -453,19 +453,58 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
   return length;
 }
 
+// All pairs that are as near as the clearance, and the nearest place that was found to be free, on
+// standard error.
+static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
+                         float clearance) {
+  nsvcd_gap_options options;
+  nsvcd_escape_options escape;
+  size_t count = 0;
+  int is_found = 0;
+  double out[NSVCD_MAX_JOINTS];
+  nsvcd_gap *gaps = (nsvcd_gap *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
+  memset(&options, 0, sizeof options);
+  memset(&escape, 0, sizeof escape);
+  options.within = clearance > 0 ? clearance : 1e-6f;
+  options.deepest = 0.1f;
+  escape.clearance = clearance;
+  if (nsvcd_gaps(in->checker, joints, &options, gaps, in->scene.pair_count, &count)) count = 0;
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_gap *gap = &gaps[k];
+    const nsvcd_body_pair *pair = &in->scene.pairs[gap->pair];
+    const char *a = robot_name(in, pair->a);
+    const char *b = robot_name(in, pair->b);
+    if (!(gap->distance.high <= 0))
+      complain("%s: %s and %s are %.2f mm apart", from, a, b, 1e3 * (double)gap->distance.high);
+    else if (gap->depth < HUGE_VALF)
+      complain("%s: %s and %s meet, %.2f mm deep", from, a, b, 1e3 * (double)gap->depth);
+    else
+      complain("%s: %s and %s meet, no lift of 100 mm parts them", from, a, b);
+  }
+  if (!nsvcd_escape(in->checker, joints, &escape, gaps, out, &is_found) && is_found) {
+    char list[32 * NSVCD_MAX_JOINTS] = "";
+    for (size_t j = 0; j < in->file->joint_count; j++)
+      snprintf(list + strlen(list), sizeof list - strlen(list), " %.9g", out[j]);
+    complain("%s: free near by:%s", from, list);
+  } else {
+    complain("%s: nothing free was found near by", from);
+  }
+  free(gaps);
+}
+
 // What is wrong with a start or a goal, on standard error.
 static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
-                       const nsvcd_check_answer *found) {
+                       const double *joints, const nsvcd_check_answer *found, float clearance) {
+  char from[1024];
+  snprintf(from, sizeof from, "%s:%zu: %s: %s", in->file->path, task->line, task->id, where);
   if (found->joint != NSVCD_NONE) {
-    complain("%s:%zu: %s: %s: joint %s is out of its limits", in->file->path, task->line, task->id,
-             where, in->file->joint_names[found->joint]);
-  } else if (found->pair != NSVCD_NONE) {
+    complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
+  } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
     const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
-    complain("%s:%zu: %s: %s: %s and %s %s", in->file->path, task->line, task->id, where,
-             robot_name(in, pair->a), robot_name(in, pair->b),
-             found->verdict == NSVCD_HIT ? "meet, or come within the clearance"
-                                         : "are too near each other to tell");
+    complain("%s: %s and %s are too near each other to tell", from, robot_name(in, pair->a),
+             robot_name(in, pair->b));
   }
+  tell_way_out(in, from, joints, clearance);
 }
 
 static const char *plan_word(const nsvcd_route_answer *answer) {
@@ -504,8 +543,10 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
       printf("%.9g\t%.9g\n", answer.duration, route_length(m, joints));
     else
       printf("nan\tnan\n");
-    if (answer.status == NSVCD_ROUTE_START) tell_check(in, task, "the start", &answer.check);
-    if (answer.status == NSVCD_ROUTE_GOAL) tell_check(in, task, "the goal", &answer.check);
+    if (answer.status == NSVCD_ROUTE_START)
+      tell_check(in, task, "the start", problem.start, &answer.check, asked.clearance);
+    if (answer.status == NSVCD_ROUTE_GOAL)
+      tell_check(in, task, "the goal", problem.goals, &answer.check, asked.clearance);
     for (size_t k = 0; is_found && k < options->samples; k++) {
       double q[NSVCD_MAX_JOINTS];
       nsvcd_motion_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
@@ -571,6 +612,37 @@ static int robot_tasks(const robot_file *file, const settings *options, int is_p
   }
   leave_room(&in);
   return good;
+}
+
+// Which bodies of a robot can meet each other: lines for its planning file.
+static int pairs(settings *options) {
+  robot_file file;
+  robot_in_room in;
+  nsvcd_pair_counts counts;
+  double taken;
+  const int status = plan_options(options, "pairs");
+  if (status != DONE) return status;
+  memset(&in, 0, sizeof in);
+  int good = read_robot(options->paths[0], &file);
+  if (good && file.body_count == 0) good = complain("%s: no body", file.path);
+  good = good && encode_robot(&file, &taken);
+  if (good) {
+    const size_t most = file.body_count * file.body_count;
+    nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
+    good = enter_room(&file, NSVCD_NONE, &in) &&
+           !nsvcd_find_pairs(in.checker, 0, options->seed, found, most, &counts);
+    const size_t total = good ? counts.asked + counts.adjacent + counts.touching : 0;
+    for (size_t n = 0; n < total; n++) {
+      const char *word = n < counts.asked                     ? "pair"
+                         : n < counts.asked + counts.adjacent ? "# adjacent:"
+                                                              : "# always touching:";
+      printf("%s %s %s\n", word, robot_name(&in, found[n].a), robot_name(&in, found[n].b));
+    }
+    free(found);
+  }
+  leave_room(&in);
+  free_robot(&file);
+  return good ? DONE : REFUSED;
 }
 
 static int robot_command(settings *options, int is_path) {
@@ -973,6 +1045,15 @@ static void help_path(FILE *out) {
           "  --only ID,ID        these alone\n");
 }
 
+static void help_pairs(FILE *out) {
+  fprintf(out,
+          "svcd pairs [--seed S] FILE\n"
+          "Which bodies of a planning file's robot can meet each other? A line 'pair NAME NAME'\n"
+          "for each two, to stand in the file; in comments those that one joint parts, and those\n"
+          "that touch in each of 64 random configurations, which are not worth asking.\n"
+          "  --seed S            of the configurations (0)\n");
+}
+
 typedef struct command {
   const char *name;
   unsigned bit;
@@ -990,6 +1071,7 @@ static const command commands[] = {
     {"check", CHECK, check, help_check, 1, 5, 0},
     {"plan", PLAN, plan, help_plan, 1, 0, 0},
     {"path", PATH, path, help_path, 1, 0, 0},
+    {"pairs", PAIRS, pairs, help_pairs, 1, 0, 0},
 };
 #define COMMANDS (sizeof commands / sizeof commands[0])
 
@@ -1003,6 +1085,7 @@ static void usage(FILE *out) {
       "  svcd check PROBLEMS.txt           answers a file of problems\n"
       "  svcd plan ROBOT.txt               motions of a robot, sought and proven\n"
       "  svcd path ROBOT.txt               are paths of a robot free, between their points too?\n"
+      "  svcd pairs ROBOT.txt              which bodies of a robot can meet each other?\n"
       "  svcd COMMAND --help               its options\n"
       "Exit status: 0 done, 1 a file or a line was refused, 2 usage.\n"
       "What it reads and prints: examples/FORMATS.md.\n");

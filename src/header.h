@@ -180,13 +180,14 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/results.h"  // codes, what they say, the caller's allocator
-#include "interface/meshes.h"   // OBJ files, parts of a mesh
-#include "interface/bodies.h"   // encoding, loading, scaling, facts
-#include "interface/queries.h"  // movers, options, answers; nsvcd_sweep and its kin
-#include "interface/robots.h"   // joints, parts, checks of motions; nsvcd_check
-#include "interface/routes.h"   // a start and goals; nsvcd_route
-#include "interface/plans.h"    // splines, planning problems; nsvcd_plan
+#include "interface/results.h"   // codes, what they say, the caller's allocator
+#include "interface/meshes.h"    // OBJ files, parts of a mesh
+#include "interface/bodies.h"    // encoding, loading, scaling, facts
+#include "interface/queries.h"   // movers, options, answers; nsvcd_sweep and its kin
+#include "interface/robots.h"    // joints, parts, checks of motions; nsvcd_check
+#include "interface/postures.h"  // one configuration: what is near, a way out; nsvcd_gaps
+#include "interface/routes.h"    // a start and goals; nsvcd_route
+#include "interface/plans.h"     // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
 }
@@ -301,8 +302,9 @@ extern "C" {
 #include "robot/chain.h"  // what moves what; where everything is
 #include "robot/steps.h"  // what the joints do between two times
 #include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
-#include "robot/path.h"   // pieces, pair by pair
-#include "robot/trees.h"  // configurations, and the nearest of them
+#include "robot/path.h"      // pieces, pair by pair
+#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
+#include "robot/trees.h"     // configurations, and the nearest of them
 #include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a way in time, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts

@@ -451,6 +451,16 @@ grep -q '^aside	free	-1	nan	-	-	' "$dir/out" || fail "svcd path says: $(cat "$di
 expect 0 '' build/svcd plan "$dir/robot.txt" --only turned --clearance 0.001 --seed 7
 grep -q '^turned	certified' "$dir/out" || fail "svcd plan --only says: $(cat "$dir/out")"
 test "$(wc -l <"$dir/out")" = 1 || fail "--only turned: $(cat "$dir/out")"
+# the way out is one: planned from there it is certified
+expect 0 'stuck: the start: forearm and left_side meet, 7.3[0-9] mm deep' build/svcd plan "$dir/robot.txt" --only stuck
+{ cat "$dir/arm.txt"; sed -n 's/.*free near by:/plan out shelf/p' "$dir/err" | tr '\n' ' '; echo '-0.493 0.360 0.878 1.903 1.078 -2.038'; } >"$dir/way_out.txt"
+expect 0 '' build/svcd plan "$dir/way_out.txt"
+grep -q '^out	certified' "$dir/out" || fail "the way out: $(cat "$dir/out")"
+# those of the URDF but what its SRDF takes to meet never, which is asked; and one that touches always
+expect 0 '' build/svcd pairs "$dir/robot.txt"
+grep '^pair' "$dir/out" | grep -v 'wrist_a palm' | sort >"$dir/found_pairs"
+grep '^pair' "$dir/arm.txt" | sort | cmp -s - "$dir/found_pairs" || fail "svcd pairs says: $(diff "$dir/arm.txt" "$dir/found_pairs")"
+grep -q '^# always touching: base shoulder$' "$dir/out" || fail "svcd pairs says: $(cat "$dir/out")"
 robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
   { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
   expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"

@@ -7,6 +7,7 @@ check_state check;
 void test_results(void);
 void test_round(void);
 void test_robot(void);
+void test_postures(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -66,6 +67,7 @@ static const test_file files[] = {
     OF(asks),
     OF(round),
     OF(robot),
+    OF(postures),
     OF(winding_number),
     OF(decoder),
     OF(query),

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:`, `round:` or `robot:`, tests/test_level.c and so on. Prints a line for each, and exits with 1 if one
+# fail on it, or, where its name begins with `level:`, `asks:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -198,6 +198,27 @@ robot: ramps that are slow|const double side = way >= least ? 1 : -1;|const doub
 robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if (0) continue;\n    // corners
 robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
 robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
+postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
+postures: slopes of a alone|nsvcd__slope_add(c, both->b, on_b, normal, -1, gap->slope);|
+postures: slopes on b for both|nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);|nsvcd__slope_add(c, both->a, on_b, normal, 1, gap->slope);
+postures: near without the boxes' room|1.000001 * (double)o->within))|0.5 * (double)o->within))
+postures: near without within|question.clearance = o->within;|question.clearance = 0;
+postures: far ones too|found.distance.low > o->within) return result;|0) return result;
+postures: touching at a distance|gap->distance.low = gap->distance.high = 0;|
+postures: no depth|gap->depth = found.depth;|
+postures: a depth of half|gap->depth = found.depth;|gap->depth = 0.5f * found.depth;
+postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
+postures: out of the limits|joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));|
+postures: escapes without the clearance|options.clearance = clearance; const nsvcd_result result = nsvcd_check(c, &still,|options.clearance = 0; const nsvcd_result result = nsvcd_check(c, &still,
+postures: escapes by any way|if (nsvcd__joints_apart(from, at, scene->joint_count) > farthest) return NSVCD_OK;|
+postures: no way back|memcpy(is_nearer ? at : from, middle, bytes);|memcpy(from, middle, bytes);
+postures: no luck|result = nsvcd__escape_by_luck(checker, from, wanted, farthest, o.seed, at, &is_there);|
+postures: no slopes|result = nsvcd__escape_down(checker, from, wanted, farthest, gaps, at, &is_there);|
+postures: the world is adjacent|if (a > 0 && b > 0 && (joints[a - 1].parent == b|if (a > 0 && (joints[a - 1].parent == b
+postures: what touches once touches always|*always = !result && found.verdict == NSVCD_HIT;|*always = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
+postures: never touching|*kind = always ? NSVCD__PAIR_TOUCHING : NSVCD__PAIR_ASKED;|*kind = NSVCD__PAIR_ASKED;
+postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
+postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
 LIST
 
 survived=0
@@ -227,6 +248,7 @@ PYTHON
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
+    postures:*) file=test_postures.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1

@@ -314,13 +314,14 @@ static void leave_room(robot_in_room *in) {
   memset(in, 0, sizeof *in);
 }
 
-// Pairs are those of the file, and each body that moves with each obstacle. Returns 0 after a
-// complaint.
+// Pairs are those of the file, and each body that moves with each obstacle. room: NSVCD_NONE: there
+// are no obstacles. Returns 0 after a complaint.
 static int enter_room(const robot_file *file, size_t room, robot_in_room *in) {
+  static const robot_room nowhere = {"", 0, 0};
   const size_t bodies = file->body_count;
   leave_room(in);
   in->file = file;
-  in->room = &file->rooms[room];
+  in->room = room == NSVCD_NONE ? &nowhere : &file->rooms[room];
   const size_t count = bodies + in->room->count;
   in->parts = (nsvcd_part *)allocate(count * sizeof *in->parts);
   in->pairs = (nsvcd_body_pair *)allocate((file->pair_count + bodies * in->room->count) *

@@ -283,11 +283,10 @@ static double nsvcd__off(const nsvcd_checker *c, size_t part) {
   return c->members[part].stray + 2 * c->members[part].rounding;
 }
 
-// Asks whether two parts come as near as the clearance, in so many poses each; what rests has one.
-static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                     const nsvcd_pose *const *poses, size_t count,
-                                     float clearance, const nsvcd_check_options *options,
-                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
+// Of two parts in so many poses each; what rests has one.
+static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                         const nsvcd_pose *const *poses, size_t count,
+                                         size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -299,9 +298,18 @@ static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pa
     mover->poses = part->link ? poses[n] : &part->pose;
     mover->count = part->link ? count : 1;
   }
-  question.clearance = clearance;
   question.method = NSVCD_METHOD_PROOF;
-  question.work = options->work;
+  question.work = work;
+  return question;
+}
+
+// Asks whether two parts come as near as the clearance.
+static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                     const nsvcd_pose *const *poses, size_t count,
+                                     float clearance, const nsvcd_check_options *options,
+                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
+  nsvcd_question question = nsvcd__question_of(c, pair, poses, count, options->work);
+  question.clearance = clearance;
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }

@@ -1,0 +1,350 @@
+// A robot in one configuration: gaps against distances in double, their slopes against points that
+// are moved, ways out, which pairs can meet, and parts that are handed over.
+#define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
+#include "../neuralsvcd.h"
+
+#include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
+#include "../examples/scenery/poses.h"
+#include "check.h"
+#include "robot_scene.h"
+
+void test_postures(void);
+
+#define MOST_GAPS (MOST_PARTS * MOST_PARTS)
+
+static void random_joints(shapes_rng *rng, double *q) {
+  for (size_t j = 0; j < 6; j++) q[j] = shapes_uniform(rng, -2.5, 2.5);
+}
+
+// Joints at which something is hit, as far as the checker knows: what is looked at is the answer to
+// another question.
+static void stuck_joints(const robot *r, shapes_rng *rng, double *q) {
+  nsvcd_check_answer answer;
+  answer.verdict = NSVCD_FREE;
+  for (int draw = 0; draw < 50 && answer.verdict != NSVCD_HIT; draw++) {
+    const nsvcd_joint_motion still = {0, 0, q, NULL};
+    random_joints(rng, q);
+    CHECK_EQ(nsvcd_check(r->checker, &still, NULL, &answer), NSVCD_OK);
+  }
+}
+
+// Where the point of a part that is at `point` at joints q goes, if joint j moves by h.
+static void moved_point(const robot *r, size_t part, const double *q, size_t j, double h,
+                        const double *point, double *out) {
+  double moved[NSVCD_MAX_JOINTS], off[3], back[9], inner[3];
+  const placed at = placed_part(&r->scene, part, q);
+  memcpy(moved, q, sizeof(double) * r->scene.joint_count);
+  moved[j] += h;
+  const placed then = placed_part(&r->scene, part, moved);
+  for (int k = 0; k < 9; k++) back[k] = at.m[k % 3 * 3 + k / 3];
+  oracle_sub(point, at.p, off);
+  oracle_rotate(back, off, inner);
+  placed_point(&then, 1, inner, out);
+}
+
+// Every pair that is near is told, and no other; brackets hold the distance; where parts touch, they
+// are free of each other when a is lifted by the depth; slopes are those of the two places.
+static void postures_gaps(void) {
+  static robot r;
+  static nsvcd_gap gaps[MOST_GAPS];
+  shapes_rng rng = {91};
+  size_t apart_count = 0;
+  size_t touching = 0;
+  size_t deep = 0;
+  size_t kinks = 0;
+  size_t slopes = 0;
+  for (int trial = 0; trial < 20; trial++) {
+    robot_arm(&r, &rng, 20);
+    for (int n = 0; n < 6; n++) {
+      double q[NSVCD_MAX_JOINTS];
+      nsvcd_gap_options options;
+      memset(&options, 0, sizeof options);
+      if (n % 2) options.within = 0.2f;
+      if (n % 2) options.to = 3e-5f;
+      const double within = n % 2 ? 0.2 : 0.05;
+      const double to = n % 2 ? 3e-5 : 1e-4;
+      size_t count = 0;
+      if (n < 4)
+        stuck_joints(&r, &rng, q);
+      else
+        random_joints(&rng, q);
+      CHECK_EQ(nsvcd_gaps(r.checker, q, &options, gaps, MOST_GAPS, &count), NSVCD_OK);
+      size_t told = 0;
+      for (size_t p = 0; p < r.scene.pair_count; p++) {
+        const double apart = robot_apart(&r, &r.pairs[p], q, within + 0.01);
+        const int is_told = told < count && gaps[told].pair == p;
+        if (apart < within - 1e-5) CHECK(is_told);
+        if (apart > within + 1e-5) CHECK(!is_told);
+        if (!is_told) continue;
+        const nsvcd_gap *gap = &gaps[told++];
+        const double gap_low = (double)gap->distance.low;
+        const double gap_high = (double)gap->distance.high;
+        const double *normal;
+        double wide[3], on_a[3], on_b[3];
+        for (int k = 0; k < 3; k++) {
+          wide[k] = (double)gap->contact.normal[k];
+          on_b[k] = (double)gap->contact.point[k];
+          on_a[k] = on_b[k] + (double)gap->contact.gap * wide[k];
+        }
+        normal = wide;
+        // quanta and poses in float
+        if (apart > 1e-5) {
+          apart_count++;
+          CHECK_LE(gap_low, apart + 2e-6);
+          CHECK_LE(apart, gap_high + 2e-6);
+          CHECK_LE(gap_high - gap_low, to + 1e-5);  // and quanta
+          CHECK(gap->depth >= 0 && gap->depth <= 0);
+        }
+        if (apart < -1e-5 || (gap_high <= 0 && apart < 1e-5)) {
+          CHECK(gap_high <= 0);
+          CHECK(gap->depth > 0);
+          touching++;
+          deep += !(gap->depth < HUGE_VALF);
+        }
+        if (!(fabs(oracle_length(normal) - 1) < 1e-5)) {
+          CHECK(!(gap->depth < HUGE_VALF));  // what is inside
+          continue;
+        }
+        for (size_t j = 0; j < 6; j++) {
+          double moved_a[3], moved_b[3], between[3];
+          const double h = 1e-6;
+          moved_point(&r, r.pairs[p].a, q, j, h, on_a, moved_a);
+          moved_point(&r, r.pairs[p].b, q, j, h, on_b, moved_b);
+          for (int k = 0; k < 3; k++) between[k] = moved_a[k] - on_a[k] - (moved_b[k] - on_b[k]);
+          CHECK_LE(fabs(oracle_dot(between, normal) / h - gap->slope[j]), 2e-5);
+          if (!(apart > 1e-3) || !(n % 2)) continue;
+          // of the surfaces themselves, but where other triangles are as near
+          double far_q[NSVCD_MAX_JOINTS];
+          memcpy(far_q, q, sizeof far_q);
+          far_q[j] = q[j] + 1e-5;
+          const double more = robot_apart(&r, &r.pairs[p], far_q, within + 0.01);
+          far_q[j] = q[j] - 1e-5;
+          const double less = robot_apart(&r, &r.pairs[p], far_q, within + 0.01);
+          slopes++;
+          kinks += fabs((more - less) / 2e-5 - gap->slope[j]) > 0.02;
+        }
+        if (!(gap->depth > 0 && gap->depth < 0.02f)) continue;
+        // lifted by the depth and a little
+        oracle_pose poses[2];
+        oracle_search search;
+        const oracle_mesh *meshes[2];
+        const size_t parts[2] = {r.pairs[p].a, r.pairs[p].b};
+        for (int side = 0; side < 2; side++) {
+          const placed at = placed_part(&r.scene, parts[side], q);
+          poses[side] = oracle_of(&at);
+          meshes[side] = robot_exact(r.shape[parts[side]], &r.parts[parts[side]]);
+        }
+        for (int k = 0; k < 3; k++)
+          poses[0].position[k] += ((double)gap->depth * 1.0001 + 2e-5) * normal[k];
+        oracle_search_begin(&search, meshes[0], meshes[1]);
+        CHECK_LE(1e-9, oracle_search_run(&search, &poses[0], &poses[1], 1));
+      }
+      CHECK_EQ(told, count);
+      // as many as there is room for
+      nsvcd_gap first;
+      size_t all = 0;
+      memset(&first, 0, sizeof first);
+      CHECK_EQ(nsvcd_gaps(r.checker, q, &options, &first, 1, &all), NSVCD_OK);
+      CHECK_EQ(all, count);
+      if (count > 0) CHECK_EQ(memcmp(&first, &gaps[0], sizeof first), 0);
+    }
+    free(r.memory);
+  }
+  printf("  apart %zu, touching %zu, of these too deep %zu; of %zu slopes %zu have a kink\n",
+         apart_count, touching, deep, slopes, kinks);
+  CHECK_GE(apart_count, 250);
+  CHECK_GE(touching - deep, 60);
+  CHECK_LE(kinks, slopes / 50);
+}
+
+// A way out is free by distances in double, within the limits and no farther than is allowed; what is
+// free stays where it is.
+static void postures_escape(void) {
+  static robot r;
+  static nsvcd_gap gaps[MOST_GAPS];
+  shapes_rng rng = {92};
+  size_t wanted = 0;
+  size_t found_count = 0;
+  size_t drawn_back = 0;
+  size_t stuck = 0;
+  double way = 0;
+  for (int trial = 0; trial < 20; trial++) {
+    robot_arm(&r, &rng, 20);
+    for (int n = 0; n < 8; n++) {
+      double q[6], out[6];
+      nsvcd_escape_options options;
+      int is_found = -1;
+      memset(&options, 0, sizeof options);
+      options.clearance = n % 2 ? 0.005f : 0;
+      options.farthest = n % 3 ? 0 : 0.1;
+      const double farthest = n % 3 ? 0.5 : 0.1;
+      if (n < 6)
+        stuck_joints(&r, &rng, q);
+      else
+        random_joints(&rng, q);
+      if (n == 7) q[2] = 3.2;  // out of its limits
+      double least = 1;
+      for (size_t p = 0; p < r.scene.pair_count; p++)
+        least = fmin(least, robot_apart(&r, &r.pairs[p], q, 0.1));
+      memset(out, 0x55, sizeof out);
+      const double untouched = out[0];
+      CHECK_EQ(nsvcd_escape(r.checker, q, &options, gaps, out, &is_found), NSVCD_OK);
+      if (!is_found) CHECK_EQ(memcmp(&out[0], &untouched, sizeof untouched), 0);
+      const int is_free = least > (double)options.clearance + 1e-5 && n != 7;
+      if (is_free) CHECK(is_found && memcmp(out, q, sizeof q) == 0);
+      wanted += !is_free;
+      found_count += !is_free && is_found;
+      stuck += !is_free && is_found && n != 7;
+      if (!is_found) continue;
+      double square = 0;
+      for (size_t j = 0; j < 6; j++) {
+        CHECK(out[j] >= r.joints[j].low && out[j] <= r.joints[j].high);
+        square += (out[j] - q[j]) * (out[j] - q[j]);
+      }
+      CHECK_LE(sqrt(square), farthest + (n == 7 ? 0.11 : 1e-9));
+      if (!is_free) way += sqrt(square);
+      // is it drawn back to where it begins to be free?
+      double back[6];
+      double least_back = 1;
+      for (size_t j = 0; j < 6; j++) back[j] = out[j] + 0.02 * (q[j] - out[j]);
+      for (size_t p = 0; p < r.scene.pair_count; p++)
+        least_back = fmin(least_back, robot_apart(&r, &r.pairs[p], back, 0.1));
+      drawn_back += !is_free && n != 7 && least_back < (double)options.clearance + 5.1e-4;
+      for (size_t p = 0; p < r.scene.pair_count; p++)
+        CHECK_LE((double)options.clearance, robot_apart(&r, &r.pairs[p], out, 0.1) + 1e-9);
+    }
+    free(r.memory);
+  }
+  printf(
+      "  %zu of %zu got out, by %.3f in the mean; of %zu that were stuck %zu by no more than need "
+      "be\n",
+      found_count, wanted, way / (double)found_count, stuck, drawn_back);
+  CHECK_GE(found_count, wanted - wanted / 6);
+  CHECK_GE(drawn_back, stuck - stuck / 10);
+  CHECK_LE(way / (double)found_count, 0.14);
+}
+
+// All pairs of links that differ, once each; what one joint parts is adjacent; what touches always
+// does so by distances in double, and of what is asked there is a configuration where it does not.
+static void postures_pairs(void) {
+  static robot r;
+  static nsvcd_body_pair pairs[MOST_GAPS];
+  shapes_rng rng = {93};
+  size_t touching = 0;
+  for (int trial = 0; trial < 12; trial++) {
+    static int seen[MOST_PARTS][MOST_PARTS];
+    nsvcd_pair_counts counts;
+    robot_arm(&r, &rng, 6);
+    // the last one is about the arm's foot, for good
+    nsvcd_part *foot = &r.parts[r.scene.part_count - 1];
+    memset(&foot->pose, 0, sizeof foot->pose);
+    foot->pose.rotation[3] = 1;
+    foot->pose.position[2] = 0.15f;
+    foot->body = robot_shapes()[r.shape[r.scene.part_count - 1] = 0].body;
+    free(r.memory);
+    robot_open(&r);
+    memset(seen, 0, sizeof seen);
+    CHECK_EQ(nsvcd_find_pairs(r.checker, 0, (uint64_t)trial, pairs, MOST_GAPS, &counts), NSVCD_OK);
+    const size_t total = counts.asked + counts.adjacent + counts.touching;
+    for (size_t n = 0; n < total; n++) {
+      const nsvcd_body_pair *pair = &pairs[n];
+      const uint32_t a = r.parts[pair->a].link;
+      const uint32_t b = r.parts[pair->b].link;
+      const int is_adjacent = a > 0 && b > 0 && (a + 1 == b || b + 1 == a);
+      CHECK(a != b && pair->a < pair->b && !seen[pair->a][pair->b]++);
+      CHECK_EQ(is_adjacent, n >= counts.asked && n < counts.asked + counts.adjacent);
+      if (is_adjacent) continue;
+      int touches = 1;
+      for (int k = 0; k < 400 && touches; k++) {
+        double q[6];
+        for (size_t j = 0; j < 6; j++) q[j] = shapes_uniform(&rng, -3.1, 3.1);
+        touches = robot_apart(&r, pair, q, 0.1) <= 1e-6;
+        // of 400 random ones it may be free in some, where it was in none of 64
+        if (n >= counts.asked && k < 20) CHECK(touches);
+      }
+      if (n < counts.asked) CHECK(!touches);
+    }
+    size_t all = 0;
+    for (size_t a = 0; a < r.scene.part_count; a++)
+      for (size_t b = a + 1; b < r.scene.part_count; b++) all += r.parts[a].link != r.parts[b].link;
+    CHECK_EQ(total, all);
+    touching += counts.touching;
+    CHECK_EQ(nsvcd_find_pairs(r.checker, 0, 0, pairs, all - 1, &counts), NSVCD_ERROR_WORKSPACE);
+    free(r.memory);
+  }
+  CHECK_GE(touching, 12);
+}
+
+// A part that another link carries is where it was, and goes with it.
+static void postures_hand_over(void) {
+  static robot r;
+  shapes_rng rng = {94};
+  for (int trial = 0; trial < 100; trial++) {
+    double q[6];
+    nsvcd_part out;
+    robot_arm(&r, &rng, 3);
+    random_joints(&rng, q);
+    const size_t part = (size_t)shapes_pick(&rng, (int)r.scene.part_count);
+    const uint32_t link = (uint32_t)shapes_pick(&rng, 7);
+    const placed before = placed_part(&r.scene, part, q);
+    CHECK_EQ(nsvcd_hand_over(r.checker, q, part, link, &out), NSVCD_OK);
+    CHECK_EQ(out.link, link);
+    CHECK(out.body == r.parts[part].body);
+    CHECK(!(out.scale < r.parts[part].scale) && !(out.scale > r.parts[part].scale));
+    r.parts[part] = out;
+    const placed after = placed_part(&r.scene, part, q);
+    for (int k = 0; k < 3; k++) CHECK_LE(fabs(after.p[k] - before.p[k]), 4e-7);
+    for (int k = 0; k < 9; k++) CHECK_LE(fabs(after.m[k] - before.m[k]), 4e-7);
+    free(r.memory);
+  }
+}
+
+static void postures_refuse(void) {
+  static robot r;
+  static nsvcd_gap gaps[MOST_GAPS];
+  shapes_rng rng = {95};
+  nsvcd_gap_options near_options;
+  nsvcd_escape_options options;
+  double q[6] = {0}, out[6];
+  size_t count = 77;
+  int is_found = 77;
+  nsvcd_part part;
+  robot_arm(&r, &rng, 3);
+  memset(&near_options, 0, sizeof near_options);
+  memset(&options, 0, sizeof options);
+  q[3] = NAN;
+  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_escape(r.checker, q, NULL, gaps, out, &is_found), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 0, &part), NSVCD_ERROR_NUMBER);
+  q[3] = 0;
+  CHECK_EQ(nsvcd_gaps(NULL, q, NULL, gaps, MOST_GAPS, &count), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, NULL, 1, &count), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, gaps, 1, NULL), NSVCD_ERROR_ARGUMENT);
+  near_options.within = NAN;
+  CHECK_EQ(nsvcd_gaps(r.checker, q, &near_options, gaps, 1, &count), NSVCD_ERROR_TOLERANCE);
+  CHECK_EQ(count, 77);
+  options.clearance = -1;
+  CHECK_EQ(nsvcd_escape(r.checker, q, &options, gaps, out, &is_found), NSVCD_ERROR_TOLERANCE);
+  options.clearance = 0;
+  options.farthest = NAN;
+  CHECK_EQ(nsvcd_escape(r.checker, q, &options, gaps, out, &is_found), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_escape(r.checker, q, NULL, NULL, out, &is_found), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_escape(r.checker, q, NULL, gaps, NULL, &is_found), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(is_found, 77);
+  CHECK_EQ(nsvcd_hand_over(r.checker, q, 99, 0, &part), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 7, &part), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_hand_over(r.checker, q, 0, 0, NULL), NSVCD_ERROR_ARGUMENT);
+  free(r.memory);
+}
+
+void test_postures(void) {
+  RUN(postures_gaps);
+  RUN(postures_escape);
+  RUN(postures_pairs);
+  RUN(postures_hand_over);
+  RUN(postures_refuse);
+}
+CHECK_ALONE(test_postures)
