@@ -17909,7 +17909,7 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = o->to;
   result = nsvcd_sweep(&question, c->query, c->query_size, &found);
-  if (result || found.distance.low > o->within) return result;
+  if (result) return result;
   gap->distance = found.distance;
   gap->contact = found.nearest;
   if (found.verdict == NSVCD_HIT) {
@@ -17926,11 +17926,11 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
       nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(lift, 1 / length)), gap->contact.normal);
     }
   }
+  // of both at the point on b: that on a is off it along the normal, and no turn moves it along that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
-  const nsvcd__d3 on_b = nsvcd__d3_load(gap->contact.point);
-  const nsvcd__d3 on_a = nsvcd__d3_fma((double)gap->contact.gap, normal, on_b);
-  nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);
-  nsvcd__slope_add(c, both->b, on_b, normal, -1, gap->slope);
+  const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
+  nsvcd__slope_add(c, both->a, point, normal, 1, gap->slope);
+  nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);
   return result;
 }
 

@@ -199,11 +199,9 @@ robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if 
 robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
 robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
-postures: slopes of a alone|nsvcd__slope_add(c, both->b, on_b, normal, -1, gap->slope);|
-postures: slopes on b for both|nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);|nsvcd__slope_add(c, both->a, on_b, normal, 1, gap->slope);
+postures: slopes of a alone|nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);|
 postures: near without the boxes' room|1.000001 * (double)o->within))|0.5 * (double)o->within))
 postures: near without within|question.clearance = o->within;|question.clearance = 0;
-postures: far ones too|found.distance.low > o->within) return result;|0) return result;
 postures: touching at a distance|gap->distance.low = gap->distance.high = 0;|
 postures: no depth|gap->depth = found.depth;|
 postures: a depth of half|gap->depth = found.depth;|gap->depth = 0.5f * found.depth;

@@ -33,6 +33,13 @@ nsvcd_result nsvcd_checker_open(const nsvcd_scene *, void *, size_t, nsvcd_check
 void nsvcd_checker_place(const nsvcd_checker *, const double *, nsvcd_pose *);
 nsvcd_result nsvcd_check(nsvcd_checker *, const nsvcd_joint_motion *, const nsvcd_check_options *,
                          nsvcd_check_answer *);
+nsvcd_result nsvcd_gaps(nsvcd_checker *, const double *, const nsvcd_gap_options *, nsvcd_gap *,
+                        size_t, size_t *);
+nsvcd_result nsvcd_escape(nsvcd_checker *, const double *, const nsvcd_escape_options *,
+                          nsvcd_gap *, double *, int *);
+nsvcd_result nsvcd_find_pairs(nsvcd_checker *, size_t, uint64_t, nsvcd_body_pair *, size_t,
+                              nsvcd_pair_counts *);
+nsvcd_result nsvcd_hand_over(const nsvcd_checker *, const double *, size_t, uint32_t, nsvcd_part *);
 size_t nsvcd_route_size(const nsvcd_checker *, const nsvcd_route_problem *,
                         const nsvcd_route_options *);
 nsvcd_result nsvcd_route(nsvcd_checker *, const nsvcd_route_problem *, const nsvcd_route_options *,
@@ -115,6 +122,15 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(scene, part_count), FIELD(scene, pairs), FIELD(scene, pair_count),
     STRUCT(joint_motion), FIELD(joint_motion, pieces), FIELD(joint_motion, degree),
     FIELD(joint_motion, points), FIELD(joint_motion, times),
+    STRUCT(gap), FIELD(gap, pair), FIELD(gap, distance), FIELD(gap, depth), FIELD(gap, contact),
+    FIELD(gap, slope),
+    STRUCT(gap_options), FIELD(gap_options, within), FIELD(gap_options, to),
+    FIELD(gap_options, deepest), FIELD(gap_options, work),
+    STRUCT(escape_options), FIELD(escape_options, clearance), FIELD(escape_options, farthest),
+    FIELD(escape_options, seed),
+    STRUCT(pair_counts), FIELD(pair_counts, asked), FIELD(pair_counts, adjacent),
+    FIELD(pair_counts, touching),
+    CONSTANT(MAX_JOINTS),
     STRUCT(check_options), FIELD(check_options, clearance), FIELD(check_options, finest),
     FIELD(check_options, work),
     STRUCT(check_answer), FIELD(check_answer, verdict), FIELD(check_answer, why),

@@ -148,6 +148,7 @@ class RouteStatus(enum.IntEnum):
 
 NO_TRIANGLE = 0xffffffff  # in the arrays of sweep_batch
 _MAX_CONTACTS = 4
+_MAX_JOINTS = 32
 _MAX_VIA_POINTS = 32
 LEAVE_OUT = c_size_t(-1).value  # Stage.iterations
 
@@ -227,6 +228,11 @@ _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, share=c_double, contact=_Contact,
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
+_Gap = _struct("nsvcd_gap", pair=c_size_t, distance=_Range, depth=c_float, contact=_Contact,
+               slope=c_double * _MAX_JOINTS)
+_GapOptions = _struct("nsvcd_gap_options", within=c_float, to=c_float, deepest=c_float, work=c_size_t)
+_EscapeOptions = _struct("nsvcd_escape_options", clearance=c_float, farthest=c_double, seed=c_uint64)
+_PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
                         guess_count=c_size_t, stop=_STOP, user=c_void_p)
 _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, edge=c_double,
@@ -234,8 +240,8 @@ _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float,
 _RouteAnswer = _struct(
     "nsvcd_route_answer", status=c_int, goal=c_size_t, motion=_JointMotion, stops=c_size_t, duration=c_double,
     unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
-_STRUCTS = (_Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _RouteProblem, _RouteOptions,
-            _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
+_STRUCTS = (_Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Gap, _GapOptions, _EscapeOptions,
+            _PairCounts, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
 
@@ -262,6 +268,10 @@ _PROTOTYPES = {
     "nsvcd_checker_open": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_checker_place": (None, c_void_p, c_void_p, c_void_p),
     "nsvcd_check": (c_int, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_gaps": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_escape": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_find_pairs": (c_int, c_void_p, c_size_t, c_uint64, c_void_p, c_size_t, c_void_p),
+    "nsvcd_hand_over": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
     "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_route": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
@@ -271,7 +281,8 @@ _PROTOTYPES = {
 def _expected_layouts() -> dict[str, tuple[int, int]]:
     """What neuralsvcd_layouts of _neuralsvcd.c must say, if all above is as in neuralsvcd.h."""
     expected = {"NSVCD_NO_TRIANGLE": (NO_TRIANGLE, 0), "NSVCD_MAX_CONTACTS": (_MAX_CONTACTS, 0),
-                "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0), "NSVCD_NONE": (LEAVE_OUT, 0)}
+                "NSVCD_MAX_VIA_POINTS": (_MAX_VIA_POINTS, 0), "NSVCD_NONE": (LEAVE_OUT, 0),
+                "NSVCD_MAX_JOINTS": (_MAX_JOINTS, 0)}
     for values, prefix in _PREFIXES.items():
         expected.update({f"NSVCD_{prefix}{value.name}": (_number_of(value), 0) for value in values})
     for kind in _STRUCTS:
@@ -1281,6 +1292,22 @@ class Checked(NamedTuple):
     sweeps: int
 
 
+class Gap(NamedTuple):
+    """nsvcd_gap: two parts of a pair that are near each other.
+
+    distance       a bracket, metres; (0, 0): they touch
+    depth          of parts that touch, how far the first is to be lifted off the other; inf: deeper than was asked
+    point, normal  on the second part, and from it to the first
+    slope          (F): how the distance changes with each joint
+    """
+    pair: int
+    distance: Range
+    depth: float
+    point: Vector
+    normal: Vector
+    slope: Doubles
+
+
 class Route(NamedTuple):
     """nsvcd_route_answer.
 
@@ -1329,10 +1356,10 @@ def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> D
 class Robot:
     """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
 
-    pairs  (P, 2) of parts, on links that differ
+    pairs  (P, 2) of parts, on links that differ; None: all that can meet, as `find_pairs` says
     """
 
-    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: ArrayLike) -> None:
+    def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None) -> None:
         def pose_of(pose: ArrayLike, name: str) -> Any:
             row = _floats(pose, (7,), name).tolist()
             return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
@@ -1345,13 +1372,63 @@ class Robot:
         self._parts = (_Part * max(len(parts), 1))(*(
             _Part(part.body._address, _number(c_uint32, part.link, "link"), pose_of(part.pose, "pose"), part.scale)
             for part in parts))
+        self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
+        if pairs is None:
+            self._open(self.find_pairs()[0])
+
+    def _open(self, pairs: ArrayLike) -> None:
         self._pairs = _indices(pairs, 2, "pairs")
-        self._scene = _Scene(ctypes.addressof(self._joints), len(joints), ctypes.addressof(self._parts), len(parts),
-                             _address(self._pairs), len(self._pairs))
+        self._scene = _Scene(ctypes.addressof(self._joints), self.joint_count, ctypes.addressof(self._parts),
+                             self.part_count, _address(self._pairs), len(self._pairs))
         size = _library.nsvcd_checker_size(byref(self._scene))
         self._memory = _memory(size)
         self._checker = c_void_p()
         _check(_library.nsvcd_checker_open(byref(self._scene), _address(self._memory), size, byref(self._checker)))
+
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """Those that are asked: (P, 2)."""
+        return self._pairs.copy()
+
+    def find_pairs(self, samples: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
+        """Pairs (n, 2) that can meet, that one joint parts, and that touch in all samples: nsvcd_find_pairs."""
+        most = self.part_count * self.part_count
+        found = np.empty((max(most, 1), 2), np.uint32)
+        counts = _PairCounts()
+        _check(_library.nsvcd_find_pairs(self._checker, _number(c_size_t, samples, "samples"),
+                                         _number(c_uint64, seed, "seed"), _address(found), most, byref(counts)))
+        ends = np.cumsum([counts.asked, counts.adjacent, counts.touching]).tolist()
+        return tuple(found[first:last].copy() for first, last in zip([0, *ends], ends))
+
+    def gaps(self, joints: ArrayLike, *, within: float = 0, to: float = 0, deepest: float = 0, work: int = 0) -> list[Gap]:
+        """All pairs that are near in a configuration: nsvcd_gaps."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        rows = (_Gap * max(len(self._pairs), 1))()
+        count = c_size_t()
+        options = _filled(_GapOptions, within=within, to=to, deepest=deepest, work=work)
+        _check(_library.nsvcd_gaps(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
+        return [Gap(g.pair, Range(g.distance.low, g.distance.high), g.depth, tuple(g.contact.point),
+                    tuple(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
+
+    def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
+        """A configuration near by that is proven free, or None: nsvcd_escape."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        rows = (_Gap * max(len(self._pairs), 1))()
+        out = np.empty(self.joint_count)
+        is_found = c_int()
+        options = _filled(_EscapeOptions, clearance=clearance, seed=seed)
+        options.farthest = farthest
+        _check(_library.nsvcd_escape(self._checker, _address(row), byref(options), rows, _address(out),
+                                     byref(is_found)))
+        return out if is_found.value else None
+
+    def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:
+        """A part as another link would carry it from where it is, for a Robot to come: nsvcd_hand_over."""
+        row = _doubles(joints, (self.joint_count,), "joints")
+        out = _Part()
+        _check(_library.nsvcd_hand_over(self._checker, _address(row), _number(c_size_t, part, "part"),
+                                        _number(c_uint32, link, "link"), byref(out)))
+        return Part(self._bodies[part], out.link, [*out.pose.position, *out.pose.rotation], out.scale)
 
     def place(self, joints: ArrayLike) -> Floats:
         """Where the parts are: poses (B, 7)."""

@@ -890,6 +890,43 @@ class Robots(unittest.TestCase):
         turned = [1, 0, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]
         self.assertLess(np.abs(self.robot.place([1, np.pi / 2])[0] - turned).max(), 1e-6)
 
+    def test_postures(self) -> None:
+        self.assertEqual(self.robot.gaps([0, 0]), [])
+        # the arm along y = 0.5 x: how near the post is, and how that changes
+        gap, = self.robot.gaps([0, 0], within=1, to=2e-5)
+        self.assertAlmostEqual(gap.distance.low, 0.8 - 0.25, delta=5e-5)
+        self.assertLess(gap.distance.high - gap.distance.low, 4e-5)
+        np.testing.assert_allclose(gap.normal, [0, -1, 0], atol=1e-3)
+        turned = [self.robot.gaps([0, a], within=1, to=2e-5)[0].distance.low for a in (0.499, 0.501)]
+        gap, = self.robot.gaps([0, 0.5], within=1, to=2e-5)
+        self.assertAlmostEqual(gap.slope[1], (turned[1] - turned[0]) / 0.002, delta=0.05)
+        gap, = self.robot.gaps([-0.1, np.pi / 2], deepest=1)
+        self.assertEqual((gap.pair, tuple(gap.distance)), (0, (0, 0)))
+        self.assertAlmostEqual(gap.depth, 0.15, delta=0.01)
+        out = self.robot.escape([-0.1, np.pi / 2], clearance=0.01)
+        assert out is not None
+        self.assertEqual(self.robot.check(out, clearance=0.01).verdict, "free")
+        self.assertIsNone(self.robot.escape([0, np.pi / 2], farthest=0.01))
+
+    def test_pairs(self) -> None:
+        kind = nsvcd.JointKind
+        joints = [nsvcd.Joint(0, axis=[1, 0, 0], kind=kind.PRISMATIC, low=-2, high=2), nsvcd.Joint(1), nsvcd.Joint(2)]
+        ball = Body.sphere(0.2)
+        parts = [nsvcd.Part(ball, link) for link in range(4)] + [nsvcd.Part(ball, 3, [1, 0, 0, 0, 0, 0, 1])]
+        robot = nsvcd.Robot(joints, parts)
+        asked, adjacent, touching = (pairs.tolist() for pairs in robot.find_pairs())
+        self.assertEqual(adjacent, [[1, 2], [2, 3], [2, 4]])
+        self.assertEqual(touching, [[1, 3]])
+        self.assertEqual(asked, [[0, 1], [0, 2], [0, 3], [0, 4], [1, 4]])
+        self.assertEqual(robot.pairs.tolist(), asked)
+        # link 3 takes hold of the ball in the world
+        held = robot.handed_over([0.5, 0.3, 0.2], 0, 3)
+        self.assertEqual(held.link, 3)
+        carried = nsvcd.Robot(joints, [held, *parts[1:]])
+        np.testing.assert_allclose(carried.place([0.5, 0.3, 0.2])[0], robot.place([0.5, 0.3, 0.2])[0], atol=1e-6)
+        with self.assertRaises(Error):
+            robot.handed_over([0, 0, 0], 9, 0)
+
     def test_routes(self) -> None:
         route = self.robot.route([0, 0], [[0, np.pi / 2], [0, 3]], clearance=0.01)
         self.assertEqual((route.status, route.goal, route.stops), (nsvcd.RouteStatus.FOUND, 1, 0))
