@@ -481,7 +481,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     else
       complain("%s: %s and %s meet, no lift of 100 mm parts them", from, a, b);
   }
-  if (!nsvcd_escape(in->checker, joints, &escape, gaps, out, &is_found) && is_found) {
+  if (!nsvcd_escape(in->checker, joints, &escape, out, &is_found) && is_found) {
     char list[32 * NSVCD_MAX_JOINTS] = "";
     for (size_t j = 0; j < in->file->joint_count; j++)
       snprintf(list + strlen(list), sizeof list - strlen(list), " %.9g", out[j]);

@@ -208,10 +208,9 @@ postures: a depth of half|gap->depth = found.depth;|gap->depth = 0.5f * found.de
 postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
 postures: out of the limits|joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));|
 postures: escapes without the clearance|options.clearance = clearance; const nsvcd_result result = nsvcd_check(c, &still,|options.clearance = 0; const nsvcd_result result = nsvcd_check(c, &still,
-postures: escapes by any way|if (nsvcd__joints_apart(from, at, scene->joint_count) > farthest) return NSVCD_OK;|
-postures: no way back|memcpy(is_nearer ? at : from, middle, bytes);|memcpy(from, middle, bytes);
-postures: no luck|result = nsvcd__escape_by_luck(checker, from, wanted, farthest, o.seed, at, &is_there);|
-postures: no slopes|result = nsvcd__escape_down(checker, from, wanted, farthest, gaps, at, &is_there);|
+postures: escapes to anywhere|ring * farthest;|2 * ring * farthest;
+postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
+postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? farthest : ring
 postures: the world is adjacent|if (a > 0 && b > 0 && (joints[a - 1].parent == b|if (a > 0 && (joints[a - 1].parent == b
 postures: what touches once touches always|*always = !result && found.verdict == NSVCD_HIT;|*always = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
 postures: never touching|*kind = always ? NSVCD__PAIR_TOUCHING : NSVCD__PAIR_ASKED;|*kind = NSVCD__PAIR_ASKED;

@@ -35,8 +35,8 @@ nsvcd_result nsvcd_check(nsvcd_checker *, const nsvcd_joint_motion *, const nsvc
                          nsvcd_check_answer *);
 nsvcd_result nsvcd_gaps(nsvcd_checker *, const double *, const nsvcd_gap_options *, nsvcd_gap *,
                         size_t, size_t *);
-nsvcd_result nsvcd_escape(nsvcd_checker *, const double *, const nsvcd_escape_options *,
-                          nsvcd_gap *, double *, int *);
+nsvcd_result nsvcd_escape(nsvcd_checker *, const double *, const nsvcd_escape_options *, double *,
+                          int *);
 nsvcd_result nsvcd_find_pairs(nsvcd_checker *, size_t, uint64_t, nsvcd_body_pair *, size_t,
                               nsvcd_pair_counts *);
 nsvcd_result nsvcd_hand_over(const nsvcd_checker *, const double *, size_t, uint32_t, nsvcd_part *);

@@ -269,7 +269,7 @@ _PROTOTYPES = {
     "nsvcd_checker_place": (None, c_void_p, c_void_p, c_void_p),
     "nsvcd_check": (c_int, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_gaps": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
-    "nsvcd_escape": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
+    "nsvcd_escape": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "nsvcd_find_pairs": (c_int, c_void_p, c_size_t, c_uint64, c_void_p, c_size_t, c_void_p),
     "nsvcd_hand_over": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
     "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
@@ -1413,13 +1413,11 @@ class Robot:
     def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
         """A configuration near by that is proven free, or None: nsvcd_escape."""
         row = _doubles(joints, (self.joint_count,), "joints")
-        rows = (_Gap * max(len(self._pairs), 1))()
         out = np.empty(self.joint_count)
         is_found = c_int()
         options = _filled(_EscapeOptions, clearance=clearance, seed=seed)
         options.farthest = farthest
-        _check(_library.nsvcd_escape(self._checker, _address(row), byref(options), rows, _address(out),
-                                     byref(is_found)))
+        _check(_library.nsvcd_escape(self._checker, _address(row), byref(options), _address(out), byref(is_found)))
         return out if is_found.value else None
 
     def handed_over(self, joints: ArrayLike, part: int, link: int) -> Part:

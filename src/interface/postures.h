@@ -61,13 +61,11 @@ typedef struct nsvcd_escape_options {
 } nsvcd_escape_options;
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
-// a goal that is not. It is sought down the slopes of what touches, then at random, and drawn back
-// as far as that can be; none may be nearer, but that is not promised. What lies in between is not
-// free as far as that reaches.
+// a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
+// and drawn back as far as that can be. What lies in between is not free.
 //   checker    not NULL
 //   joints     (F), radians or metres; out of the limits, they are taken in first
 //   options    NULL: the defaults
-//   gaps       (scene.pair_count), for its own use
 //   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
 //              is found
 //   is_found   not NULL
@@ -75,8 +73,8 @@ typedef struct nsvcd_escape_options {
 //   errors     ARGUMENT, NUMBER, TOLERANCE
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
-                                   const nsvcd_escape_options *options, nsvcd_gap *gaps,
-                                   double *out, int *is_found);
+                                   const nsvcd_escape_options *options, double *out,
+                                   int *is_found);
 
 // What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
 typedef struct nsvcd_pair_counts {

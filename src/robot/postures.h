@@ -12,15 +12,11 @@
 #define NSVCD__FARTHEST_ESCAPE 0.5
 // metres that an escape leaves beside the clearance, so that a route can begin there
 #define NSVCD__ESCAPE_ROOM 5e-4f
-// steps down the slopes, each no longer than this, radians or metres; and turns by which one is
-// found that opens all gaps
-#define NSVCD__ESCAPE_STEPS 32
-#define NSVCD__ESCAPE_STEP 0.1
-#define NSVCD__ESCAPE_TURNS 32
-// spheres about the joints that random configurations are drawn on, and how many on each; halvings
-// of the way back
+// spheres about the joints that random configurations are drawn on, and how many on each; how much
+// nearer than the best the next is drawn; halvings of the way back
 #define NSVCD__ESCAPE_RINGS 8
 #define NSVCD__ESCAPE_DRAWS 64
+#define NSVCD__ESCAPE_NEARER 0.9
 #define NSVCD__ESCAPE_HALVINGS 10
 #define NSVCD__PAIR_SAMPLES 64
 
@@ -158,91 +154,66 @@ static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints, fl
   return result;
 }
 
-// Goes a step that opens all gaps to `room`, as far as their slopes can say: gap by gap, by turns.
-static void nsvcd__open_gaps(const nsvcd_scene *scene, const nsvcd_gap *gaps, size_t count,
-                             double room, double *joints) {
-  const size_t n = scene->joint_count;
-  double way[NSVCD_MAX_JOINTS] = {0};
-  double length = 0;
-  for (size_t turn = 0; turn < NSVCD__ESCAPE_TURNS * count; turn++) {
-    const nsvcd_gap *gap = &gaps[turn % count];
-    const float depth = gap->depth < HUGE_VALF ? gap->depth : NSVCD__GAP_DEEPEST;
-    double lack = room - (double)gap->distance.low + (double)depth;
-    double square = 0;
-    for (size_t j = 0; j < n; j++) {
-      lack -= gap->slope[j] * way[j];
-      square += gap->slope[j] * gap->slope[j];
-    }
-    if (!(lack > 0) || !(square > 1e-12)) continue;
-    for (size_t j = 0; j < n; j++) way[j] += lack / square * gap->slope[j];
-  }
-  for (size_t j = 0; j < n; j++) length += way[j] * way[j];
-  const double share = nsvcd__min(1, NSVCD__ESCAPE_STEP / sqrt(nsvcd__max(length, 1e-30)));
-  for (size_t j = 0; j < n; j++) joints[j] += share * way[j];
-  nsvcd__take_into_limits(scene, joints);
-}
-
-static double nsvcd__joints_apart(const double *a, const double *b, size_t joints) {
-  double square = 0;
-  for (size_t j = 0; j < joints; j++) square += (a[j] - b[j]) * (a[j] - b[j]);
-  return sqrt(square);
-}
-
-// Down the slopes from `from` to a place that is free and no farther away than `farthest`.
-static nsvcd_result nsvcd__escape_down(nsvcd_checker *c, const double *from, float clearance,
-                                       double farthest, nsvcd_gap *gaps, double *at,
-                                       int *is_found) {
-  const nsvcd_scene *scene = c->scene;
-  nsvcd_gap_options options;
-  memset(&options, 0, sizeof options);
-  options.within = nsvcd__round_outward((double)clearance);
-  memcpy(at, from, scene->joint_count * sizeof *at);
-  for (size_t step = 0; step < NSVCD__ESCAPE_STEPS; step++) {
-    size_t count;
-    nsvcd_result result = nsvcd__is_free_at(c, at, clearance, is_found);
-    if (result || *is_found) return result;
-    result = nsvcd_gaps(c, at, &options, gaps, scene->pair_count, &count);
-    if (result || count == 0) return result;
-    // by a tenth more than slopes say
-    nsvcd__open_gaps(scene, gaps, count, 1.1 * (double)clearance, at);
-    if (nsvcd__joints_apart(from, at, scene->joint_count) > farthest) return NSVCD_OK;
-  }
-  return NSVCD_OK;
-}
-
-// Draws on spheres about `from`, from the inside to the outside, until one is free.
-static nsvcd_result nsvcd__escape_by_luck(nsvcd_checker *c, const double *from,
-                                          float clearance, double farthest, uint64_t random,
-                                          double *at, int *is_found) {
+// From a place that is free back towards `from`, which is not, as far as that stays free.
+static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float clearance,
+                                     double *at) {
   const size_t joints = c->scene->joint_count;
-  for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS && !*is_found; n++) {
+  double blocked[NSVCD_MAX_JOINTS];
+  nsvcd_result result = NSVCD_OK;
+  memcpy(blocked, from, joints * sizeof *at);
+  for (size_t n = 0; n < NSVCD__ESCAPE_HALVINGS && !result; n++) {
+    double middle[NSVCD_MAX_JOINTS];
+    int is_free;
+    for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
+    result = nsvcd__is_free_at(c, middle, clearance, &is_free);
+    if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
+  }
+  return result;
+}
+
+// Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
+// smaller ones, nearer than the best.
+static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, float clearance,
+                                       double farthest, uint64_t random, double *out,
+                                       int *is_found) {
+  const size_t joints = c->scene->joint_count;
+  double best = farthest;
+  *is_found = 0;
+  for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS; n++) {
     const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
-    double way[NSVCD_MAX_JOINTS];
+    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * farthest;
+    double at[NSVCD_MAX_JOINTS];
     double square = 0;
+    int is_free;
     for (size_t j = 0; j < joints; j++) {
-      way[j] = 2 * nsvcd__random(&random) - 1;
-      square += way[j] * way[j];
+      at[j] = 2 * nsvcd__random(&random) - 1;
+      square += at[j] * at[j];
     }
-    for (size_t j = 0; j < joints; j++)
-      at[j] = from[j] + ring * farthest / sqrt(square) * way[j];
+    for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__take_into_limits(c->scene, at);
-    const nsvcd_result result = nsvcd__is_free_at(c, at, clearance, is_found);
+    nsvcd_result result = nsvcd__is_free_at(c, at, clearance, &is_free);
     if (result) return result;
+    if (!is_free) continue;
+    result = nsvcd__draw_back(c, from, clearance, at);
+    if (result) return result;
+    *is_found = 1;
+    square = 0;
+    for (size_t j = 0; j < joints; j++) square += (at[j] - from[j]) * (at[j] - from[j]);
+    best = sqrt(square);
+    memcpy(out, at, joints * sizeof *at);
   }
   return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
-                                   const nsvcd_escape_options *options, nsvcd_gap *gaps,
-                                   double *out, int *is_found) {
+                                   const nsvcd_escape_options *options, double *out,
+                                   int *is_found) {
   nsvcd_escape_options o;
   double from[NSVCD_MAX_JOINTS], at[NSVCD_MAX_JOINTS];
   nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (!result && (!out || !is_found)) result = NSVCD_ERROR_ARGUMENT;
   if (result) return result;
-  const nsvcd_scene *scene = checker->scene;
-  const size_t bytes = scene->joint_count * sizeof(double);
-  if (!gaps && scene->pair_count > 0) return NSVCD_ERROR_ARGUMENT;
+  const size_t bytes = checker->scene->joint_count * sizeof(double);
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_TOLERANCE;
@@ -250,28 +221,16 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
     return NSVCD_ERROR_NUMBER;
   const double farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
   memcpy(from, joints, bytes);
-  nsvcd__take_into_limits(scene, from);
+  nsvcd__take_into_limits(checker->scene, from);
   int is_free;
+  memcpy(at, from, bytes);
   result = nsvcd__is_free_at(checker, from, o.clearance, &is_free);
+  if (!result && !is_free)
+    result = nsvcd__seek_escape(checker, from, o.clearance + NSVCD__ESCAPE_ROOM, farthest,
+                                o.seed, at, &is_free);
   if (result) return result;
-  const float wanted = o.clearance + NSVCD__ESCAPE_ROOM;
-  int is_there = 0;
-  if (!is_free) {
-    result = nsvcd__escape_down(checker, from, wanted, farthest, gaps, at, &is_there);
-    if (!result && !is_there)
-      result = nsvcd__escape_by_luck(checker, from, wanted, farthest, o.seed, at, &is_there);
-    // back to where it begins to be free
-    for (size_t n = 0; n < NSVCD__ESCAPE_HALVINGS && is_there && !result; n++) {
-      double middle[NSVCD_MAX_JOINTS];
-      int is_nearer;
-      for (size_t j = 0; j < scene->joint_count; j++) middle[j] = 0.5 * (from[j] + at[j]);
-      result = nsvcd__is_free_at(checker, middle, wanted, &is_nearer);
-      memcpy(is_nearer ? at : from, middle, bytes);
-    }
-  }
-  if (result) return result;
-  *is_found = is_free || is_there;
-  if (*is_found) memcpy(out, is_free ? from : at, bytes);
+  *is_found = is_free;
+  if (is_free) memcpy(out, at, bytes);
   return NSVCD_OK;
 }
 
