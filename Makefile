@@ -145,6 +145,14 @@ BENCHES = $(patsubst tests/bench/%.c,build/%,$(wildcard tests/bench/*.c))
 $(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
 
+# The planner with other checks than proofs: one call of its header goes elsewhere.
+build/peers/neuralsvcd.h: $(LIBRARY) | build
+	mkdir -p build/peers
+	grep -c 'result = nsvcd_check(r->checker, motion' neuralsvcd.h | grep -qx 1
+	sed 's/result = nsvcd_check(r->checker, motion/result = peer_check(r->checker, motion/' neuralsvcd.h >$@
+build/route_peers: tests/bench/bench_routes.c build/peers/neuralsvcd.h $(HELPERS) $(PEERS) $(SCENERY) | build
+	$(CC) $(ALL_CFLAGS) -Ibuild/peers -I. -DROUTE_PEERS -Wno-unused-function -o $@ $< -lm
+
 # The prototype of the proof as one loop, beside the proof: tests/bench/loop/NOTES.md.
 build/loop_bench: tests/bench/loop/bench.c $(wildcard tests/bench/loop/*.h) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm

@@ -18,6 +18,7 @@
 // and these the oracle
 #include "scenery/poses.h"
 #include "scenery/sweep_picture.h"
+#include "scenery/robot_picture.h"
 
 // ---------------------------------------------------------------------------------------- settings
 
@@ -30,7 +31,7 @@ typedef struct settings {  // of all commands
   float first[2];        // a share of the motion, or metres; 0: not asked for
   float measure;         // metres
   size_t repeat;
-  const char *from, *to, *rotate, *scale, *picture, *details, *only, *joints;
+  const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   size_t seed, samples;
   int int8, help;
   const char *paths[2];
@@ -47,7 +48,8 @@ static const option options[] = {
     {"--from", SWEEP, OPTION_TEXT, AT(from), 0, 0, NULL},
     {"--to", SWEEP, OPTION_TEXT, AT(to), 0, 0, NULL},
     {"--rotate", SWEEP, OPTION_TEXT, AT(rotate), 0, 0, NULL},
-    {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL},
+    {"--picture", SWEEP | PLAN, OPTION_TEXT, AT(picture), 0, 0, NULL},
+    {"--film", PLAN, OPTION_TEXT, AT(film), 0, 0, NULL},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE"},
     {"--skin", CHECK | SWEEP, OPTION_NUMBER, AT(sweep.skin), 0, METRES, "NSVCD_MAX_COORDINATE"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
@@ -433,6 +435,15 @@ static int plan_options(const settings *options, const char *command) {
     return usage_error("--samples", "together with --joints OUT.tsv");
   if (options->joints && !ends_with(options->joints, ".tsv"))
     return usage_error("--joints", "a file that ends in .tsv is wanted");
+  const char *pictures[2] = {options->picture, options->film};
+  for (size_t k = 0; k < 2; k++) {
+    const char *name = k ? "--film" : "--picture";
+    if (!pictures[k]) continue;
+    if (!ends_with(pictures[k], ".svg"))
+      return usage_error(name, "a file that ends in .svg is wanted");
+    if (!options->only || strchr(options->only, ',')) return usage_error(name, "--only one plan");
+    if (!draw_may_write(pictures[k])) return REFUSED;
+  }
   return DONE;
 }
 
@@ -521,6 +532,7 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   nsvcd_route_problem problem;
   nsvcd_route_options asked;
   nsvcd_route_answer answer;
+  int good = 1;
   const size_t joints = in->file->joint_count;
   memset(&problem, 0, sizeof problem);
   memset(&asked, 0, sizeof asked);
@@ -554,10 +566,12 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
       for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
       fprintf(out, "\n");
     }
+    if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
+    if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
   }
   free(memory);
   if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
-  return !result;
+  return !result && good;
 }
 
 // Edge by edge.
@@ -1027,13 +1041,14 @@ static void help_plan(FILE *out) {
   fprintf(out,
           "svcd plan [--clearance METRES] [--seed S] [--only ID[,ID]] [--samples N --joints "
           "OUT.tsv]\n"
-          "          FILE\n"
+          "          [--picture OUT.svg] [--film OUT.svg] FILE\n"
           "Seeks a motion for each plan of a planning file, and proves it. A line each, separated\n"
           "by tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH\n"
           "  --clearance D       the motion keeps this away from all that it must not touch (0)\n"
           "  --seed S            of the random numbers (0)\n"
           "  --only ID,ID        these alone\n"
-          "  --samples N --joints OUT.tsv   the joints at N times, a line each: ID K JOINTS\n");
+          "  --samples N --joints OUT.tsv   the joints at N times, a line each: ID K JOINTS\n"
+          "  --picture, --film OUT.svg      the motion of one plan, which is named by --only\n");
 }
 static void help_path(FILE *out) {
   fprintf(out,

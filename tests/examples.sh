@@ -451,6 +451,12 @@ grep -q '^aside	free	-1	nan	-	-	' "$dir/out" || fail "svcd path says: $(cat "$di
 expect 0 '' build/svcd plan "$dir/robot.txt" --only turned --clearance 0.001 --seed 7
 grep -q '^turned	certified' "$dir/out" || fail "svcd plan --only says: $(cat "$dir/out")"
 test "$(wc -l <"$dir/out")" = 1 || fail "--only turned: $(cat "$dir/out")"
+expect 0 '' build/svcd plan "$dir/robot.txt" --only up --picture "$dir/up.svg" --film "$dir/film.svg"
+grep -q '1.[0-9]* s, proven free at all times; orange: the start' "$dir/up.svg" || fail "the picture of a plan"
+test "$(grep -c '<animate' "$dir/film.svg")" = 40 || fail "the film of a plan"
+expect 2 "--picture: --only one plan" build/svcd plan "$dir/robot.txt" --picture "$dir/up.svg"
+echo x >"$dir/other.svg"
+expect 1 'is there already, and is no SVG' build/svcd plan "$dir/robot.txt" --only up --film "$dir/other.svg"
 # the way out is one: planned from there it is certified
 expect 0 'stuck: the start: forearm and left_side meet, 7.3[0-9] mm deep' build/svcd plan "$dir/robot.txt" --only stuck
 { cat "$dir/arm.txt"; sed -n 's/.*free near by:/plan out shelf/p' "$dir/err" | tr '\n' ' '; echo '-0.493 0.360 0.878 1.903 1.078 -2.038'; } >"$dir/way_out.txt"

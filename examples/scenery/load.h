@@ -91,13 +91,18 @@ static const nsvcd_body *encode_mesh(const char *from, const char *path, const n
   return body;
 }
 
-// A mesh that a file names, by its path from that file's folder: loaded and encoded.
+// Where a mesh is that a file names, by its path from that file's folder.
+static void path_of(const char *file, const char *name, char *path, size_t size) {
+  const size_t folder = (size_t)(file_name(file) - file);
+  snprintf(path, size, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
+}
+
+// Loaded and encoded.
 static const nsvcd_body *encode_named(const char *from, const char *file, const char *name,
                                       const nsvcd_encode_options *options, double *taken) {
   char path[4096];
   nsvcd_mesh mesh;
-  const size_t folder = (size_t)(file_name(file) - file);
-  snprintf(path, sizeof path, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
+  path_of(file, name, path, sizeof path);
   if (!load_mesh(from, path, &mesh)) return NULL;
   const nsvcd_body *body = encode_mesh(from, path, &mesh, options, taken);
   nsvcd_mesh_free(&mesh, NULL);

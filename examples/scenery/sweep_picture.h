@@ -98,6 +98,24 @@ static void sweep_reach(const sweep_picture *p, double *low, double *high) {
   }
 }
 
+// Scale, size and middle of a view, so that the frame is in a panel, but for its edge.
+static void sweep_fit_frame(const sweep_frame *frame, int width, int height, int edge,
+                            draw_view *view) {
+  const double wide = fmax(frame->high[0] - frame->low[0], 1e-12);
+  const double tall = fmax(frame->high[1] - frame->low[1], 1e-12);
+  const double right = (frame->low[0] + frame->high[0]) / 2;
+  const double up = -(frame->low[1] + frame->high[1]) / 2;
+  view->width = width;
+  view->height = height;
+  view->scale = fmin((width - 2 * edge) / wide, (height - 2 * edge) / tall);
+  view->cut = 24 / view->scale;
+  const double ca = cos(view->azimuth);
+  const double sa = sin(view->azimuth);
+  view->look_at[0] = -sa * right - sin(view->elevation) * ca * up;
+  view->look_at[1] = ca * right - sin(view->elevation) * sa * up;
+  view->look_at[2] = cos(view->elevation) * up;
+}
+
 // All of A's way fits into the panel, and all of B, or, where B is much larger, what is near by.
 static draw_view sweep_fit(const sweep_picture *p) {
   draw_view view = {0, 0, {0, 0, 0}, 1, 0, 0, 0};
@@ -116,19 +134,7 @@ static draw_view sweep_fit(const sweep_picture *p) {
       corner[k] = fmax(low[k] - near_by, fmin(high[k] + near_by, corner[k]));
     sweep_widen(&frame, &view, corner);
   }
-  const double wide = fmax(frame.high[0] - frame.low[0], 1e-12);
-  const double tall = fmax(frame.high[1] - frame.low[1], 1e-12);
-  const double right = (frame.low[0] + frame.high[0]) / 2;
-  const double up = -(frame.low[1] + frame.high[1]) / 2;
-  view.width = SWEEP_WIDTH;
-  view.height = SWEEP_HEIGHT;
-  view.scale = fmin((SWEEP_WIDTH - 2 * SWEEP_EDGE) / wide, (SWEEP_HEIGHT - 2 * SWEEP_EDGE) / tall);
-  view.cut = 24 / view.scale;
-  const double ca = cos(view.azimuth);
-  const double sa = sin(view.azimuth);
-  view.look_at[0] = -sa * right - sin(view.elevation) * ca * up;
-  view.look_at[1] = ca * right - sin(view.elevation) * sa * up;
-  view.look_at[2] = cos(view.elevation) * up;
+  sweep_fit_frame(&frame, SWEEP_WIDTH, SWEEP_HEIGHT, SWEEP_EDGE, &view);
   return view;
 }
 

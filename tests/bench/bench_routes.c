@@ -2,14 +2,26 @@
 // found, in what time, and is any of them wrong?
 //
 //   build/bench_routes [PROBLEMS] [LOOKS] [SEED] [KIND]
+//   build/route_peers [PROBLEMS] [LOOKS] [SEED] [KIND]    also with other checks than proofs
 //
 // PROBLEMS of each kind (100), each motion looked at LOOKS times (2001) by distances in double, with
 // links placed by matrices. KIND: one of 0 to 6.
 #define _POSIX_C_SOURCE 200112L
+#ifdef ROUTE_PEERS  // a header whose planner calls this, see route_peers.h
+#include "neuralsvcd.h"
+static nsvcd_result peer_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                               const nsvcd_check_options *options, nsvcd_check_answer *answer);
+#define NEURALSVCD_IMPLEMENTATION
+#include "neuralsvcd.h"
+#else
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#endif
 #include "../../examples/scenery/clock.h"
 #include "arm_scene.h"
+#ifdef ROUTE_PEERS
+#include "route_peers.h"
+#endif
 
 #define MOST_PROBLEMS 1000
 
@@ -115,41 +127,62 @@ static void run_problem(arm_scene *s, arm_kind kind, shapes_rng *rng, size_t loo
            answer.checks, answer.proven);
 }
 
-int main(int count, char **values) {
+static int run_kind(arm_kind kind, size_t problems, size_t looks, uint64_t seed, const char *by) {
+  static arm_scene s;
   static tally tallies[ARM_KINDS];
+  shapes_rng rng = {seed * 1000 + (uint64_t)kind};
+  tally *t = &tallies[kind];
+  memset(t, 0, sizeof *t);
+  arm_make(&s);
+  arm_furnish(&s, kind);
+  arm_open(&s);
+#ifdef ROUTE_PEERS
+  peer_prepare(&s, peer_now);
+#endif
+  for (size_t n = 0; n < 20 * problems && t->problems < problems; n++)
+    run_problem(&s, kind, &rng, looks, t);
+  const double found = fmax((double)t->found, 1);
+  double means[3];
+  for (int part = 0; part < 3; part++) means[part] = mean_of(t->times[part], t->found);
+  printf(
+      "| %s%s | %zu | %zu | %zu | %zu | %zu | %.1f / %.1f | %.1f / %.1f | %.1f / %.1f | %.2f | "
+      "%.0f, %.0f | %.0f |\n",
+      arm_kinds[kind], by, t->problems, t->found, t->wrong, t->stopping, t->rough,
+      median_of(t->times[0], t->found), means[0], median_of(t->times[1], t->found), means[1],
+      median_of(t->times[2], t->found), means[2], median_of(t->ratios, t->found),
+      (double)t->checks / found, (double)t->proven / found, (double)t->nodes / found);
+  fflush(stdout);
+#ifdef ROUTE_PEERS
+  peer_release(&s);
+#endif
+  arm_close(&s);
+  return t->wrong > 0;
+}
+
+int main(int count, char **values) {
   const size_t problems = count > 1 ? (size_t)atoi(values[1]) : 100;
   const size_t looks = count > 2 ? (size_t)atoi(values[2]) : 2001;
   const uint64_t seed = count > 3 ? (uint64_t)atoi(values[3]) : 1;
   const int only = count > 4 ? atoi(values[4]) : -1;
-  size_t wrong = 0;
+  int wrong = 0;
   if (problems > MOST_PROBLEMS) return 2;
   printf(
       "| | problems | found | wrong | with stops | rough | ms: trees, median / mean | + shortcuts "
-      "| all | duration, of that without obstacles: median | checks, proven | nodes "
+      "| all | duration, of that without obstacles: median | checks, free | nodes "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int kind = 0; kind < ARM_KINDS; kind++) {
-    static arm_scene s;
-    shapes_rng rng = {seed * 1000 + (uint64_t)kind};
-    tally *t = &tallies[kind];
     if (only >= 0 && kind != only) continue;
-    arm_make(&s);
-    arm_furnish(&s, (arm_kind)kind);
-    arm_open(&s);
-    for (size_t n = 0; n < 20 * problems && t->problems < problems; n++)
-      run_problem(&s, (arm_kind)kind, &rng, looks, t);
-    const double found = fmax((double)t->found, 1);
-    double means[3];
-    for (int part = 0; part < 3; part++) means[part] = mean_of(t->times[part], t->found);
-    printf(
-        "| %s | %zu | %zu | %zu | %zu | %zu | %.1f / %.1f | %.1f / %.1f | %.1f / %.1f | %.2f | "
-        "%.0f, %.0f | %.0f |\n",
-        arm_kinds[kind], t->problems, t->found, t->wrong, t->stopping, t->rough,
-        median_of(t->times[0], t->found), means[0], median_of(t->times[1], t->found), means[1],
-        median_of(t->times[2], t->found), means[2], median_of(t->ratios, t->found),
-        (double)t->checks / found, (double)t->proven / found, (double)t->nodes / found);
-    fflush(stdout);
-    wrong += t->wrong;
-    arm_close(&s);
+#ifdef ROUTE_PEERS
+    for (size_t n = 0; n < ROUTE_PEERS_COUNT; n++) {
+      char by[80];
+      peer_now = &route_peers[n];
+      snprintf(by, sizeof by, ": %s", peer_now->name);
+      const int is_wrong = run_kind((arm_kind)kind, problems, looks, seed, by);
+      if (n == 0) wrong |= is_wrong;
+    }
+#else
+    wrong |= run_kind((arm_kind)kind, problems, looks, seed, "");
+#endif
   }
-  return wrong > 0;
+  return wrong;
 }
