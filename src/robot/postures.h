@@ -95,7 +95,7 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
       nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(lift, 1 / length)), gap->contact.normal);
     }
   }
-  // of both at the point on b: that on a is off it along the normal, and no turn moves it along that
+  // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
   nsvcd__slope_add(c, both->a, point, normal, 1, gap->slope);
