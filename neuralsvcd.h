@@ -1156,27 +1156,33 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 typedef struct nsvcd_gap {
   // of the scene's
   size_t pair;
-  // metres: no less than `low`, no more than `high`. 0, 0: they touch, or one is inside of the
-  // other
+  // HIT: they touch, or one is inside of the other; FREE: they are apart; UNDECIDED, and why: too
+  // near to tell, or too little work
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, computed, not proven: of parts that touch, how far a is to be lifted off b. 0: they do
-  // not touch; HUGE_VALF: by more than options.deepest, or one is inside of the other
+  // metres, of a HIT: a lift of a by this along the contact's normal is proven to part them; hardly
+  // less does, along that normal. HUGE_VALF: none up to options.deepest along each normal was
+  // found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
-  // where: as nsvcd_answer.nearest has it; of parts that touch, its normal is that of the lift, if
-  // there is one
+  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
+  // lifted, with the lift's direction as the normal
   nsvcd_contact contact;
-  // (F), metres by radian or metre: how the distance between the two places of the contact changes
-  // with each joint; of parts that touch, how the lift that is needed shrinks. 0 without a normal
+  // (F), metres by radian or metre: how the distance between the two places of the contact grows
+  // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
+  // near, or as deep, it is that of one of them. 0 without a normal
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_gap;
 
-// What is zero is the default.
+// What is zero is the default. Up to NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_gap_options {
   // metres: pairs that are as near as this are told; 0.05
   float within;
-  // metres: how wide a bracket of a distance may be, beside both bodies' quanta; 0.1 mm
+  // metres: how wide a bracket of a distance may be, beside both bodies' quanta and what poses in
+  // float are off; 20 um
   float to;
-  // metres: how deep a depth is told; 20 mm
+  // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;
   // units that each question may take; NSVCD_DEFAULT_WORK
   size_t work;
@@ -1188,11 +1194,13 @@ typedef struct nsvcd_gap_options {
 //   joints     (F), radians or metres
 //   options    NULL: the defaults
 //   gaps       (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
-//              is always enough
+//              is always enough. Some may be written on failure
 //   count      not NULL: how many there are; where that is more than the capacity, the first are
 //              written
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   threads    each with a checker of its own, as all of this page
+//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE;
+//              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
                                  const nsvcd_gap_options *options, nsvcd_gap *gaps,
@@ -1210,15 +1218,16 @@ typedef struct nsvcd_escape_options {
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
 // a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
-// and drawn back as far as that can be. What lies in between is not free.
+// and drawn back as far as that can be. What lies in between need not be free.
 //   checker    not NULL
-//   joints     (F), radians or metres; out of the limits, they are taken in first
+//   joints     (F), radians or metres; out of the limits, they are taken in first, and what follows
+//              is about these
 //   options    NULL: the defaults
 //   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER, TOLERANCE
+//   errors     ARGUMENT, NUMBER, TOLERANCE; POSE, SCALE, as nsvcd_gaps
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
                                    const nsvcd_escape_options *options, double *out,
@@ -1226,25 +1235,26 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 
 // What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
 typedef struct nsvcd_pair_counts {
-  // that can meet: to be asked
+  // to be asked
   size_t asked;
-  // of parts on two links that one joint parts, the world not among them
+  // of parts on two links that one joint parts, neither of them the world
   size_t adjacent;
-  // that touch in all configurations that were tried
+  // of others: they touch in all configurations that were tried, which is no proof that they always
+  // do
   size_t touching;
 } nsvcd_pair_counts;
 
-// Which pairs of parts can meet? All on links that differ; those that one joint parts, and those
-// that always touch, which are not worth asking, come last. Nothing that may stay apart is left
-// out: who never comes near costs little.
+// Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
+// are made to keep apart or to overlap, and those that always touch. These are told too: ask them
+// where that is not so. None is left out for it seems never to meet: that costs little.
 //   checker    of the parts and joints, whatever pairs its scene has
 //   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
 //   seed       of them
-//   pairs      (capacity), not NULL; left as it was on failure
+//   pairs      (capacity), not NULL unless that is 0; some may be written on failure
 //   capacity   B (B - 1) / 2 is always enough, of B parts
-//   counts     not NULL
+//   counts     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, WORKSPACE (capacity)
+//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
 //   source     as setup assistants do (MoveIt's), but none is left out as "never"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
@@ -1257,7 +1267,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //   link       the new one; 0: the world
 //   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
 //              off: 1e-7 of its distance from the link
-//   errors     ARGUMENT, NUMBER
+//   errors     ARGUMENT, NUMBER, POSE (farther than NSVCD_MAX_COORDINATE from the link)
 NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
                                       size_t part, uint32_t link, nsvcd_part *out);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
@@ -17832,8 +17842,15 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__GAP_WITHIN 0.05f
-#define NSVCD__GAP_TO 1e-4f
+#define NSVCD__GAP_TO 2e-5f
 #define NSVCD__GAP_DEEPEST 0.02f
+// of `deepest`: the first skin that is tried; and how often a lift is halved
+#define NSVCD__LEAST_SKIN 0.015625f
+#define NSVCD__DEPTH_HALVINGS 12
+// of the depth: what is looked at to see which faces part last; and the least share of a lift that
+// parts them, of which a slope is told
+#define NSVCD__DEPTH_BEYOND 1.01
+#define NSVCD__LEAST_RATE 0.1
 #define NSVCD__FARTHEST_ESCAPE 0.5
 // metres that an escape leaves beside the clearance, so that a route can begin there
 #define NSVCD__ESCAPE_ROOM 5e-4f
@@ -17884,19 +17901,93 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, nsvcd__d3 poin
   }
 }
 
-// The gap of a pair where it stands. Returns its `low` as HUGE_VALF where it is not within.
-static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap_options *o,
-                                  nsvcd_gap *gap) {
-  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+// Asks a question with a lifted by so much.
+static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *question,
+                                      nsvcd__d3 lift, nsvcd_answer *found) {
+  nsvcd_pose lifted = *question->a.poses;
+  nsvcd_question asked = *question;
+  const nsvcd__d3 place = nsvcd__d3_add(nsvcd__d3_load(lifted.position), lift);
+  asked.a.poses = &lifted;
+  nsvcd__f3_store(nsvcd__f3_round(place), lifted.position);
+  return nsvcd_sweep(&asked, c->query, c->query_size, found);
+}
+
+// A lift of a off b that parts them, by the least of some skins, each four times the one before,
+// that is enough. 0: none up to `deepest` is.
+static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question question,
+                                        float deepest, nsvcd__d3 *lift) {
   nsvcd_answer found;
-  memset(gap, 0, sizeof *gap);
-  gap->pair = pair;
-  gap->distance.low = HUGE_VALF;
-  if (nsvcd__boxes_apart(&c->members[both->a].box, &c->members[both->b].box,
-                         1.000001 * (double)o->within))
+  for (float share = NSVCD__LEAST_SKIN; share <= 1; share *= 4) {
+    question.skin = share * deepest;
+    nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    if (result) return result;
+    *lift = nsvcd__d3_load(found.lift);
+    if (!(nsvcd__d3_length(*lift) > 0)) continue;
+    question.skin = 0;
+    result = nsvcd__ask_lifted(c, &question, *lift, &found);
+    if (result || found.verdict == NSVCD_FREE) return result;
+  }
+  *lift = nsvcd__d3_of(0, 0, 0);
+  return NSVCD_OK;
+}
+
+// Of parts that touch: how deep, where, along which normal, and how that shrinks.
+static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
+                                        const nsvcd_gap_options *o, nsvcd_gap *gap) {
+  const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
+  nsvcd_answer found;
+  nsvcd__d3 lift;
+  double low = 0;  // share of the lift: they touch there; and they do not
+  double high = 1;
+  gap->depth = HUGE_VALF;
+  question.ask = NSVCD_ASK_HIT;
+  question.to = 0;
+  nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
+  const double length = nsvcd__d3_length(lift);
+  if (result || !(length > 0)) return result;
+  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
+    const double middle = 0.5 * (low + high);
+    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, middle), &found);
+    *(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;
+  }
+  if (result) return result;
+  // a little beyond, which faces are near
+  const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
+  question.ask = NSVCD_ASK_DISTANCE;
+  question.to = 0.1f * o->to;
+  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, beyond), &found);
+  if (result) return result;
+  const nsvcd__d3 along = nsvcd__d3_scale(lift, 1 / length);
+  const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
+  const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
+  gap->depth = nsvcd__round_outward(high * length);
+  gap->contact = found.nearest;
+  gap->contact.gap = 0;
+  nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
+  // a lift parts the two faces slower than it goes, unless it is along their normal
+  const double rate = nsvcd__d3_dot(along, normal);
+  if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
+  const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);
+  nsvcd__slope_add(c, both->a, on_a, normal, 1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->b, point, normal, -1 / rate, gap->slope);
+  return NSVCD_OK;
+}
+
+// The gap of a pair where it stands. *is_near: it is within.
+static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap_options *o,
+                                  nsvcd_gap *gap, int *is_near) {
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
+  nsvcd_answer found;
+  // poses in float are off by so much, at most
+  const double off = 2 * (c->scene->parts[both->a].link ? members[0]->rounding : 0) +
+                     2 * (c->scene->parts[both->b].link ? members[1]->rounding : 0);
+  const double within = (double)o->within + off;
+  *is_near = 0;
+  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
     return NSVCD_OK;
   nsvcd_question question = nsvcd__standing_question(c, both, o->work);
-  question.clearance = o->within;
+  question.clearance = nsvcd__round_outward(within);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -17904,28 +17995,25 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   question.to = o->to;
   result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result) return result;
-  gap->distance = found.distance;
+  *is_near = 1;
+  memset(gap, 0, sizeof *gap);
+  gap->pair = pair;
+  gap->verdict = found.verdict;
+  gap->why = found.why;
   gap->contact = found.nearest;
+  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   if (found.verdict == NSVCD_HIT) {
-    gap->distance.low = gap->distance.high = 0;
+    gap->distance.high = nsvcd__round_outward(off);
     gap->depth = HUGE_VALF;
-    question.ask = NSVCD_ASK_HIT;
-    question.to = 0;
-    question.skin = o->deepest;
-    if (!found.inside) result = nsvcd_sweep(&question, c->query, c->query_size, &found);
-    const nsvcd__d3 lift = nsvcd__d3_load(found.lift);
-    const double length = nsvcd__d3_length(lift);
-    if (!found.inside && length > 0) {
-      gap->depth = found.depth;
-      nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(lift, 1 / length)), gap->contact.normal);
-    }
+    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, o, gap);
   }
+  gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
   nsvcd__slope_add(c, both->a, point, normal, 1, gap->slope);
   nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);
-  return result;
+  return NSVCD_OK;
 }
 
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
@@ -17940,7 +18028,8 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   if (options) o = *options;
   const float *lengths[3] = {&o.within, &o.to, &o.deepest};
   for (size_t n = 0; n < 3; n++) {
-    if (!nsvcd__is_finite(*lengths[n]) || *lengths[n] < 0) return NSVCD_ERROR_TOLERANCE;
+    if (!nsvcd__within(lengths[n], 1, NSVCD_MAX_COORDINATE) || *lengths[n] < 0)
+      return NSVCD_ERROR_TOLERANCE;
   }
   o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
@@ -17948,8 +18037,9 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   nsvcd__stand(checker, joints);
   for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
     nsvcd_gap gap;
-    result = nsvcd__gap_of(checker, n, &o, &gap);
-    if (result || !(gap.distance.low < HUGE_VALF)) continue;
+    int is_near;
+    result = nsvcd__gap_of(checker, n, &o, &gap, &is_near);
+    if (result || !is_near) continue;
     if (near_ones < capacity) gaps[near_ones] = gap;
     near_ones++;
   }
@@ -17962,8 +18052,10 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
 static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
   for (size_t j = 0; j < scene->joint_count; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
-    joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));
+    const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+    const double low = is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
+    const double high = is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
+    joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));
   }
 }
 
@@ -18041,7 +18133,8 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
   const size_t bytes = checker->scene->joint_count * sizeof(double);
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__within(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
+    return NSVCD_ERROR_TOLERANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
     return NSVCD_ERROR_NUMBER;
   const double farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
@@ -18060,12 +18153,6 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 }
 
 // ---- pairs
-
-typedef enum nsvcd__pair_kind {
-  NSVCD__PAIR_ASKED = 0,
-  NSVCD__PAIR_ADJACENT,
-  NSVCD__PAIR_TOUCHING
-} nsvcd__pair_kind;
 
 // Do two parts touch in so many configurations, drawn within the limits?
 static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
@@ -18090,18 +18177,25 @@ static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair 
   return result;
 }
 
-static nsvcd_result nsvcd__pair_kind_of(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                        size_t samples, uint64_t random, int *kind) {
-  const size_t a = c->scene->parts[pair->a].link;
-  const size_t b = c->scene->parts[pair->b].link;
-  const nsvcd_joint *joints = c->scene->joints;
-  *kind = NSVCD__PAIR_ADJACENT;
-  if (a > 0 && b > 0 && (joints[a - 1].parent == b || joints[b - 1].parent == a))
-    return NSVCD_OK;
-  int always;
-  const nsvcd_result result = nsvcd__touch_always(c, pair, samples, random, &always);
-  *kind = always ? NSVCD__PAIR_TOUCHING : NSVCD__PAIR_ASKED;
-  return result;
+// Does one joint part two links, neither of them the world?
+static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
+  const size_t a = scene->parts[pair->a].link;
+  const size_t b = scene->parts[pair->b].link;
+  return a > 0 && b > 0 &&
+         (scene->joints[a - 1].parent == b || scene->joints[b - 1].parent == a);
+}
+
+// The next pair of parts on links that differ; the first after {0, 0}. Returns 0 where there is
+// none.
+static int nsvcd__next_pair(const nsvcd_scene *scene, nsvcd_body_pair *pair) {
+  do {
+    if (++pair->b >= scene->part_count) {
+      pair->a++;
+      pair->b = pair->a + 1;
+    }
+    if (pair->b >= scene->part_count) return 0;
+  } while (scene->parts[pair->a].link == scene->parts[pair->b].link);
+  return 1;
 }
 
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
@@ -18109,32 +18203,33 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
                                        nsvcd_pair_counts *counts) {
   if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
-  size_t found[3] = {0, 0, 0};
+  nsvcd_body_pair pair = {0, 0};
+  nsvcd_pair_counts found = {0, 0, 0};
   size_t total = 0;
-  for (size_t a = 0; a < scene->part_count; a++) {
-    for (size_t b = a + 1; b < scene->part_count; b++)
-      total += scene->parts[a].link != scene->parts[b].link;
-  }
+  while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
-  total = 0;
-  for (int kind = NSVCD__PAIR_ASKED; kind <= NSVCD__PAIR_TOUCHING; kind++) {
-    for (size_t a = 0; a < scene->part_count; a++) {
-      for (size_t b = a + 1; b < scene->part_count; b++) {
-        const nsvcd_body_pair pair = {(uint32_t)a, (uint32_t)b};
-        int is_of;
-        if (scene->parts[a].link == scene->parts[b].link) continue;
-        const nsvcd_result result = nsvcd__pair_kind_of(
-            checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &is_of);
-        if (result) return result;
-        if (is_of != kind) continue;
-        pairs[total++] = pair;
-        found[kind]++;
-      }
-    }
+  // what is asked from the front, what always touches from the back
+  pair.a = pair.b = 0;
+  while (nsvcd__next_pair(scene, &pair)) {
+    int always;
+    if (nsvcd__are_adjacent(scene, &pair)) continue;
+    const nsvcd_result result = nsvcd__touch_always(
+        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &always);
+    if (result) return result;
+    pairs[always ? total - ++found.touching : found.asked++] = pair;
   }
-  counts->asked = found[NSVCD__PAIR_ASKED];
-  counts->adjacent = found[NSVCD__PAIR_ADJACENT];
-  counts->touching = found[NSVCD__PAIR_TOUCHING];
+  pair.a = pair.b = 0;
+  while (nsvcd__next_pair(scene, &pair)) {
+    if (nsvcd__are_adjacent(scene, &pair)) pairs[found.asked + found.adjacent++] = pair;
+  }
+  for (size_t n = 0; n < found.touching / 2; n++) {
+    nsvcd_body_pair *first = &pairs[total - found.touching + n];
+    nsvcd_body_pair *last = &pairs[total - 1 - n];
+    pair = *first;
+    *first = *last;
+    *last = pair;
+  }
+  *counts = found;
   return NSVCD_OK;
 }
 
@@ -18156,6 +18251,7 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
   moved.pose = nsvcd__pose_in(&inner);
+  if (!nsvcd__poses_are_valid(&moved.pose, 1)) return NSVCD_ERROR_POSE;
   *out = moved;
   return NSVCD_OK;
 }

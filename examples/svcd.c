@@ -485,7 +485,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     const nsvcd_body_pair *pair = &in->scene.pairs[gap->pair];
     const char *a = robot_name(in, pair->a);
     const char *b = robot_name(in, pair->b);
-    if (!(gap->distance.high <= 0))
+    if (gap->verdict != NSVCD_HIT)
       complain("%s: %s and %s are %.2f mm apart", from, a, b, 1e3 * (double)gap->distance.high);
     else if (gap->depth < HUGE_VALF)
       complain("%s: %s and %s meet, %.2f mm deep", from, a, b, 1e3 * (double)gap->depth);
@@ -643,8 +643,10 @@ static int pairs(settings *options) {
   if (good) {
     const size_t most = file.body_count * file.body_count;
     nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
-    good = enter_room(&file, NSVCD_NONE, &in) &&
-           !nsvcd_find_pairs(in.checker, 0, options->seed, found, most, &counts);
+    good = enter_room(&file, NSVCD_NONE, &in);
+    const nsvcd_result result =
+        good ? nsvcd_find_pairs(in.checker, 0, options->seed, found, most, &counts) : NSVCD_OK;
+    if (result) good = complain("%s: %s", file.path, reason_of(result));
     const size_t total = good ? counts.asked + counts.adjacent + counts.touching : 0;
     for (size_t n = 0; n < total; n++) {
       const char *word = n < counts.asked                     ? "pair"
@@ -669,6 +671,8 @@ static int robot_command(settings *options, int is_path) {
   good = good && encode_robot(&file, &taken);
   if (good)
     fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", file.mesh_count, 1e3 * taken);
+  if (good && (options->picture || options->film) && file.body_count == 0)
+    good = complain("%s: no body to draw", file.path);
   if (good && options->joints) {
     out = fopen(options->joints, "w");
     if (!out) good = complain("%s: %s", options->joints, strerror(errno));

@@ -200,11 +200,16 @@ robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSV
 robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
 postures: slopes of a alone|nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);|
-postures: near without the boxes' room|1.000001 * (double)o->within))|0.5 * (double)o->within))
-postures: near without within|question.clearance = o->within;|question.clearance = 0;
-postures: touching at a distance|gap->distance.low = gap->distance.high = 0;|
-postures: no depth|gap->depth = found.depth;|
-postures: a depth of half|gap->depth = found.depth;|gap->depth = 0.5f * found.depth;
+postures: depths of a alone|nsvcd__slope_add(c, both->b, point, normal, -1 / rate, gap->slope);|
+postures: depths without a rate|nsvcd__slope_add(c, both->a, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);
+postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);|const nsvcd__d3 on_a = point;
+postures: near without the boxes' room|&members[1]->box, 1.000001 * within))|&members[1]->box, 0.5 * within))
+postures: near without within|question.clearance = nsvcd__round_outward(within);|question.clearance = 0;
+postures: no depth|gap->depth = nsvcd__round_outward(high * length);|
+postures: a depth of half|gap->depth = nsvcd__round_outward(high * length);|gap->depth = 0.5f * nsvcd__round_outward(high * length);
+postures: a depth of all the lift|*(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
+postures: a lift that does not part|if (result \|\| found.verdict == NSVCD_FREE) return result;\n  }\n  *lift|return result;\n  }\n  *lift
+postures: brackets without rounding|gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);|gap->distance.high = found.distance.high;
 postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
 postures: out of the limits|joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));|
 postures: escapes without the clearance|options.clearance = clearance; const nsvcd_result result = nsvcd_check(c, &still,|options.clearance = 0; const nsvcd_result result = nsvcd_check(c, &still,

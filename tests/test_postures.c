@@ -45,6 +45,37 @@ static void moved_point(const robot *r, size_t part, const double *q, size_t j, 
   placed_point(&then, 1, inner, out);
 }
 
+// How near the parts of a pair are, at joints q, if a is lifted by so much along a normal.
+static double lifted_apart(const robot *r, size_t pair, const double *q, const double *normal,
+                           double lift) {
+  oracle_pose poses[2];
+  oracle_search search;
+  const oracle_mesh *meshes[2];
+  const size_t parts[2] = {r->pairs[pair].a, r->pairs[pair].b};
+  for (int side = 0; side < 2; side++) {
+    const placed at = placed_part(&r->scene, parts[side], q);
+    poses[side] = oracle_of(&at);
+    meshes[side] = robot_exact(r->shape[parts[side]], &r->parts[parts[side]]);
+  }
+  for (int k = 0; k < 3; k++) poses[0].position[k] += lift * normal[k];
+  oracle_search_begin(&search, meshes[0], meshes[1]);
+  return oracle_search_run(&search, &poses[0], &poses[1], 1e-3);
+}
+
+// The lift, up to `most`, from which on they are apart.
+static double depth_along(const robot *r, size_t pair, const double *q, const double *normal,
+                          double most) {
+  double low = 0;
+  for (int n = 0; n < 34; n++) {
+    const double middle = 0.5 * (low + most);
+    if (lifted_apart(r, pair, q, normal, middle) > 0)
+      most = middle;
+    else
+      low = middle;
+  }
+  return most;
+}
+
 // Every pair that is near is told, and no other; brackets hold the distance; where parts touch, they
 // are free of each other when a is lifted by the depth; slopes are those of the two places.
 static void postures_gaps(void) {
@@ -55,6 +86,8 @@ static void postures_gaps(void) {
   size_t touching = 0;
   size_t deep = 0;
   size_t kinks = 0;
+  size_t depth_slopes = 0;
+  size_t depth_kinks = 0;
   size_t slopes = 0;
   for (int trial = 0; trial < 20; trial++) {
     robot_arm(&r, &rng, 20);
@@ -98,9 +131,11 @@ static void postures_gaps(void) {
           CHECK_LE(gap_high - gap_low, to + 1e-5);  // and quanta
           CHECK(gap->depth >= 0 && gap->depth <= 0);
         }
-        if (apart < -1e-5 || (gap_high <= 0 && apart < 1e-5)) {
-          CHECK(gap_high <= 0);
-          CHECK(gap->depth > 0);
+        if (apart < -1e-5) CHECK_EQ(gap->verdict, NSVCD_HIT);
+        if (apart > 1e-5) CHECK_EQ(gap->verdict, NSVCD_FREE);
+        if (gap->verdict == NSVCD_HIT) {
+          CHECK_LE(apart, 1e-5);
+          CHECK(gap_low <= 0 && gap_high < 1e-5 && gap->depth > 0);
           touching++;
           deep += !(gap->depth < HUGE_VALF);
         }
@@ -114,7 +149,8 @@ static void postures_gaps(void) {
           moved_point(&r, r.pairs[p].a, q, j, h, on_a, moved_a);
           moved_point(&r, r.pairs[p].b, q, j, h, on_b, moved_b);
           for (int k = 0; k < 3; k++) between[k] = moved_a[k] - on_a[k] - (moved_b[k] - on_b[k]);
-          CHECK_LE(fabs(oracle_dot(between, normal) / h - gap->slope[j]), 2e-5);
+          if (gap->verdict != NSVCD_HIT)
+            CHECK_LE(fabs(oracle_dot(between, normal) / h - gap->slope[j]), 2e-5);
           if (!(apart > 1e-3) || !(n % 2)) continue;
           // of the surfaces themselves, but where other triangles are as near
           double far_q[NSVCD_MAX_JOINTS];
@@ -126,21 +162,22 @@ static void postures_gaps(void) {
           slopes++;
           kinks += fabs((more - less) / 2e-5 - gap->slope[j]) > 0.02;
         }
-        if (!(gap->depth > 0 && gap->depth < 0.02f)) continue;
-        // lifted by the depth and a little
-        oracle_pose poses[2];
-        oracle_search search;
-        const oracle_mesh *meshes[2];
-        const size_t parts[2] = {r.pairs[p].a, r.pairs[p].b};
-        for (int side = 0; side < 2; side++) {
-          const placed at = placed_part(&r.scene, parts[side], q);
-          poses[side] = oracle_of(&at);
-          meshes[side] = robot_exact(r.shape[parts[side]], &r.parts[parts[side]]);
+        if (!(gap->depth > 0 && gap->depth < HUGE_VALF)) continue;
+        const double depth = (double)gap->depth;
+        CHECK_LE(1e-9, lifted_apart(&r, p, q, normal, depth + 1e-6));
+        const double least = depth_along(&r, p, q, normal, 2 * depth);
+        CHECK_LE(depth, 1.05 * least + 3e-5);
+        // how it shrinks, but where other corners are as deep
+        for (size_t j = 0; j < 6; j++) {
+          double moved[NSVCD_MAX_JOINTS];
+          memcpy(moved, q, sizeof moved);
+          moved[j] = q[j] + 1e-5;
+          const double more = depth_along(&r, p, moved, normal, 2 * depth);
+          moved[j] = q[j] - 1e-5;
+          const double less = depth_along(&r, p, moved, normal, 2 * depth);
+          depth_slopes++;
+          depth_kinks += fabs((less - more) / 2e-5 - gap->slope[j]) > 0.02;
         }
-        for (int k = 0; k < 3; k++)
-          poses[0].position[k] += ((double)gap->depth * 1.0001 + 2e-5) * normal[k];
-        oracle_search_begin(&search, meshes[0], meshes[1]);
-        CHECK_LE(1e-9, oracle_search_run(&search, &poses[0], &poses[1], 1));
       }
       CHECK_EQ(told, count);
       // as many as there is room for
@@ -153,11 +190,64 @@ static void postures_gaps(void) {
     }
     free(r.memory);
   }
-  printf("  apart %zu, touching %zu, of these too deep %zu; of %zu slopes %zu have a kink\n",
-         apart_count, touching, deep, slopes, kinks);
+  printf(
+      "  apart %zu, touching %zu, of these too deep %zu; of %zu slopes %zu have a kink, "
+      "of %zu of depths %zu\n",
+      apart_count, touching, deep, slopes, kinks, depth_slopes, depth_kinks);
   CHECK_GE(apart_count, 250);
   CHECK_GE(touching - deep, 60);
   CHECK_LE(kinks, slopes / 50);
+  CHECK_LE(depth_kinks, depth_slopes / 20);
+}
+
+// A box in the corner of a floor and a wall: whichever it is in, and how deep, the lift that is told
+// parts them, and is hardly more than need be.
+static void postures_corner(void) {
+  static robot r;
+  shapes_rng rng = {96};
+  shapes_mesh mesh;
+  memset(&r, 0, sizeof r);
+  memset(&mesh, 0, sizeof mesh);
+  shapes_box_at(&mesh, 0.15, 0, -0.05, 0.5, 0.4, 0.1);
+  shapes_box_at(&mesh, -0.05, 0, 0.2, 0.1, 0.4, 0.39);
+  robot_shape corner = shape_of(&mesh);
+  r.scene.joint_count = r.scene.part_count = 2;
+  r.scene.pair_count = 1;
+  r.pairs[0].b = 1;
+  for (uint32_t i = 0; i < 2; i++) {
+    r.joints[i].kind = NSVCD_JOINT_PRISMATIC;
+    r.joints[i].parent = i;
+    r.joints[i].origin.rotation[3] = 1;
+    r.joints[i].axis[2 * i] = 1;
+    r.joints[i].low = -1;
+    r.joints[i].high = 1;
+    r.parts[i].pose.rotation[3] = 1;
+  }
+  r.parts[0].body = robot_shapes()[0].body;
+  r.parts[0].link = 2;
+  r.parts[1].body = corner.body;
+  robot_open(&r);
+  for (int n = 0; n < 200; n++) {
+    // half of a side is 0.05
+    const double in[2] = {shapes_uniform(&rng, -0.004, 0.004), shapes_uniform(&rng, 1e-4, 0.008)};
+    const double q[2] = {0.05 - in[0], 0.05 - in[1]};
+    nsvcd_gap gap;
+    size_t count = 0;
+    memset(&gap, 0, sizeof gap);
+    CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+    CHECK_EQ(count, 1);
+    CHECK_EQ(gap.verdict, NSVCD_HIT);
+    CHECK(gap.depth < HUGE_VALF);
+    const double lift[2] = {(double)gap.depth * (double)gap.contact.normal[0],
+                            (double)gap.depth * (double)gap.contact.normal[2]};
+    CHECK_LE(in[0] - 1e-6, lift[0]);
+    CHECK_LE(in[1] - 1e-6, lift[1]);
+    CHECK_LE((double)gap.depth, 1.45 * fmax(in[0], in[1]) + 5e-5);
+  }
+  free(r.memory);
+  nsvcd_body_free(corner.body, NULL);
+  oracle_mesh_free(&corner.exact);
+  free(corner.points);
 }
 
 // A way out is free by distances in double, within the limits and no farther than is allowed; what is
@@ -339,6 +429,7 @@ static void postures_refuse(void) {
 
 void test_postures(void) {
   RUN(postures_gaps);
+  RUN(postures_corner);
   RUN(postures_escape);
   RUN(postures_pairs);
   RUN(postures_hand_over);

@@ -122,7 +122,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(scene, part_count), FIELD(scene, pairs), FIELD(scene, pair_count),
     STRUCT(joint_motion), FIELD(joint_motion, pieces), FIELD(joint_motion, degree),
     FIELD(joint_motion, points), FIELD(joint_motion, times),
-    STRUCT(gap), FIELD(gap, pair), FIELD(gap, distance), FIELD(gap, depth), FIELD(gap, contact),
+    STRUCT(gap), FIELD(gap, pair), FIELD(gap, verdict), FIELD(gap, why), FIELD(gap, distance), FIELD(gap, depth), FIELD(gap, contact),
     FIELD(gap, slope),
     STRUCT(gap_options), FIELD(gap_options, within), FIELD(gap_options, to),
     FIELD(gap_options, deepest), FIELD(gap_options, work),

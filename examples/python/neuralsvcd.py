@@ -228,7 +228,7 @@ _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, share=c_double, contact=_Contact,
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
-_Gap = _struct("nsvcd_gap", pair=c_size_t, distance=_Range, depth=c_float, contact=_Contact,
+_Gap = _struct("nsvcd_gap", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
 _GapOptions = _struct("nsvcd_gap_options", within=c_float, to=c_float, deepest=c_float, work=c_size_t)
 _EscapeOptions = _struct("nsvcd_escape_options", clearance=c_float, farthest=c_double, seed=c_uint64)
@@ -1295,12 +1295,15 @@ class Checked(NamedTuple):
 class Gap(NamedTuple):
     """nsvcd_gap: two parts of a pair that are near each other.
 
-    distance       a bracket, metres; (0, 0): they touch
-    depth          of parts that touch, how far the first is to be lifted off the other; inf: deeper than was asked
+    verdict, why   HIT: they touch
+    distance       a bracket, metres
+    depth          of a HIT: a lift of the first by this along the normal parts them; inf: none was found. Else 0
     point, normal  on the second part, and from it to the first
-    slope          (F): how the distance changes with each joint
+    slope          (F): how the distance grows with each joint, or the depth shrinks
     """
     pair: int
+    verdict: Verdict
+    why: Why
     distance: Range
     depth: float
     point: Vector
@@ -1407,7 +1410,7 @@ class Robot:
         count = c_size_t()
         options = _filled(_GapOptions, within=within, to=to, deepest=deepest, work=work)
         _check(_library.nsvcd_gaps(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
-        return [Gap(g.pair, Range(g.distance.low, g.distance.high), g.depth, tuple(g.contact.point),
+        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, tuple(g.contact.point),
                     tuple(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
 
     def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:

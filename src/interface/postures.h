@@ -8,27 +8,33 @@
 typedef struct nsvcd_gap {
   // of the scene's
   size_t pair;
-  // metres: no less than `low`, no more than `high`. 0, 0: they touch, or one is inside of the
-  // other
+  // HIT: they touch, or one is inside of the other; FREE: they are apart; UNDECIDED, and why: too
+  // near to tell, or too little work
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, computed, not proven: of parts that touch, how far a is to be lifted off b. 0: they do
-  // not touch; HUGE_VALF: by more than options.deepest, or one is inside of the other
+  // metres, of a HIT: a lift of a by this along the contact's normal is proven to part them; hardly
+  // less does, along that normal. HUGE_VALF: none up to options.deepest along each normal was
+  // found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
-  // where: as nsvcd_answer.nearest has it; of parts that touch, its normal is that of the lift, if
-  // there is one
+  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
+  // lifted, with the lift's direction as the normal
   nsvcd_contact contact;
-  // (F), metres by radian or metre: how the distance between the two places of the contact changes
-  // with each joint; of parts that touch, how the lift that is needed shrinks. 0 without a normal
+  // (F), metres by radian or metre: how the distance between the two places of the contact grows
+  // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
+  // near, or as deep, it is that of one of them. 0 without a normal
   double slope[NSVCD_MAX_JOINTS];
 } nsvcd_gap;
 
-// What is zero is the default.
+// What is zero is the default. Up to NSVCD_MAX_COORDINATE.
 typedef struct nsvcd_gap_options {
   // metres: pairs that are as near as this are told; 0.05
   float within;
-  // metres: how wide a bracket of a distance may be, beside both bodies' quanta; 0.1 mm
+  // metres: how wide a bracket of a distance may be, beside both bodies' quanta and what poses in
+  // float are off; 20 um
   float to;
-  // metres: how deep a depth is told; 20 mm
+  // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;
   // units that each question may take; NSVCD_DEFAULT_WORK
   size_t work;
@@ -40,11 +46,13 @@ typedef struct nsvcd_gap_options {
 //   joints     (F), radians or metres
 //   options    NULL: the defaults
 //   gaps       (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
-//              is always enough
+//              is always enough. Some may be written on failure
 //   count      not NULL: how many there are; where that is more than the capacity, the first are
 //              written
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   threads    each with a checker of its own, as all of this page
+//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE;
+//              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
                                  const nsvcd_gap_options *options, nsvcd_gap *gaps,
@@ -62,15 +70,16 @@ typedef struct nsvcd_escape_options {
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
 // a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
-// and drawn back as far as that can be. What lies in between is not free.
+// and drawn back as far as that can be. What lies in between need not be free.
 //   checker    not NULL
-//   joints     (F), radians or metres; out of the limits, they are taken in first
+//   joints     (F), radians or metres; out of the limits, they are taken in first, and what follows
+//              is about these
 //   options    NULL: the defaults
 //   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER, TOLERANCE
+//   errors     ARGUMENT, NUMBER, TOLERANCE; POSE, SCALE, as nsvcd_gaps
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
                                    const nsvcd_escape_options *options, double *out,
@@ -78,25 +87,26 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 
 // What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
 typedef struct nsvcd_pair_counts {
-  // that can meet: to be asked
+  // to be asked
   size_t asked;
-  // of parts on two links that one joint parts, the world not among them
+  // of parts on two links that one joint parts, neither of them the world
   size_t adjacent;
-  // that touch in all configurations that were tried
+  // of others: they touch in all configurations that were tried, which is no proof that they always
+  // do
   size_t touching;
 } nsvcd_pair_counts;
 
-// Which pairs of parts can meet? All on links that differ; those that one joint parts, and those
-// that always touch, which are not worth asking, come last. Nothing that may stay apart is left
-// out: who never comes near costs little.
+// Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
+// are made to keep apart or to overlap, and those that always touch. These are told too: ask them
+// where that is not so. None is left out for it seems never to meet: that costs little.
 //   checker    of the parts and joints, whatever pairs its scene has
 //   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
 //   seed       of them
-//   pairs      (capacity), not NULL; left as it was on failure
+//   pairs      (capacity), not NULL unless that is 0; some may be written on failure
 //   capacity   B (B - 1) / 2 is always enough, of B parts
-//   counts     not NULL
+//   counts     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, WORKSPACE (capacity)
+//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
 //   source     as setup assistants do (MoveIt's), but none is left out as "never"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
@@ -109,7 +119,7 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //   link       the new one; 0: the world
 //   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
 //              off: 1e-7 of its distance from the link
-//   errors     ARGUMENT, NUMBER
+//   errors     ARGUMENT, NUMBER, POSE (farther than NSVCD_MAX_COORDINATE from the link)
 NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
                                       size_t part, uint32_t link, nsvcd_part *out);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
