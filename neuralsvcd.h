@@ -17919,13 +17919,10 @@ static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question questio
   nsvcd_answer found;
   for (float share = NSVCD__LEAST_SKIN; share <= 1; share *= 4) {
     question.skin = share * deepest;
-    nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     if (result) return result;
     *lift = nsvcd__d3_load(found.lift);
-    if (!(nsvcd__d3_length(*lift) > 0)) continue;
-    question.skin = 0;
-    result = nsvcd__ask_lifted(c, &question, *lift, &found);
-    if (result || found.verdict == NSVCD_FREE) return result;
+    if (found.verdict == NSVCD_FREE) return NSVCD_OK;
   }
   *lift = nsvcd__d3_of(0, 0, 0);
   return NSVCD_OK;
@@ -17936,7 +17933,7 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
                                         const nsvcd_gap_options *o, nsvcd_gap *gap) {
   const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
   nsvcd_answer found;
-  nsvcd__d3 lift;
+  nsvcd__d3 lift = {0, 0, 0};
   double low = 0;  // share of the lift: they touch there; and they do not
   double high = 1;
   gap->depth = HUGE_VALF;

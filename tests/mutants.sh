@@ -208,17 +208,16 @@ postures: near without within|question.clearance = nsvcd__round_outward(within);
 postures: no depth|gap->depth = nsvcd__round_outward(high * length);|
 postures: a depth of half|gap->depth = nsvcd__round_outward(high * length);|gap->depth = 0.5f * nsvcd__round_outward(high * length);
 postures: a depth of all the lift|*(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
-postures: a lift that does not part|if (result \|\| found.verdict == NSVCD_FREE) return result;\n  }\n  *lift|return result;\n  }\n  *lift
 postures: brackets without rounding|gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);|gap->distance.high = found.distance.high;
 postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
-postures: out of the limits|joints[j] = nsvcd__max(joint->low, nsvcd__min(joint->high, joints[j]));|
 postures: escapes without the clearance|options.clearance = clearance; const nsvcd_result result = nsvcd_check(c, &still,|options.clearance = 0; const nsvcd_result result = nsvcd_check(c, &still,
 postures: escapes to anywhere|ring * farthest;|2 * ring * farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? farthest : ring
-postures: the world is adjacent|if (a > 0 && b > 0 && (joints[a - 1].parent == b|if (a > 0 && (joints[a - 1].parent == b
 postures: what touches once touches always|*always = !result && found.verdict == NSVCD_HIT;|*always = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
-postures: never touching|*kind = always ? NSVCD__PAIR_TOUCHING : NSVCD__PAIR_ASKED;|*kind = NSVCD__PAIR_ASKED;
+postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
+postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
+postures: never touching|pairs[always ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
 postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
 LIST
