@@ -229,8 +229,8 @@
 //     steps           what the joints do between two times
 //     stray           by how much a part leaves the line and the slerp between two samples
 //     path            pieces, pair by pair
-//     postures        one configuration: gaps and their slopes, a way out, who can meet
 //     trees           configurations, and the nearest of them
+//     postures        one configuration: gaps and their slopes, a way out, who can meet
 //     ramps           from one state to another, within limits of speed and acceleration
 //     smooth          a way in time, then smooth
 //     route           two trees of proven edges, shortcuts
@@ -16861,8 +16861,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
-//   postures    one configuration: what is near, a way out; which pairs can meet
 //   trees       configurations, and the nearest of them
+//   postures    one configuration: what is near, a way out; which pairs can meet
 //   ramps       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts
@@ -17836,6 +17836,131 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
+// ------------------------------------------------------------------------------------- robot/trees
+// In: configurations. Out: a tree of them, and the one that is nearest to another.
+//
+// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
+// than it may hold is cut half way along the joint in which they are widest apart.
+
+#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
+#define NSVCD__LEAF 8
+
+typedef struct nsvcd__cell {
+  // where it is cut, or of a leaf: nothing
+  double at;
+  // by which joint; NSVCD_MAX_JOINTS: a leaf
+  uint32_t joint;
+  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
+  uint32_t first, count;
+} nsvcd__cell;
+
+typedef struct nsvcd__tree {
+  size_t joints, count, cell_count;
+  double *points;      // (nodes, F)
+  uint32_t *parents;   // (nodes): of a root, itself
+  uint32_t *next;      // (nodes): in a leaf
+  nsvcd__cell *cells;  // (2 nodes)
+} nsvcd__tree;
+
+static double nsvcd__way2(const double *a, const double *b, size_t joints) {
+  double sum = 0;
+  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum;
+}
+
+// Cuts a leaf, unless all its points are the same.
+static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
+  nsvcd__cell *cell = &t->cells[index];
+  size_t widest = 0;
+  double width = 0;
+  double middle = 0;
+  for (size_t j = 0; j < t->joints; j++) {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      low = nsvcd__min(low, t->points[node * t->joints + j]);
+      high = nsvcd__max(high, t->points[node * t->joints + j]);
+    }
+    if (!(high - low > width)) continue;
+    widest = j;
+    width = high - low;
+    middle = 0.5 * (low + high);
+  }
+  if (!(width > 0)) return;
+  nsvcd__cell *halves = &t->cells[t->cell_count];
+  t->cell_count += 2;
+  for (size_t k = 0; k < 2; k++) {
+    halves[k].joint = NSVCD_MAX_JOINTS;
+    halves[k].count = 0;
+  }
+  uint32_t node = cell->first;
+  for (uint32_t n = 0; n < cell->count; n++) {
+    const uint32_t following = t->next[node];
+    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
+    t->next[node] = half->first;
+    half->first = node;
+    half->count++;
+    node = following;
+  }
+  cell->joint = (uint32_t)widest;
+  cell->at = middle;
+  cell->first = (uint32_t)(halves - t->cells);
+}
+
+// parent: t->count of a root. Returns the node.
+static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
+  const size_t node = t->count++;
+  size_t index = 0;
+  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
+  t->parents[node] = (uint32_t)parent;
+  if (t->cell_count == 0) {
+    t->cell_count = 1;
+    t->cells[0].joint = NSVCD_MAX_JOINTS;
+    t->cells[0].count = 0;
+  }
+  while (t->cells[index].joint < NSVCD_MAX_JOINTS)
+    index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
+  t->next[node] = t->cells[index].first;
+  t->cells[index].first = (uint32_t)node;
+  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
+  return node;
+}
+
+// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
+static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
+                              double *off, double off2, size_t *nearest, double *best) {
+  const nsvcd__cell *cell = &t->cells[index];
+  if (!(off2 < *best)) return;
+  if (cell->joint == NSVCD_MAX_JOINTS) {
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
+      if (!(way < *best)) continue;
+      *best = way;
+      *nearest = node;
+    }
+    return;
+  }
+  const double side = at[cell->joint] - cell->at;
+  const double was = off[cell->joint];
+  nsvcd__nearest_in(t, cell->first + (side > 0), at, off, off2, nearest, best);
+  off[cell->joint] = side;
+  nsvcd__nearest_in(t, cell->first + !(side > 0), at, off, off2 + side * side - was * was,
+                    nearest, best);
+  off[cell->joint] = was;
+}
+
+// The node nearest to a configuration, of a tree that has one.
+static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
+  double off[NSVCD_MAX_JOINTS] = {0};
+  double best = HUGE_VAL;
+  size_t nearest = 0;
+  nsvcd__nearest_in(t, 0, at, off, 0, &nearest, &best);
+  return nearest;
+}
+#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
 // ---------------------------------------------------------------------------------- robot/postures
 // In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
 // a configuration near by that is free; which pairs can meet.
@@ -17936,7 +18061,6 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   nsvcd__d3 lift = {0, 0, 0};
   double low = 0;  // share of the lift: they touch there; and they do not
   double high = 1;
-  gap->depth = HUGE_VALF;
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
   nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
@@ -17977,8 +18101,7 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
   nsvcd_answer found;
   // poses in float are off by so much, at most
-  const double off = 2 * (c->scene->parts[both->a].link ? members[0]->rounding : 0) +
-                     2 * (c->scene->parts[both->b].link ? members[1]->rounding : 0);
+  const double off = 2 * (members[0]->rounding + members[1]->rounding);
   const double within = (double)o->within + off;
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
@@ -17998,12 +18121,12 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->verdict = found.verdict;
   gap->why = found.why;
   gap->contact = found.nearest;
-  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   if (found.verdict == NSVCD_HIT) {
     gap->distance.high = nsvcd__round_outward(off);
     gap->depth = HUGE_VALF;
     return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, o, gap);
   }
+  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
@@ -18111,9 +18234,7 @@ static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, flo
     result = nsvcd__draw_back(c, from, clearance, at);
     if (result) return result;
     *is_found = 1;
-    square = 0;
-    for (size_t j = 0; j < joints; j++) square += (at[j] - from[j]) * (at[j] - from[j]);
-    best = sqrt(square);
+    best = sqrt(nsvcd__way2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
   }
   return NSVCD_OK;
@@ -18251,131 +18372,6 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   if (!nsvcd__poses_are_valid(&moved.pose, 1)) return NSVCD_ERROR_POSE;
   *out = moved;
   return NSVCD_OK;
-}
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
-
-// ------------------------------------------------------------------------------------- robot/trees
-// In: configurations. Out: a tree of them, and the one that is nearest to another.
-//
-// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
-// than it may hold is cut half way along the joint in which they are widest apart.
-
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
-#define NSVCD__LEAF 8
-
-typedef struct nsvcd__cell {
-  // where it is cut, or of a leaf: nothing
-  double at;
-  // by which joint; NSVCD_MAX_JOINTS: a leaf
-  uint32_t joint;
-  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
-  uint32_t first, count;
-} nsvcd__cell;
-
-typedef struct nsvcd__tree {
-  size_t joints, count, cell_count;
-  double *points;      // (nodes, F)
-  uint32_t *parents;   // (nodes): of a root, itself
-  uint32_t *next;      // (nodes): in a leaf
-  nsvcd__cell *cells;  // (2 nodes)
-} nsvcd__tree;
-
-static double nsvcd__way2(const double *a, const double *b, size_t joints) {
-  double sum = 0;
-  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
-  return sum;
-}
-
-// Cuts a leaf, unless all its points are the same.
-static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
-  nsvcd__cell *cell = &t->cells[index];
-  size_t widest = 0;
-  double width = 0;
-  double middle = 0;
-  for (size_t j = 0; j < t->joints; j++) {
-    double low = HUGE_VAL;
-    double high = -HUGE_VAL;
-    uint32_t node = cell->first;
-    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      low = nsvcd__min(low, t->points[node * t->joints + j]);
-      high = nsvcd__max(high, t->points[node * t->joints + j]);
-    }
-    if (!(high - low > width)) continue;
-    widest = j;
-    width = high - low;
-    middle = 0.5 * (low + high);
-  }
-  if (!(width > 0)) return;
-  nsvcd__cell *halves = &t->cells[t->cell_count];
-  t->cell_count += 2;
-  for (size_t k = 0; k < 2; k++) {
-    halves[k].joint = NSVCD_MAX_JOINTS;
-    halves[k].count = 0;
-  }
-  uint32_t node = cell->first;
-  for (uint32_t n = 0; n < cell->count; n++) {
-    const uint32_t following = t->next[node];
-    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
-    t->next[node] = half->first;
-    half->first = node;
-    half->count++;
-    node = following;
-  }
-  cell->joint = (uint32_t)widest;
-  cell->at = middle;
-  cell->first = (uint32_t)(halves - t->cells);
-}
-
-// parent: t->count of a root. Returns the node.
-static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
-  const size_t node = t->count++;
-  size_t index = 0;
-  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
-  t->parents[node] = (uint32_t)parent;
-  if (t->cell_count == 0) {
-    t->cell_count = 1;
-    t->cells[0].joint = NSVCD_MAX_JOINTS;
-    t->cells[0].count = 0;
-  }
-  while (t->cells[index].joint < NSVCD_MAX_JOINTS)
-    index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
-  t->next[node] = t->cells[index].first;
-  t->cells[index].first = (uint32_t)node;
-  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
-  return node;
-}
-
-// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
-static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
-                              double *off, double off2, size_t *nearest, double *best) {
-  const nsvcd__cell *cell = &t->cells[index];
-  if (!(off2 < *best)) return;
-  if (cell->joint == NSVCD_MAX_JOINTS) {
-    uint32_t node = cell->first;
-    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
-      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
-      if (!(way < *best)) continue;
-      *best = way;
-      *nearest = node;
-    }
-    return;
-  }
-  const double side = at[cell->joint] - cell->at;
-  const double was = off[cell->joint];
-  nsvcd__nearest_in(t, cell->first + (side > 0), at, off, off2, nearest, best);
-  off[cell->joint] = side;
-  nsvcd__nearest_in(t, cell->first + !(side > 0), at, off, off2 + side * side - was * was,
-                    nearest, best);
-  off[cell->joint] = was;
-}
-
-// The node nearest to a configuration, of a tree that has one.
-static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
-  double off[NSVCD_MAX_JOINTS] = {0};
-  double best = HUGE_VAL;
-  size_t nearest = 0;
-  nsvcd__nearest_in(t, 0, at, off, 0, &nearest, &best);
-  return nearest;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 

@@ -303,8 +303,8 @@ extern "C" {
 #include "robot/steps.h"  // what the joints do between two times
 #include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
 #include "robot/path.h"      // pieces, pair by pair
-#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
 #include "robot/trees.h"     // configurations, and the nearest of them
+#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
 #include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a way in time, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts

@@ -115,14 +115,12 @@ static void postures_gaps(void) {
         const nsvcd_gap *gap = &gaps[told++];
         const double gap_low = (double)gap->distance.low;
         const double gap_high = (double)gap->distance.high;
-        const double *normal;
-        double wide[3], on_a[3], on_b[3];
+        double normal[3], on_a[3], on_b[3];
         for (int k = 0; k < 3; k++) {
-          wide[k] = (double)gap->contact.normal[k];
+          normal[k] = (double)gap->contact.normal[k];
           on_b[k] = (double)gap->contact.point[k];
-          on_a[k] = on_b[k] + (double)gap->contact.gap * wide[k];
+          on_a[k] = on_b[k] + (double)gap->contact.gap * normal[k];
         }
-        normal = wide;
         // quanta and poses in float
         if (apart > 1e-5) {
           apart_count++;

@@ -105,8 +105,7 @@ static void robot_picture_fit(robot_picture *p, const nsvcd_joint_motion *m) {
     // from the obstacles to the robot, and a little aside
     p->view.azimuth = atan2(middles[1][1] - middles[0][1], middles[1][0] - middles[0][0]) + 0.65;
   }
-  draw_view *view = &p->view;
-  sweep_fit_frame(&frame, ROBOT_WIDTH, ROBOT_HEIGHT, ROBOT_EDGE, view);
+  sweep_fit_frame(&frame, ROBOT_WIDTH, ROBOT_HEIGHT, ROBOT_EDGE, &p->view);
   free(poses);
 }
 

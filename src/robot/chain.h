@@ -5,8 +5,8 @@
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
-//   postures    one configuration: what is near, a way out; which pairs can meet
 //   trees       configurations, and the nearest of them
+//   postures    one configuration: what is near, a way out; which pairs can meet
 //   ramps       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts

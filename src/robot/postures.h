@@ -1,9 +1,8 @@
 // In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
 // a configuration near by that is free; which pairs can meet.
 #pragma once
-#include "../ground/random.h"
 #include "../interface/postures.h"
-#include "path.h"
+#include "trees.h"
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__GAP_WITHIN 0.05f
@@ -101,7 +100,6 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   nsvcd__d3 lift = {0, 0, 0};
   double low = 0;  // share of the lift: they touch there; and they do not
   double high = 1;
-  gap->depth = HUGE_VALF;
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
   nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
@@ -142,8 +140,7 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
   nsvcd_answer found;
   // poses in float are off by so much, at most
-  const double off = 2 * (c->scene->parts[both->a].link ? members[0]->rounding : 0) +
-                     2 * (c->scene->parts[both->b].link ? members[1]->rounding : 0);
+  const double off = 2 * (members[0]->rounding + members[1]->rounding);
   const double within = (double)o->within + off;
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
@@ -163,12 +160,12 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->verdict = found.verdict;
   gap->why = found.why;
   gap->contact = found.nearest;
-  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   if (found.verdict == NSVCD_HIT) {
     gap->distance.high = nsvcd__round_outward(off);
     gap->depth = HUGE_VALF;
     return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, o, gap);
   }
+  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
@@ -276,9 +273,7 @@ static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, flo
     result = nsvcd__draw_back(c, from, clearance, at);
     if (result) return result;
     *is_found = 1;
-    square = 0;
-    for (size_t j = 0; j < joints; j++) square += (at[j] - from[j]) * (at[j] - from[j]);
-    best = sqrt(square);
+    best = sqrt(nsvcd__way2(at, from, joints));
     memcpy(out, at, joints * sizeof *at);
   }
   return NSVCD_OK;
