@@ -141,6 +141,7 @@
 //     meshes          OBJ files, parts of a mesh
 //     bodies          encoding, loading, scaling, facts
 //     queries         movers, options, answers; nsvcd_sweep and its kin
+//     certificates    a mesh's tree; a proof as bytes; nsvcd_certify
 //     robots          joints, parts, checks of motions; nsvcd_check
 //     postures        one configuration: what is near, a way out; nsvcd_gaps
 //     routes          a start and goals; nsvcd_route
@@ -224,6 +225,12 @@
 //     gradient        by the poses, and by the times of contact
 //   entry: the processor decides
 //     processor       SSE2, AVX2 or AVX-512; the public functions of queries
+//   certificate: a proof that others can check
+//     tree            boxes over triangles, components
+//     law             where a body is, how far points leave their chords
+//     planes          one that parts two nodes for a while
+//     rays            what a ray crosses
+//     certify         the walk, and its bits
 //   robot: is a motion of joints free?
 //     chain           what moves what; where everything is
 //     steps           what the joints do between two times
@@ -295,6 +302,9 @@
 
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
+#endif
+#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_CERTIFICATES)
+#define NSVCD_NO_CERTIFICATES
 #endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
 #error "neuralsvcd.h: NSVCD_NO_PROOF and NSVCD_NO_NETWORK leave nothing that answers"
@@ -991,6 +1001,81 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
 #endif
+
+// -------------------------------------------------------------------------- interface/certificates
+// In: a question, and its two meshes. Out: bytes that prove the answer to whoever has the meshes
+// and examples/verify, which shares nothing with this library.
+
+#ifndef NSVCD_NO_CERTIFICATES
+// A tree of boxes over the triangles of a mesh, in the caller's memory, for nsvcd_certify. It keeps
+// pointers to the mesh's arrays, which stay as they are; threads may share it.
+typedef struct nsvcd_tree nsvcd_tree;
+
+// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 56 for a
+// triangle and 4 for a vertex.
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
+
+// Builds the tree of a mesh: once for each mesh, in a time like that of sorting it.
+//   mesh       not NULL
+//   memory     (size) bytes, nsvcd_tree_size(mesh) or more, not NULL, aligned to NSVCD_ALIGNMENT
+//   tree       not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree);
+
+#define NSVCD_DEFAULT_VISITS 1000000
+
+// What is zero is the default.
+typedef struct nsvcd_certify_options {
+  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it
+  const nsvcd_answer *answer;
+  // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
+  size_t visits;
+} nsvcd_certify_options;
+
+typedef struct nsvcd_certificate {
+  // FREE or HIT: the bytes prove it. UNDECIDED: there are none
+  nsvcd_verdict verdict;
+  // 1: a hit, for a corner of one is inside of the other
+  int inside;
+  // of a HIT, in [0,1]
+  double time;
+  // of all of it, also where that is more than there was room for
+  size_t size;
+  // that were taken
+  size_t visits;
+} nsvcd_certificate;
+
+// Bytes of the workspace that nsvcd_certify needs: some 250 for each pose of either, and 4 for each
+// vertex of the mesh that has more.
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b);
+
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is, and
+// writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
+// anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
+// corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
+// lengths, stays UNDECIDED.
+//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
+//              at and may be NULL
+//   a, b       trees of the meshes of question->a and question->b, not NULL
+//   options    NULL: the defaults
+//   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT
+//   bytes      (capacity): the certificate, as far as there is room; NULL where capacity is 0. Free
+//              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
+//   made       not NULL
+//   allocates  nothing
+//   errors     ARGUMENT (also if there is a skin), SCALE, POSE (also a turn by 180 degrees, which
+//              could go either way), TOLERANCE, WORKSPACE
+//   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
+//              Gilbert 1966
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made);
+#endif  // NSVCD_NO_CERTIFICATES
 
 // -------------------------------------------------------------------------------- interface/robots
 // In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
@@ -7943,6 +8028,13 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
   return mover->poses ? mover->count : 1;
 }
 
+static nsvcd_result nsvcd__poses_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
+  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+}
+
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   if (!mover->body) return NSVCD_ERROR_ARGUMENT;
   const float scale = mover->scale;
@@ -7953,10 +8045,7 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
     if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
-  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+  return nsvcd__poses_check(mover);
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
@@ -16496,6 +16585,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__pose_of NSVCD__AT(pose_of)
 #define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
+#define nsvcd__poses_check NSVCD__AT(poses_check)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
 #define nsvcd__proof NSVCD__AT(proof)
 #define nsvcd__proof_begin NSVCD__AT(proof_begin)
@@ -16850,6 +16940,1141 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
                                      gradient_b);
 }
 #endif
+
+// ===================================================== certificate: a proof that others can check
+
+// -------------------------------------------------------------------------------- certificate/tree
+// In: a mesh. Out: its components, and a tree of boxes over its triangles. The floor, top to
+// bottom:
+//
+//   tree        boxes, and components
+//   law         where a body is at a time, and how far points leave their chords
+//   planes      one that parts two nodes over a stretch of time; its normal in a few bits
+//   rays        what is inside of what at one time
+//   certify     the walk that a certificate is
+//
+// What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
+// rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+
+#ifndef NSVCD_NO_CERTIFICATES
+#define NSVCD__TREE_TRIANGLES 0x20000000
+// nodes that wait, while a tree of so many triangles is walked through
+#define NSVCD__TREE_STACK 32
+
+// A run of triangles of a tree, with a box about them.
+typedef struct nsvcd__node {
+  // a row of boxes; of order
+  uint32_t box, first, count;
+} nsvcd__node;
+
+struct nsvcd_tree {
+  nsvcd_mesh mesh;
+  // (2 triangles - 1), of a node, of its left tree, of its right tree
+  nsvcd__box *boxes;
+  // (triangles): the leaves, from left to right
+  uint32_t *order;
+  // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
+  uint32_t *part;
+  uint32_t digest;
+};
+
+static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    uint32_t word;
+    memcpy(&word, (const char *)words + 4 * i, 4);
+    digest = (digest ^ word) * 0x9e3779b1u;
+    digest ^= digest >> 15;
+  }
+  return digest;
+}
+
+static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
+  return tree->mesh.positions + 3 * (size_t)vertex;
+}
+
+// Three times a triangle's middle.
+static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
+  nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
+  for (uint32_t k = 1; k < 3; k++)
+    sum = nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)));
+  return sum;
+}
+
+// Is a triangle before another one, whose key is known? Below 0: yes; above: it is after it.
+static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
+                             double key, size_t axis) {
+  const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
+  if (own < key || own > key) return own < key ? -1 : 1;
+  return triangle < other ? -1 : triangle > other;
+}
+
+// The box of a node; its triangles so that those that are first along the axis
+// along which their middles differ most, of
+// equals those of lower number, are before the middle (Hoare 1961).
+static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
+  uint32_t *order = tree->order + node->first;
+  nsvcd__box box;
+  box.low = box.high = nsvcd__f3_load(nsvcd__tree_corner(tree, order[0], 0));
+  nsvcd__d3 least = nsvcd__tree_middle(tree, order[0]);
+  nsvcd__d3 most = least;
+  for (uint32_t i = 0; i < node->count; i++) {
+    const nsvcd__d3 middle = nsvcd__tree_middle(tree, order[i]);
+    least = nsvcd__d3_min(least, middle);
+    most = nsvcd__d3_max(most, middle);
+  }
+  for (uint32_t i = 0; i < 3 * node->count; i++) {
+    const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i / 3], i % 3));
+    box.low = nsvcd__f3_min(box.low, x);
+    box.high = nsvcd__f3_max(box.high, x);
+  }
+  tree->boxes[node->box] = box;
+  const nsvcd__d3 sides = nsvcd__d3_sub(most, least);
+  size_t axis = sides.y > sides.x;
+  if (sides.z > nsvcd__d3_axis(sides, axis)) axis = 2;
+  const ptrdiff_t half = (ptrdiff_t)(node->count / 2);
+  ptrdiff_t from = 0;
+  ptrdiff_t to = (ptrdiff_t)node->count - 1;
+  while (from < to) {
+    const uint32_t pivot = order[from + (to - from) / 2];
+    const double key = nsvcd__d3_axis(nsvcd__tree_middle(tree, pivot), axis);
+    ptrdiff_t i = from;
+    ptrdiff_t j = to;
+    while (i <= j) {
+      while (nsvcd__tree_order(tree, order[i], pivot, key, axis) < 0) i++;
+      while (nsvcd__tree_order(tree, order[j], pivot, key, axis) > 0) j--;
+      if (i > j) break;
+      const uint32_t swapped = order[i];
+      order[i++] = order[j];
+      order[j--] = swapped;
+    }
+    if (half > j) from = i;
+    if (half < i) to = j;
+  }
+}
+
+static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__node *right) {
+  const nsvcd__node whole = *node;
+  left->box = whole.box + 1;
+  left->first = whole.first;
+  left->count = whole.count / 2;
+  right->box = whole.box + 2 * left->count;
+  right->first = whole.first + left->count;
+  right->count = whole.count - left->count;
+}
+
+static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
+  while (part[v] != v) v = part[v] = part[part[v]];
+  return v;
+}
+
+static void nsvcd__find_parts(nsvcd_tree *tree) {
+  const uint32_t *indices = tree->mesh.indices;
+  const size_t corners = 3 * tree->mesh.triangle_count;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
+  for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t x = nsvcd__part_root(tree->part, indices[i]);
+    const uint32_t y = nsvcd__part_root(tree->part, indices[i / 3 * 3]);
+    tree->part[x > y ? x : y] = x > y ? y : x;
+  }
+  for (size_t i = 0; i < corners; i++)
+    tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+}
+
+// Lays a tree out at base, or, where that is NULL, only counts. Returns the bytes that it takes.
+static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tree *tree) {
+  uint64_t used = 0;
+  const size_t triangles = mesh->triangle_count;
+  (void)nsvcd__take(base, &used, 1, sizeof *tree);
+  tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
+  tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  return used;
+}
+
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh) {
+  nsvcd_tree counted;
+  if (nsvcd__mesh_check(mesh)) return 0;
+  const uint64_t size = nsvcd__tree_layout(mesh, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree) {
+  nsvcd__node stack[NSVCD__TREE_STACK];
+  size_t height = 1;
+  const nsvcd_result result = nsvcd__mesh_check(mesh);
+  if (result) return result;
+  if (!tree) return NSVCD_ERROR_ARGUMENT;
+  const size_t needed = nsvcd_tree_size(mesh);
+  if (mesh->triangle_count > NSVCD__TREE_TRIANGLES || !needed) return NSVCD_ERROR_TOO_LARGE;
+  if (!memory || size < needed || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  nsvcd_tree *t = (nsvcd_tree *)memory;
+  (void)nsvcd__tree_layout(mesh, (char *)memory, t);
+  t->mesh = *mesh;
+  t->digest =
+      nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
+  t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
+  nsvcd__find_parts(t);
+  for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
+  stack[0].box = stack[0].first = 0;
+  stack[0].count = (uint32_t)mesh->triangle_count;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    nsvcd__cut_node(t, &node);
+    if (node.count == 1) continue;
+    nsvcd__children(&node, &stack[height], &stack[height + 1]);
+    height += 2;
+  }
+  *tree = t;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES
+
+// --------------------------------------------------------------------------------- certificate/law
+// In: a mesh that moves. Out: where it is at a time, and by how much a point leaves the chord
+// between its places at two times. In double, and with no more of the motion floor than what makes
+// poses valid: a certificate is a second opinion.
+
+#ifndef NSVCD_NO_CERTIFICATES
+// Takes a corner x to turn scale x + at.
+typedef struct nsvcd__posed {
+  nsvcd__dmat3 turn;
+  nsvcd__d3 at;
+} nsvcd__posed;
+
+// By how much a point at r metres from the body's origin leaves its chord, at most: base + per_metre
+// r.
+typedef struct nsvcd__off_chord {
+  double base, per_metre;
+} nsvcd__off_chord;
+
+// A mesh that moves, t in [0,1]. A knot is a time at which the motion has a corner; between two of
+// them points leave chords as said.
+typedef struct nsvcd__rider {
+  const nsvcd_tree *tree;
+  double scale;
+  nsvcd__posed (*place)(const void *motion, double t);
+  // the next knot after a time before 1
+  double (*next)(const void *motion, double t);
+  nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
+  const void *motion;
+  uint32_t digest;  // of the scale and the motion
+} nsvcd__rider;
+
+// ---- of poses: nsvcd_mover
+
+static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
+  return mover->times ? (double)mover->times[k] : (double)k / (double)(mover->count - 1);
+}
+
+// The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
+static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
+  size_t low = 0;
+  size_t high = mover->count - 1;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__mover_knot(mover, middle) <= t)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The arc from a pose to the next: rotations, on the shorter side; half the angle between them.
+typedef struct nsvcd__turning {
+  nsvcd__dquat from, to;
+  double half_angle;
+} nsvcd__turning;
+
+static nsvcd__dquat nsvcd__pose_rotation(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  return out;
+}
+
+static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  nsvcd__turning out;
+  const nsvcd__dquat from = nsvcd__pose_rotation(a);
+  const nsvcd__dquat to = nsvcd__pose_rotation(b);
+  const double side = nsvcd__dquat_dot(from, to) < 0 ? -1 : 1;
+  out.from = nsvcd__dquat_unit(from);
+  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
+  const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);
+  const nsvcd__dquat together = nsvcd__dquat_fma(1, out.from, out.to);
+  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(apart, apart)),
+                             sqrt(nsvcd__dquat_dot(together, together)));
+  return out;
+}
+
+static nsvcd__posed nsvcd__mover_place(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  nsvcd__posed out;
+  if (mover->count == 1) {
+    out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(nsvcd__pose_rotation(mover->poses)));
+    out.at = nsvcd__d3_load(mover->poses->position);
+    return out;
+  }
+  const size_t k = nsvcd__mover_pose(mover, t);
+  const nsvcd_pose *a = &mover->poses[k];
+  const double from = nsvcd__mover_knot(mover, k);
+  const double u = (t - from) / (nsvcd__mover_knot(mover, k + 1) - from);
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  double before = 1 - u;
+  double after = u;
+  // below, a line is as good
+  if (arc.half_angle > 1e-7) {
+    before = sin((1 - u) * arc.half_angle);
+    after = sin(u * arc.half_angle);
+  }
+  const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
+  out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(q));
+  out.at = nsvcd__d3_mix(nsvcd__d3_load(a->position), nsvcd__d3_load(a[1].position), u);
+  return out;
+}
+
+static double nsvcd__mover_next(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+}
+
+// A turn by h at a constant rate has a second derivative of h^2 r, and leaves its chord by an
+// eighth of it.
+static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, double t1) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  nsvcd__off_chord out = {0, 0};
+  if (mover->count == 1) return out;
+  const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
+  const nsvcd_pose *a = &mover->poses[k];
+  const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
+  const double h = 2 * nsvcd__turning_of(a, a + 1).half_angle * (t1 - t0) / whole;
+  out.per_metre = 0.1250001 * h * h;
+  return out;
+}
+
+// Makes a rider of a mover, which is copied to *meant, with the defaults filled in.
+static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree,
+                                nsvcd_mover *meant, nsvcd__rider *rider) {
+  const float scale = nsvcd__scale_of(mover);
+  *meant = *mover;
+  if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
+  if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+  const nsvcd_result result = nsvcd__poses_check(mover);
+  if (result) return result;
+  if (!mover->poses) {
+    meant->poses = &nsvcd__at_origin;
+    meant->count = 1;
+  }
+  if (meant->count == 1) meant->times = NULL;
+  for (size_t k = 1; k < meant->count; k++) {
+    const nsvcd__dquat from = nsvcd__pose_rotation(&meant->poses[k - 1]);
+    const double dot = nsvcd__dquat_dot(from, nsvcd__pose_rotation(&meant->poses[k]));
+    if (fabs(dot) < 1.001e-6) return NSVCD_ERROR_POSE;
+  }
+  rider->tree = tree;
+  rider->scale = (double)scale;
+  rider->place = nsvcd__mover_place;
+  rider->next = nsvcd__mover_next;
+  rider->off_chord = nsvcd__mover_off_chord;
+  rider->motion = meant;
+  rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
+  rider->digest = nsvcd__digest(rider->digest, &scale, 1);
+  if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES
+
+// ------------------------------------------------------------------------------ certificate/planes
+// In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
+// that takes a few bits; or none.
+
+#ifndef NSVCD_NO_CERTIFICATES
+// What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
+#define NSVCD__CERTIFIED_MARGIN 1.01e-10
+#define NSVCD__NORMAL_STEPS 20    // of Gilbert's iteration
+#define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
+// of both lengths: nodes that come as near are opened, not parted
+#define NSVCD__NORMAL_GIVE_UP 1e-3
+
+// A time, where both bodies are then, and by how much points leave their chords to the next one.
+typedef struct nsvcd__instant {
+  double t;
+  nsvcd__posed a, b;
+  nsvcd__off_chord off_a, off_b;
+} nsvcd__instant;
+
+// A stretch of time: both ends, and all knots between.
+typedef struct nsvcd__stretch {
+  const nsvcd__rider *a, *b;
+  double clearance;
+  nsvcd__instant *instants;  // (capacity)
+  size_t count, capacity;
+  double t0, t1;
+  // half way; its time is -1 before it is needed
+  nsvcd__instant middle;
+} nsvcd__stretch;
+
+// A node of each tree.
+typedef struct nsvcd__nodes {
+  nsvcd__node a, b;
+} nsvcd__nodes;
+
+// A direction as it is written: two whole numbers.
+typedef struct nsvcd__written_normal {
+  nsvcd__d3 along;
+  uint32_t x, y;
+  int bits;  // of each number: 8 or 16
+} nsvcd__written_normal;
+
+static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
+                                        double t) {
+  nsvcd__instant at;
+  memset(&at, 0, sizeof at);
+  at.t = t;
+  at.a = a->place(a->motion, t);
+  at.b = b->place(b->motion, t);
+  return at;
+}
+
+// There is room: the workspace was made for all knots.
+static void nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return;
+  double t = t0;
+  s->t0 = t0;
+  s->t1 = t1;
+  s->middle.t = -1;
+  for (s->count = 0; s->count < s->capacity;) {
+    nsvcd__instant *at = &s->instants[s->count++];
+    *at = nsvcd__instant_at(s->a, s->b, t);
+    if (!(t < t1)) return;
+    t = nsvcd__min(s->a->next(s->a->motion, t), s->b->next(s->b->motion, t));
+    t = nsvcd__min(t, t1);
+    at->off_a = s->a->off_chord(s->a->motion, at->t, t);
+    at->off_b = s->b->off_chord(s->b->motion, at->t, t);
+  }
+}
+
+// The instant half way.
+static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
+  if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
+  return &s->middle;
+}
+
+// ---- nodes
+
+// The corner of a node's box, or of its triangle, that is farthest along a direction of the world.
+static nsvcd__d3 nsvcd__farthest(const nsvcd__rider *rider, const nsvcd__node *node,
+                                 const nsvcd__posed *at, nsvcd__d3 along) {
+  const nsvcd__d3 way = nsvcd__dmat3_apply_transpose(&at->turn, along);
+  const nsvcd_tree *tree = rider->tree;
+  if (node->count > 1) {
+    const nsvcd__box *box = &tree->boxes[node->box];
+    return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
+                        (double)(way.y > 0 ? box->high.y : box->low.y),
+                        (double)(way.z > 0 ? box->high.z : box->low.z));
+  }
+  const uint32_t triangle = tree->order[node->first];
+  nsvcd__d3 best = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
+  for (uint32_t k = 1; k < 3; k++) {
+    const nsvcd__d3 x = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
+    if (nsvcd__d3_dot(x, way) > nsvcd__d3_dot(best, way)) best = x;
+  }
+  return best;
+}
+
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
+                                  nsvcd__d3 x) {
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->scale);
+}
+
+// Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+  const nsvcd__d3 a = nsvcd__farthest(s->a, &nodes->a, &at->a, back);
+  const nsvcd__d3 b = nsvcd__farthest(s->b, &nodes->b, &at->b, along);
+  const nsvcd__d3 turned =
+      nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
+  return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+}
+
+static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
+  return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+}
+
+static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
+         fabs(b->at.z);
+}
+
+// Does a plane of this normal part two nodes, at all instants and between them?
+static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    nsvcd__d3 along) {
+  const double length = nsvcd__d3_length(along);
+  const double ra = nsvcd__node_radius(s->a, &nodes->a);
+  const double rb = nsvcd__node_radius(s->b, &nodes->b);
+  double last = HUGE_VAL;
+  double leaves = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const double lengths = ra + rb + s->clearance + nsvcd__lengths_at(&at->a, &at->b);
+    const double gap = nsvcd__d3_dot(along, nsvcd__least_apart(s, nodes, at, along));
+    const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
+    if (!(gap > most && last > most)) return 0;
+    last = gap;
+    leaves = at->off_a.base + at->off_a.per_metre * ra;
+    leaves += at->off_b.base + at->off_b.per_metre * rb;
+  }
+  return 1;
+}
+
+// ---- normals
+
+static double nsvcd__signed(double magnitude, double sign) {
+  return sign < 0 ? -magnitude : magnitude;
+}
+
+// A point of the octahedron |x| + |y| + |z| = half, seen from above, its lower half folded
+// outwards.
+static nsvcd__written_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
+  const double half = (double)((1 << (bits - 1)) - 1);
+  const double sum = fabs(along.x) + fabs(along.y) + fabs(along.z);
+  const double x = along.x * (half / sum);
+  const double y = along.y * (half / sum);
+  const int below = along.z < 0;
+  nsvcd__written_normal out;
+  out.bits = bits;
+  const double u = floor((below ? nsvcd__signed(half - fabs(y), x) : x) + 0.5);
+  const double v = floor((below ? nsvcd__signed(half - fabs(x), y) : y) + 0.5);
+  const double z = half - fabs(u) - fabs(v);
+  out.x = (uint32_t)(u + half);
+  out.y = (uint32_t)(v + half);
+  out.along.x = z < 0 ? nsvcd__signed(half - fabs(v), u) : u;
+  out.along.y = z < 0 ? nsvcd__signed(half - fabs(u), v) : v;
+  out.along.z = z;
+  return out;
+}
+
+// The best direction so far, and how far apart it shows two nodes half way; less than 0: not at
+// all.
+typedef struct nsvcd__best {
+  nsvcd__d3 along;
+  double gap;
+} nsvcd__best;
+
+// Tries a direction, and the one back.
+static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                             const nsvcd__instant *at, nsvcd__d3 along, nsvcd__best *best) {
+  const double length = nsvcd__d3_length(along);
+  for (int k = 0; k < 2 && length > 0; k++) {
+    const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
+    const double gap = nsvcd__d3_dot(way, nsvcd__least_apart(s, nodes, at, way));
+    if (gap <= best->gap) continue;
+    best->along = way;
+    best->gap = gap;
+  }
+}
+
+// Gilbert's iteration towards the point of a - b that is nearest to the origin.
+static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                  const nsvcd__instant *at, nsvcd__d3 along) {
+  nsvcd__best best = {along, -HUGE_VAL};
+  nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
+  const double enough = NSVCD__NORMAL_ENOUGH;
+  const double size = nsvcd__d3_length(v);
+  for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
+    const double length = nsvcd__d3_length(v);
+    if (!(length > NSVCD__NORMAL_GIVE_UP * size)) break;
+    const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
+    const double gap = nsvcd__d3_dot(v, w) / length;
+    if (gap > best.gap) {
+      best.along = v;
+      best.gap = gap;
+    }
+    if (gap > enough * length) break;
+    const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
+    const double square = nsvcd__d3_dot(step_to, step_to);
+    if (!(square > 0)) break;
+    const double share = -nsvcd__d3_dot(v, step_to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(share, 1)), step_to, v);
+  }
+  return best;
+}
+
+// The edges of a leaf's triangle, in the world.
+static void nsvcd__leaf_edges(const nsvcd__rider *rider, const nsvcd__node *node,
+                              const nsvcd__posed *at, nsvcd__d3 *edges) {
+  const uint32_t triangle = rider->tree->order[node->first];
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 from = nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, k));
+    const nsvcd__d3 to =
+        nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, (k + 1) % 3));
+    edges[k] = nsvcd__turned_by(rider, at, nsvcd__d3_sub(to, from));
+  }
+}
+
+// Looks for a plane that parts two nodes all the while.
+static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
+                              nsvcd__written_normal *normal) {
+  const nsvcd__instant *at = nsvcd__stretch_middle(s);
+  nsvcd__best best = nsvcd__gilbert(s, nodes, at, last);
+  if (nodes->a.count == 1 && nodes->b.count == 1) {
+    nsvcd__d3 a[3], b[3];
+    nsvcd__leaf_edges(s->a, &nodes->a, &at->a, a);
+    nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
+    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
+    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
+    for (size_t i = 0; i < 9 && !(best.gap > 0); i++)
+      nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
+  }
+  if (!(best.gap > s->clearance)) return 0;
+  for (int bits = 8; bits <= 16; bits += 8) {
+    *normal = nsvcd__normal_of(best.along, bits);
+    if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
+  }
+  return 0;
+}
+#endif  // NSVCD_NO_CERTIFICATES
+
+// -------------------------------------------------------------------------------- certificate/rays
+// In: two bodies at one time. Out: what a ray from a corner of one crosses of the other; whether an
+// edge passes through a triangle.
+
+#ifndef NSVCD_NO_CERTIFICATES
+#define NSVCD__UNCLEAR 2
+
+// A vertex of one body in the frame of another, in units of that one's scale.
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                    uint32_t vertex) {
+  const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
+  const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
+  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->scale);
+}
+
+// No length in that frame is more.
+static double nsvcd__lengths_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                  const nsvcd__rider *by, const nsvcd__posed *by_at) {
+  const nsvcd__node root = {0, 0, 2};
+  const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
+  return (radii + nsvcd__lengths_at(of_at, by_at)) / by->scale;
+}
+
+// Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
+static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
+                             nsvcd__d3 along, double lengths) {
+  const double margin = NSVCD__CERTIFIED_MARGIN * lengths * lengths;
+  const double area = margin * nsvcd__d3_length(along);
+  nsvcd__d3 p[3];
+  double sides[3];
+  for (uint32_t k = 0; k < 3; k++)
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
+  const double ahead =
+      nsvcd__max(nsvcd__d3_dot(p[0], along),
+                 nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
+  if (ahead * lengths < -area) return 0;
+  for (size_t k = 0; k < 3; k++)
+    sides[k] = nsvcd__d3_dot(along, nsvcd__d3_cross(p[k], p[(k + 1) % 3]));
+  const double least = nsvcd__min(sides[0], nsvcd__min(sides[1], sides[2]));
+  const double most = nsvcd__max(sides[0], nsvcd__max(sides[1], sides[2]));
+  if (least < -area && most > area) return 0;
+  if (!(least > area || most < -area)) return NSVCD__UNCLEAR;
+  const double volume = nsvcd__d3_dot(p[2], nsvcd__d3_cross(p[0], p[1]));
+  if (!(fabs(volume) > margin * lengths)) return NSVCD__UNCLEAR;
+  if ((volume > 0) != (most > 0)) return 0;
+  return most > 0 ? 1 : -1;
+}
+
+// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
+static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along, double lengths,
+                       int32_t *sums) {
+  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
+  for (size_t t = 0; t < tree->mesh.triangle_count; t++) {
+    const int crossed = nsvcd__ray_passes(tree, (uint32_t)t, from, along, lengths);
+    if (crossed == NSVCD__UNCLEAR) return 0;
+    sums[tree->part[tree->mesh.indices[3 * t]]] += crossed;
+  }
+  return 1;
+}
+
+// How often there is an edge from one vertex to another.
+static long nsvcd__edges_between(const nsvcd_tree *tree, uint32_t from, uint32_t to) {
+  const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)from);
+  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
+  size_t height = 1;
+  long count = 0;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    const nsvcd__box *box = &tree->boxes[node.box];
+    if (nsvcd__f3_exceeds(x, box->high) || nsvcd__f3_exceeds(box->low, x)) continue;
+    if (node.count > 1) {
+      nsvcd__children(&node, &stack[height], &stack[height + 1]);
+      height += 2;
+      continue;
+    }
+    const uint32_t *corner = tree->mesh.indices + 3 * (size_t)tree->order[node.first];
+    for (size_t k = 0; k < 3; k++) count += corner[k] == from && corner[(k + 1) % 3] == to;
+  }
+  return count;
+}
+
+// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
+  const uint32_t *indices = tree->mesh.indices;
+  int sum = 0;
+  for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
+    const uint32_t from = indices[i];
+    const uint32_t to = indices[i % 3 == 2 ? i - 2 : i + 1];
+    int32_t *crossed = &sums[tree->part[from]];
+    if (*crossed == 0) continue;
+    if (nsvcd__edges_between(tree, from, to) != nsvcd__edges_between(tree, to, from))
+      *crossed = 0;
+  }
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
+  return sum;
+}
+#endif  // NSVCD_NO_CERTIFICATES
+
+// ----------------------------------------------------------------------------- certificate/certify
+// In: a question and two trees. Out: a certificate, or none. The form of its bits:
+//
+//   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
+//             the clearance (16)
+//   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
+//             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
+//             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
+//             b, at t = 0: 1 along the last normal, or 0, and a normal
+//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
+//             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
+//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
+//             zeros a new one: 0, two numbers of 8 bits; or 1, two of 16
+
+#ifndef NSVCD_NO_CERTIFICATES
+#define NSVCD__WALK_STACK 128  // nodes that wait
+#define NSVCD__NO_EDGE 3u
+#define NSVCD__SHORTEST_STRETCH 1e-12
+#define NSVCD__REMEMBERED 8  // normals
+#define NSVCD__RAYS 64       // that are tried for a part
+// of the sum of both nodes' lengths: where they go farther the time is halved
+#define NSVCD__FAR_TO_GO 0.35
+
+enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
+
+typedef struct nsvcd__visit {
+  nsvcd__nodes nodes;
+  double t0, t1;
+} nsvcd__visit;
+
+typedef struct nsvcd__certifier {
+  nsvcd__rider a, b;
+  nsvcd__stretch stretch;
+  // the last ones, the last first
+  nsvcd__d3 normals[NSVCD__REMEMBERED];
+  uint8_t *bytes;
+  size_t capacity, bits;
+  uint32_t digest;  // of motions, scales and the clearance
+  int apart;        // 1: the roots have been parted
+  int32_t *sums;    // (vertices)
+  nsvcd_certificate *made;
+} nsvcd__certifier;
+
+// ---- writing
+
+static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
+  while (count-- > 0) {
+    const size_t at = c->bits / 8;
+    if (at < c->capacity && c->bits % 8 == 0) c->bytes[at] = 0;
+    if (at < c->capacity && (value >> count & 1))
+      c->bytes[at] = (uint8_t)(c->bytes[at] | 0x80u >> c->bits % 8);
+    c->bits++;
+  }
+}
+
+// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes the
+// last.
+static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
+                                const nsvcd__written_normal *normal) {
+  const int known = k < NSVCD__REMEMBERED;
+  const nsvcd__d3 along = known ? c->normals[k] : normal->along;
+  nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
+  if (!known) {
+    nsvcd__write_bits(c, normal->bits == 16, 1);
+    nsvcd__write_bits(c, normal->x, normal->bits);
+    nsvcd__write_bits(c, normal->y, normal->bits);
+    k--;
+  }
+  for (; k > 0; k--) c->normals[k] = c->normals[k - 1];
+  c->normals[0] = along;
+}
+
+static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
+  const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
+  c->bits = 0;
+  nsvcd__write_bits(c, 1, 6);
+  nsvcd__write_bits(c, kind, 2);
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t half = digests[k] ^ digests[k] >> 16;
+    nsvcd__write_bits(c, k < 2 ? (half ^ half >> 8) & 0xff : half & 0xffff, k < 2 ? 8 : 16);
+  }
+}
+
+// A time as it is written: the nearest.
+static uint32_t nsvcd__time_code(double t) {
+  return (uint32_t)(nsvcd__max(0, nsvcd__min(t, 1)) * 4294967295.0 + 0.5);
+}
+static double nsvcd__coded_time(uint32_t code) {
+  return (double)code / 4294967295.0;
+}
+
+// ---- what meets
+
+// A triangle's corner k in another body's frame.
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                    uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
+  return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
+}
+
+// Does an edge of a triangle of one pass through one of the other? Which.
+static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                     const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                     uint32_t own, uint32_t other) {
+  const double lengths = nsvcd__lengths_seen(of, of_at, by, by_at);
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
+    const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
+    const nsvcd__d3 along = nsvcd__d3_sub(to, from);
+    const int there = nsvcd__ray_passes(by->tree, other, from, along, lengths);
+    if (there != 1 && there != -1) continue;
+    const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+    if (nsvcd__ray_passes(by->tree, other, to, back, lengths) == -there) return k;
+  }
+  return NSVCD__NO_EDGE;
+}
+
+// The points of two triangles that are nearest to each other, by Gilbert's iteration with the
+// corners' weights. Good to a hundredth of their distance, or in 200 steps as far as they lead.
+static void nsvcd__nearest_weights(const nsvcd__d3 *a, const nsvcd__d3 *b, double *of_a,
+                                   double *of_b) {
+  for (size_t k = 0; k < 3; k++) of_a[k] = of_b[k] = k == 0;
+  for (int step = 0; step < 200; step++) {
+    nsvcd__d3 v = nsvcd__d3_of(0, 0, 0);
+    size_t i = 0;
+    size_t j = 0;
+    for (size_t k = 0; k < 3; k++)
+      v = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], v));
+    for (size_t k = 1; k < 3; k++) {
+      if (nsvcd__d3_dot(v, a[k]) < nsvcd__d3_dot(v, a[i])) i = k;
+      if (nsvcd__d3_dot(v, b[k]) > nsvcd__d3_dot(v, b[j])) j = k;
+    }
+    const nsvcd__d3 to = nsvcd__d3_sub(nsvcd__d3_sub(a[i], b[j]), v);
+    const double square = nsvcd__d3_dot(to, to);
+    const double down = -nsvcd__d3_dot(v, to);
+    if (!(down > 0.01 * nsvcd__d3_dot(v, v)) || !(square > 0)) return;
+    const double share = nsvcd__min(1, down / square);
+    for (size_t k = 0; k < 3; k++) {
+      of_a[k] += share * ((k == i) - of_a[k]);
+      of_b[k] += share * ((k == j) - of_b[k]);
+    }
+  }
+}
+
+// A point of a triangle as it is written: shares of the way from the first corner to the second, and
+// from there to the third. Its weights become those that are read.
+static void nsvcd__point_code(double *weights, uint32_t *code) {
+  const double beyond = weights[1] + weights[2];
+  const double within = beyond > 0 ? weights[2] / beyond : 0;
+  const double v = floor(65535 * nsvcd__min(1, beyond) + 0.5);
+  const double w = floor(65535 * nsvcd__min(1, within) + 0.5);
+  code[0] = (uint32_t)v;
+  code[1] = (uint32_t)w;
+  weights[0] = 1 - v / 65535;
+  weights[1] = v / 65535 * (1 - w / 65535);
+  weights[2] = v / 65535 * (w / 65535);
+}
+
+// Are two triangles nearer to each other than the clearance? At points that are written.
+static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
+                          uint32_t tb, uint32_t *codes) {
+  nsvcd__d3 a[3], b[3];
+  double of_a[3], of_b[3];
+  nsvcd__d3 apart = nsvcd__d3_of(0, 0, 0);
+  const double lengths = nsvcd__lengths_seen(&c->a, &at->a, &c->b, &at->b);
+  for (uint32_t k = 0; k < 3; k++) {
+    a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
+    b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
+  }
+  nsvcd__nearest_weights(a, b, of_a, of_b);
+  nsvcd__point_code(of_a, codes);
+  nsvcd__point_code(of_b, codes + 2);
+  for (size_t k = 0; k < 3; k++)
+    apart = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], apart));
+  const double distance = nsvcd__d3_length(apart) + NSVCD__CERTIFIED_MARGIN * lengths;
+  return c->b.scale * distance < c->stretch.clearance;
+}
+
+// Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
+static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
+  const uint32_t code = nsvcd__time_code(when);
+  const double t = nsvcd__coded_time(code);
+  const nsvcd__instant at = nsvcd__instant_at(&c->a, &c->b, t);
+  uint32_t points[4];
+  uint32_t whose = 0;
+  uint32_t edge = nsvcd__piercing_edge(&c->a, &at.a, &c->b, &at.b, ta, tb);
+  if (edge == NSVCD__NO_EDGE) {
+    whose = 1;
+    edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
+  }
+  const int pierced = edge != NSVCD__NO_EDGE;
+  if (!pierced && !(c->stretch.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+    return 0;
+  nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
+  nsvcd__write_bits(c, code, 32);
+  nsvcd__write_bits(c, ta, 32);
+  nsvcd__write_bits(c, tb, 32);
+  if (pierced) {
+    nsvcd__write_bits(c, whose, 1);
+    nsvcd__write_bits(c, edge, 2);
+  }
+  for (size_t k = 0; k < 4 && !pierced; k++) nsvcd__write_bits(c, points[k], 16);
+  c->made->verdict = NSVCD_HIT;
+  c->made->time = t;
+  return 1;
+}
+
+// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
+                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  if (answer->verdict != NSVCD_HIT || !named || !(told->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  for (double later = 1e-7; later < 1; later *= 2) {
+    for (int k = 0; k < 2; k++) {
+      const double when = (double)told->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+    }
+  }
+  return 0;
+}
+
+// ---- the walk
+
+// The longest side of a node's box.
+static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
+  return rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z);
+}
+
+static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
+                                    const nsvcd__posed *at) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
+  return nsvcd__turned_by(rider, at, nsvcd__d3_scale(sum, 0.5));
+}
+
+// The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
+static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes) {
+  double way = 0;
+  nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const nsvcd__d3 a = nsvcd__node_middle(s->a, &nodes->a, &at->a);
+    const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
+    const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
+    const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
+    if (i > 0) way += sqrt(nsvcd__d3_distance2(now, last));
+    last = now;
+  }
+  return way;
+}
+
+// Puts two visits in place of one: of the children of the node whose box is longer, or of both
+// halves of the time. The one that comes first is the later one on the stack.
+static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
+  nsvcd__nodes *nodes = &v->nodes;
+  const double side_a = nsvcd__node_side(&c->a, &nodes->a);
+  const double side_b = nsvcd__node_side(&c->b, &nodes->b);
+  const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
+  const int halves =
+      leaves || nsvcd__way_apart(&c->stretch, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+  v[1] = *v;
+  nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
+  if (halves) {
+    v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
+    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_STRETCH;
+  }
+  if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
+    nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
+  else
+    nsvcd__children(&nodes->b, &v[1].nodes.b, &nodes->b);
+  return 1;
+}
+
+// FREE, HIT, or UNDECIDED.
+static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
+  nsvcd__visit stack[NSVCD__WALK_STACK];
+  size_t height = 1;
+  memset(stack, 0, sizeof *stack);
+  stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
+  stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
+  stack->t1 = 1;
+  nsvcd__write_head(c, NSVCD__PROVES_FREE);
+  while (height > 0) {
+    nsvcd__visit *v = &stack[height - 1];
+    const nsvcd__nodes *nodes = &v->nodes;
+    nsvcd__written_normal normal;
+    if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
+    nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
+    size_t k = 0;
+    while (k < NSVCD__REMEMBERED &&
+           !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
+      k++;
+    if (k < NSVCD__REMEMBERED ||
+        nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
+      nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
+      if (k > 0) nsvcd__write_normal(c, k, &normal);
+      if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
+      height--;
+      continue;
+    }
+    if (nodes->a.count == 1 && nodes->b.count == 1) {
+      const uint32_t ta = c->a.tree->order[nodes->a.first];
+      const uint32_t tb = c->b.tree->order[nodes->b.first];
+      if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
+    }
+    if (height == NSVCD__WALK_STACK || !nsvcd__divide_visit(c, v)) return NSVCD_UNDECIDED;
+    height++;
+  }
+  return NSVCD_FREE;
+}
+
+// ---- what is inside
+
+// A direction to try: along the axes, then anywhere.
+static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
+  nsvcd__d3 along = nsvcd__d3_of(0, 0, 0);
+  nsvcd__d3_set_axis(&along, k % 3, k < 3 ? 1 : -1);
+  // a little off, so that it does not run along faces that are parallel to an axis
+  along = nsvcd__d3_add(along, nsvcd__d3_of(0.05, 0.07, 0.11));
+  if (k >= 6) {
+    along.x = nsvcd__random(random) - 0.5;
+    along.y = nsvcd__random(random) - 0.5;
+    along.z = nsvcd__random(random) - 0.5;
+  }
+  return nsvcd__normal_of(along, 8);
+}
+
+// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT: one
+// shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
+  const nsvcd__rider *of = whose ? &c->b : &c->a;
+  const nsvcd__rider *by = whose ? &c->a : &c->b;
+  const nsvcd__posed of_at = of->place(of->motion, 0);
+  const nsvcd__posed by_at = by->place(by->motion, 0);
+  const double lengths = nsvcd__lengths_seen(of, &of_at, by, &by_at);
+  uint64_t random = 1;
+  for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
+    if (of->tree->part[v] != v) continue;
+    const nsvcd__d3 from = nsvcd__vertex_seen(of, &of_at, by, &by_at, v);
+    int shown = 0;
+    for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
+      const int same = k == 0;
+      const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
+      const nsvcd__d3 along = same ? c->normals[0] : ray.along;
+      if (!nsvcd__cast(by->tree, from, along, lengths, c->sums)) continue;
+      shown = 1;
+      for (size_t i = 0; i < by->tree->mesh.vertex_count; i++) shown &= c->sums[i] == 0;
+      if (shown) {
+        nsvcd__write_bits(c, (uint32_t)same, 1);
+        if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+      } else if (!same && nsvcd__sum_of_closed(by->tree, c->sums) != 0) {
+        nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
+        nsvcd__write_bits(c, nsvcd__time_code(0), 32);
+        nsvcd__write_bits(c, (uint32_t)whose, 1);
+        nsvcd__write_bits(c, v, 32);
+        nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+        c->made->inside = 1;
+        return NSVCD_HIT;
+      }
+    }
+    if (!shown) return NSVCD_UNDECIDED;
+  }
+  return NSVCD_FREE;
+}
+
+// ---- nsvcd_certify
+
+// Lays the workspace out at base, or, where that is NULL, only counts.
+static uint64_t nsvcd__certifier_layout(const nsvcd_question *question, const nsvcd_tree *a,
+                                        const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
+  uint64_t used = 0;
+  const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
+                                                                      : b->mesh.vertex_count;
+  c->stretch.capacity = nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
+  void *instants = nsvcd__take(base, &used, c->stretch.capacity, sizeof(nsvcd__instant));
+  c->stretch.instants = (nsvcd__instant *)instants;
+  c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
+  return used;
+}
+
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b) {
+  nsvcd__certifier counted;
+  if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
+      nsvcd__poses_check(&question->b))
+    return 0;
+  const uint64_t size = nsvcd__certifier_layout(question, a, b, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
+  nsvcd_mover movers[2];
+  nsvcd__certifier c;
+  nsvcd_certificate out;
+  if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
+  const float clearance = question->clearance;
+  memset(&c, 0, sizeof c);
+  memset(&out, 0, sizeof out);
+  nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
+  if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
+  if (result) return result;
+  if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_TOLERANCE;
+  const uint64_t needed = nsvcd__certifier_layout(question, a, b, (char *)workspace, &c);
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  c.stretch.a = &c.a;
+  c.stretch.b = &c.b;
+  c.stretch.clearance = (double)clearance;
+  c.bytes = bytes;
+  c.capacity = capacity;
+  c.digest = nsvcd__digest(c.a.digest + 31 * c.b.digest, &clearance, 1);
+  c.made = &out;
+  const int told = o->answer && nsvcd__meet_as_told(&c, o->answer);
+  if (!told) {
+    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c.bits + 7) / 8;
+  *made = out;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES
 
 // ============================================================ robot: is a motion of joints free?
 

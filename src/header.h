@@ -180,14 +180,15 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/results.h"   // codes, what they say, the caller's allocator
-#include "interface/meshes.h"    // OBJ files, parts of a mesh
-#include "interface/bodies.h"    // encoding, loading, scaling, facts
-#include "interface/queries.h"   // movers, options, answers; nsvcd_sweep and its kin
-#include "interface/robots.h"    // joints, parts, checks of motions; nsvcd_check
-#include "interface/postures.h"  // one configuration: what is near, a way out; nsvcd_gaps
-#include "interface/routes.h"    // a start and goals; nsvcd_route
-#include "interface/plans.h"     // splines, planning problems; nsvcd_plan
+#include "interface/results.h"       // codes, what they say, the caller's allocator
+#include "interface/meshes.h"        // OBJ files, parts of a mesh
+#include "interface/bodies.h"        // encoding, loading, scaling, facts
+#include "interface/queries.h"       // movers, options, answers; nsvcd_sweep and its kin
+#include "interface/certificates.h"  // a mesh's tree; a proof as bytes; nsvcd_certify
+#include "interface/robots.h"        // joints, parts, checks of motions; nsvcd_check
+#include "interface/postures.h"      // one configuration: what is near, a way out; nsvcd_gaps
+#include "interface/routes.h"        // a start and goals; nsvcd_route
+#include "interface/plans.h"         // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
 }
@@ -297,6 +298,13 @@ extern "C" {
 #ifndef NSVCD__ISA
 // ==================================================================== entry: the processor decides
 #include "entry/processor.h"  // SSE2, AVX2 or AVX-512; the public functions of queries
+
+// ===================================================== certificate: a proof that others can check
+#include "certificate/tree.h"     // boxes over triangles, components
+#include "certificate/law.h"      // where a body is, how far points leave their chords
+#include "certificate/planes.h"   // one that parts two nodes for a while
+#include "certificate/rays.h"     // what a ray crosses
+#include "certificate/certify.h"  // the walk, and its bits
 
 // ============================================================ robot: is a motion of joints free?
 #include "robot/chain.h"  // what moves what; where everything is

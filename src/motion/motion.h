@@ -118,6 +118,13 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
   return mover->poses ? mover->count : 1;
 }
 
+static nsvcd_result nsvcd__poses_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
+  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+}
+
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   if (!mover->body) return NSVCD_ERROR_ARGUMENT;
   const float scale = mover->scale;
@@ -128,10 +135,7 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
     if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
-  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+  return nsvcd__poses_check(mover);
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {

@@ -1,0 +1,228 @@
+// nsvcd_verify.h - checks a certificate that two moving bodies never meet, or that they do. It
+// shares no line with neuralsvcd.h, which makes certificates (nsvcd_certify): who doubts that one
+// reads this one, with nsvcd_verify_scene.h, and for what meets nsvcd_verify_hit.h. C99 or C++11,
+// libc and libm; nothing global, no allocation, no recursion. MIT licence (LICENSE).
+//
+// STATEMENT. Two movers, a and b, each have a mesh (triangles, corners x in float), a scale s and a
+// motion: at a time t in [0,1] x is at s R(t) x + p(t). What nsvcd_verify accepts as
+//   FREE    proves: at no time does a point of a's triangles come within the clearance of one of
+//           b's, and never is a component of one inside what components of the other enclose;
+//   HIT     at report.time an edge of one passes through a triangle of the other;
+//   NEAR    at report.time points of two triangles are nearer to each other than the clearance;
+//   INSIDE  at report.time a corner of one is inside of the other, which is closed.
+//
+// WHY. FREE is a walk over (node of a's tree, node of b's, stretch of time), which begins with both
+// roots and [0,1]. A visit reads one code:
+//   0           visit, in place of the node whose box is longer (of equals a's), its children
+//   100         visit, in place of the stretch, its halves
+//   11          they are parted by a plane with the normal that was used last
+//   101 normal  they are parted by a plane with this normal
+// So in the end any two triangles are parted at any time. A plane of normal n parts two nodes from
+// t0 to t1, with no knot between, if at both ends
+//   n.(p_a - p_b) + min over a's node of n.(s R x) - max over b's node of n.(s R x)          (1)
+// is more than (clearance + both strays) |n|. For of any two points, one of each node, n.(x - y) is
+// no less than (1) at the ends, so no less than the lesser on the chord between, and each point
+// leaves its chord by its stray at most. Over a box n.(s R x) is a sum over three sides, over a
+// triangle it is most and least at corners.
+//   Surfaces that never meet do not get inside of each other later on. If somewhere the roots are
+// parted, nothing is inside then. Else a ray follows for each component of a, from a corner of it
+// at t = 0, then for each of b: of every component of the other it crosses as many triangles
+// inwards as outwards. So no closed ones, alone or together, wind about that corner, nor about the
+// rest of its component, which does not cross them.
+//
+// ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
+// all lengths in it: sums of some ten products, roots, and libm's sin and atan2 are good to units
+// of 1e-16, a share of the way between two of 65,536 poses to 1e-11. VERIFY__MARGIN, 1e-10 of all
+// lengths, is asked for beyond that, of planes and of rays. What is compared with a NaN is false,
+// and then nothing is parted. So -ffast-math is not for this file.
+#ifndef NSVCD_VERIFY_H
+#define NSVCD_VERIFY_H
+#include "nsvcd_verify_rays.h"
+
+#define VERIFY__SHORTEST 1e-12  // of a stretch that is halved
+#define VERIFY__STACK 128       // two trees of 30 levels, and 40 halvings
+
+typedef struct verify__visit {
+  nsvcd_verify_node a, b;
+  double t0, t1;
+} verify__visit;
+
+// ---- planes
+
+// The most of n.(s R x) over a node.
+static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
+                           const double *turn, const double *n) {
+  const nsvcd_verify_mesh *m = mover->mesh;
+  const float *low = m->boxes + 6 * (size_t)node->box;
+  double way[3], most = 0;
+  for (int i = 0; i < 3; i++) {
+    way[i] = mover->scale * (n[0] * turn[i] + n[1] * turn[3 + i] + n[2] * turn[6 + i]);
+    most += way[i] * (double)low[way[i] > 0 ? i + 3 : i];
+  }
+  if (node->count > 1) return most;
+  most = -HUGE_VAL;
+  for (uint32_t k = 0; k < 3; k++) {
+    const float *x = verify__corner(m, m->order[node->first], k);
+    const double along = way[0] * (double)x[0] + way[1] * (double)x[1] + way[2] * (double)x[2];
+    if (!(along <= most)) most = along;
+  }
+  return most;
+}
+
+// Does the plane of the last normal part two nodes at all instants and between them?
+static int verify__parts(const verify__reader *r, const verify__visit *v) {
+  const double *n = r->normals[0];
+  const double back[3] = {-n[0], -n[1], -n[2]};
+  const double length = sqrt(verify__dot(n, n));
+  const double ra = verify__radius(r->a, &v->a);
+  const double rb = verify__radius(r->b, &v->b);
+  double last = HUGE_VAL;
+  double stray = 0;
+  for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
+    const double lengths = verify__lengths(ra + rb + r->clearance, &at->a, &at->b);
+    double gap = -verify__most(r->a, &v->a, at->a.turn, back);
+    gap -= verify__most(r->b, &v->b, at->b.turn, n);
+    for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
+    const double least = length * (r->clearance + stray + VERIFY__MARGIN * lengths);
+    if (!(gap > least && last > least)) return 0;
+    last = gap;
+    stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;
+  }
+  return 1;
+}
+
+// ---- the walk
+
+// Places both bodies at t0, at t1, and at all knots between. 0: there is no room.
+static int verify__place(verify__reader *r, double t0, double t1) {
+  double t = t0;
+  for (r->count = 0; r->count < r->capacity; t = fmin(t, t1)) {
+    verify__instant *at = &r->instants[r->count++];
+    at->t = t;
+    r->a->place(r->a->motion, t, &at->a);
+    r->b->place(r->b->motion, t, &at->b);
+    if (!(t < t1)) return 1;
+    t = fmin(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));
+    r->a->stray(r->a->motion, at->t, fmin(t, t1), at->stray_a);
+    r->b->stray(r->b->motion, at->t, fmin(t, t1), at->stray_b);
+  }
+  return 0;
+}
+
+// The longest side of a node's box.
+static double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
+  const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
+  double most = 0;
+  for (int i = 0; i < 3; i++) most = fmax(most, (double)low[i + 3] - (double)low[i]);
+  return mover->scale * most;
+}
+
+// Puts two visits in place of one: v, and the one after it on the stack, which comes first.
+static int verify__open(const verify__reader *r, verify__visit *v) {
+  const int longer = verify__side(r->a, &v->a) >= verify__side(r->b, &v->b);
+  const int opens_a = v->b.count == 1 || (v->a.count > 1 && longer);
+  nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
+  nsvcd_verify_node child[2];
+  if (node->count == 1) return 0;
+  verify__children(node, child);
+  v[1] = *v;
+  *node = child[1];
+  *(opens_a ? &v[1].a : &v[1].b) = child[0];
+  return 1;
+}
+
+static const char *verify__walk(verify__reader *r) {
+  verify__visit stack[VERIFY__STACK];
+  size_t height = 1;
+  memset(stack, 0, sizeof *stack);
+  stack->a.count = (uint32_t)r->a->mesh->triangles;
+  stack->b.count = (uint32_t)r->b->mesh->triangles;
+  stack->t1 = 1;
+  double t0 = -1, t1 = -1;
+  while (height > 0) {
+    verify__visit *v = &stack[height - 1];
+    if (v->t0 != t0 || v->t1 != t1) {
+      t0 = v->t0;
+      t1 = v->t1;
+      if (!verify__place(r, t0, t1)) return "the workspace has no room for all knots";
+    }
+    const int opens = !verify__read(r, 1);
+    const int same = !opens && verify__read(r, 1);
+    const int halves = !opens && !same && !verify__read(r, 1);
+    if (!opens && !halves) {
+      if (!same) verify__read_normal(r);
+      if (r->at > r->bits) return "it ends early";
+      if (!verify__parts(r, v)) return "a plane does not part its nodes";
+      if (v->a.box == 0 && v->b.box == 0) r->apart = 1;
+      height--;
+      continue;
+    }
+    if (r->at > r->bits) return "it ends early";
+    if (height == VERIFY__STACK || (halves && t1 - t0 < VERIFY__SHORTEST)) return "it is too deep";
+    if (opens && !verify__open(r, v)) return "it opens triangles";
+    if (halves) {
+      v[1] = *v;
+      v[1].t1 = v->t0 = 0.5 * (t0 + t1);
+    }
+    height++;
+  }
+  return NULL;
+}
+
+// ---- certificates
+
+// Bytes of the workspace that nsvcd_verify takes, for motions of so many knots together, ends
+// included.
+static size_t nsvcd_verify_workspace_size(size_t knots) {
+  return knots * sizeof(verify__instant);
+}
+
+// Eight or 16 bits of a digest.
+static uint32_t verify__fold(uint32_t digest, int bits) {
+  digest ^= digest >> 16;
+  return bits == 16 ? digest & 0xffff : (digest ^ digest >> 8) & 0xff;
+}
+
+// Does a certificate, which may be any bytes, prove something of two movers and a clearance in
+// metres? 1: what report->kind says. 0: report->reason says why not. The workspace is aligned to 8
+// bytes; threads that share a mesh take turns, for rays write to it. Takes the certificate's length
+// times the knots, and for each ray the triangles.
+static int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b, float clearance,
+                        const uint8_t *bytes, size_t size, void *workspace, size_t workspace_size,
+                        nsvcd_verify_report *report) {
+  const uint32_t motion = verify__hash(a->digest + 31 * b->digest, &clearance, 1);
+  verify__reader reader;
+  verify__reader *r = &reader;
+  memset(r, 0, sizeof *r);
+  r->a = a;
+  r->b = b;
+  r->clearance = (double)clearance;
+  r->bytes = bytes;
+  r->bits = 8 * size;
+  r->instants = (verify__instant *)workspace;
+  r->capacity = workspace_size / sizeof *r->instants;
+  memset(report, 0, sizeof *report);
+  const char *why = NULL;
+  if (verify__read(r, 6) != 1) why = "it is no certificate of version 1";
+  report->kind = (nsvcd_verify_kind)verify__read(r, 2);
+  const int is_a = verify__read(r, 8) == verify__fold(a->mesh->digest, 8);
+  const int is_b = verify__read(r, 8) == verify__fold(b->mesh->digest, 8);
+  if (!why && !is_a) why = "it is about another mesh a";
+  if (!why && !is_b) why = "it is about another mesh b";
+  const int is_motion = verify__read(r, 16) == verify__fold(motion, 16);
+  if (!why && !is_motion) why = "it is about another motion, scale or clearance";
+  if (!(clearance >= 0 && clearance <= 1e6f)) why = "a clearance is out of range";
+  if (!why && report->kind == NSVCD_VERIFY_FREE) {
+    why = verify__walk(r);
+    if (!why && !r->apart) why = verify__outside(r, a, b);
+    if (!why && !r->apart) why = verify__outside(r, b, a);
+  } else if (!why) {
+    why = verify__meeting(r, report);
+  }
+  if (!why && r->at > r->bits) why = "it ends early";
+  if (!why && r->bits - r->at >= 8) why = "something follows its end";
+  report->reason = why;
+  report->position = (r->at < r->bits ? r->at : r->bits) / 8;
+  return !why;
+}
+#endif  // NSVCD_VERIFY_H

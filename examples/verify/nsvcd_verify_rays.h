@@ -1,0 +1,310 @@
+// nsvcd_verify_rays.h - of nsvcd_verify.h: how a certificate is read, and what it shows of one time:
+// rays, by which something is inside of something or not, and triangles that meet.
+#ifndef NSVCD_VERIFY_RAYS_H
+#define NSVCD_VERIFY_RAYS_H
+#include "nsvcd_verify_scene.h"
+
+#define VERIFY__MARGIN 1e-10
+
+typedef enum nsvcd_verify_kind {
+  NSVCD_VERIFY_FREE,
+  NSVCD_VERIFY_HIT,
+  NSVCD_VERIFY_NEAR,
+  NSVCD_VERIFY_INSIDE
+} nsvcd_verify_kind;
+
+typedef struct nsvcd_verify_report {
+  const char *reason;  // why it is refused; NULL: it is not
+  size_t position;     // of the byte that was read last
+  nsvcd_verify_kind kind;
+  double time;    // of HIT, NEAR and INSIDE
+  uint32_t a, b;  // HIT, NEAR: triangles. INSIDE: a corner, and whose: 0 a's, 1 b's
+} nsvcd_verify_report;
+
+typedef struct verify__instant {
+  double t;
+  nsvcd_verify_place a, b;
+  double stray_a[2], stray_b[2];  // from here to the next instant
+} verify__instant;
+
+typedef struct verify__reader {
+  const nsvcd_verify_mover *a, *b;
+  double clearance;
+  const uint8_t *bytes;
+  size_t bits, at;       // all, and those that are read
+  double normals[8][3];  // the last ones, the last first
+  verify__instant *instants;
+  size_t count, capacity;
+  int apart;  // 1: the roots have been parted
+} verify__reader;
+
+// ---- reading
+
+// The next bits, the highest of a byte first. Past the end they are 0, and r->at exceeds r->bits.
+static uint32_t verify__read(verify__reader *r, int count) {
+  uint32_t out = 0;
+  for (; count > 0; count--, r->at++) {
+    const int more = r->at < r->bits;
+    out = 2 * out + (more ? (uint32_t)r->bytes[r->at / 8] >> (7 - r->at % 8) & 1 : 0);
+  }
+  return out;
+}
+
+// The next normal: k zeros and a 1: the one that was used k + 1 before the last; seven zeros: a new
+// one, 0 and two numbers of 8 bits, or 1 and two of 16. They are a point of the octahedron |x| + |y|
+// + |z| = half, seen from above, with its lower half folded outwards. It becomes the last.
+static void verify__read_normal(verify__reader *r) {
+  double n[3];
+  size_t k = 1;
+  while (k < 8 && !verify__read(r, 1)) k++;
+  memcpy(n, r->normals[k % 8], sizeof n);
+  if (k == 8) {
+    const int bits = verify__read(r, 1) ? 16 : 8;
+    const double half = (double)((1 << (bits - 1)) - 1);
+    const double x = (double)verify__read(r, bits) - half;
+    const double y = (double)verify__read(r, bits) - half;
+    n[2] = half - fabs(x) - fabs(y);
+    n[0] = n[2] < 0 ? copysign(half - fabs(y), x) : x;
+    n[1] = n[2] < 0 ? copysign(half - fabs(x), y) : y;
+    k = 7;
+  }
+  memmove(r->normals[1], r->normals[0], k * sizeof n);
+  memcpy(r->normals[0], n, sizeof n);
+}
+
+static double verify__dot(const double *a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// No point of a node is farther from its body's origin.
+static double verify__radius(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
+  const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
+  double corner[3];
+  for (int i = 0; i < 3; i++) corner[i] = fmax(-(double)low[i], (double)low[i + 3]);
+  return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
+}
+
+static double verify__lengths(double radii, const nsvcd_verify_place *a,
+                              const nsvcd_verify_place *b) {
+  for (int i = 0; i < 3; i++) radii += fabs(a->at[i]) + fabs(b->at[i]);
+  return radii;
+}
+
+// ---- rays
+
+// A vertex of one mover in the frame of another, in units of its scale.
+static void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
+                         const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at,
+                         uint32_t vertex, double *out) {
+  const float *x = of->mesh->positions + 3 * (size_t)vertex;
+  double world[3];
+  for (int i = 0; i < 3; i++) {
+    const double *row = of_at->turn + 3 * i;
+    world[i] = row[0] * (double)x[0] + row[1] * (double)x[1] + row[2] * (double)x[2];
+    world[i] = of->scale * world[i] + (of_at->at[i] - by_at->at[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    const double *column = by_at->turn + i;
+    out[i] = column[0] * world[0] + column[3] * world[1] + column[6] * world[2];
+    out[i] /= by->scale;
+  }
+}
+
+// Does a ray from y along d leave (1) or enter (-1) through a triangle, or miss it (0)? 2: that is
+// not clear. No length is more than `lengths`.
+static int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
+                           const double *d, double lengths) {
+  const double area = lengths * lengths * sqrt(verify__dot(d, d));
+  double p[3][3], cross[3], ahead = -HUGE_VAL, least = HUGE_VAL, most = -HUGE_VAL;
+  for (uint32_t k = 0; k < 3; k++) {
+    for (int i = 0; i < 3; i++) p[k][i] = (double)verify__corner(m, triangle, k)[i] - y[i];
+    ahead = fmax(ahead, verify__dot(p[k], d));
+  }
+  if (ahead * lengths < -VERIFY__MARGIN * area) return 0;
+  for (int k = 2; k >= 0; k--) {
+    const double *u = p[k];
+    const double *v = p[(k + 1) % 3];
+    for (int i = 0; i < 3; i++)
+      cross[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+    least = fmin(least, verify__dot(d, cross));
+    most = fmax(most, verify__dot(d, cross));
+  }
+  // sides of its edges: it passes them on both sides, or on one; then, on which side of it is y?
+  const double volume = verify__dot(p[2], cross);
+  if (least < -VERIFY__MARGIN * area && most > VERIFY__MARGIN * area) return 0;
+  if (!(least > VERIFY__MARGIN * area || most < -VERIFY__MARGIN * area)) return 2;
+  if (!(fabs(volume) > VERIFY__MARGIN * lengths * lengths * lengths)) return 2;
+  if ((volume > 0) != (most > 0)) return 0;
+  return most > 0 ? 1 : -1;
+}
+
+// Sums what a ray of the last normal crosses of a mesh, by components. 0: it is not clear.
+static int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, const double *y,
+                        double lengths) {
+  if (!(verify__dot(y, y) < HUGE_VAL)) return 0;
+  memset(m->sums, 0, m->vertices * sizeof *m->sums);
+  for (size_t t = 0; t < m->triangles; t++) {
+    const int crossed = verify__crosses(m, (uint32_t)t, y, r->normals[0], lengths);
+    if (crossed == 2) return 0;
+    m->sums[m->part[m->indices[3 * t]]] += crossed;
+  }
+  return 1;
+}
+
+static double verify__most_seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
+                                const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at) {
+  const nsvcd_verify_node root = {0, 0, 2};
+  const double radii = verify__radius(of, &root) + verify__radius(by, &root);
+  return verify__lengths(radii, of_at, by_at) / by->scale;
+}
+
+// Rays from all components of one mover at t = 0.
+static const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *of,
+                                   const nsvcd_verify_mover *by) {
+  nsvcd_verify_place of_at, by_at;
+  of->place(of->motion, 0, &of_at);
+  by->place(by->motion, 0, &by_at);
+  const double lengths = verify__most_seen(of, &of_at, by, &by_at);
+  for (uint32_t v = 0; v < of->mesh->vertices; v++) {
+    double y[3];
+    if (of->mesh->part[v] != v) continue;
+    if (!verify__read(r, 1)) verify__read_normal(r);
+    if (r->at > r->bits) return "it ends early";
+    verify__seen(of, &of_at, by, &by_at, v, y);
+    if (!verify__cast(r, by->mesh, y, lengths)) return "a ray passes too near to an edge";
+    for (size_t i = 0; i < by->mesh->vertices; i++) {
+      if (by->mesh->sums[i] != 0) return "a ray does not show that a component is outside";
+    }
+  }
+  return NULL;
+}
+
+// ---- what meets, and what is inside
+
+// What is named: two movers where they are at a time.
+typedef struct verify__pair {
+  const nsvcd_verify_mover *mover[2];
+  nsvcd_verify_place at[2];
+  uint32_t triangle[2];
+} verify__pair;
+
+// A corner of the triangle of one of them, in the frame of another.
+static void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t k, double *out) {
+  const uint32_t vertex = p->mover[of]->mesh->indices[3 * (size_t)p->triangle[of] + k];
+  verify__seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by], vertex, out);
+}
+
+static double verify__most_of(const verify__pair *p, int of, int by) {
+  return verify__most_seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
+}
+
+// Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
+// both of its ends to the other end.
+static const char *verify__pierced(verify__reader *r, const verify__pair *p) {
+  const int of = (int)verify__read(r, 1);
+  const uint32_t edge = verify__read(r, 2);
+  const nsvcd_verify_mesh *m = p->mover[!of]->mesh;
+  const double lengths = verify__most_of(p, of, !of);
+  double from[3], to[3], there[3], back[3];
+  if (edge == 3) return "it names an edge that there is not";
+  verify__corner_seen(p, of, !of, edge, from);
+  verify__corner_seen(p, of, !of, (edge + 1) % 3, to);
+  for (int i = 0; i < 3; i++) {
+    there[i] = to[i] - from[i];
+    back[i] = -there[i];
+  }
+  const int first = verify__crosses(m, p->triangle[!of], from, there, lengths);
+  const int second = verify__crosses(m, p->triangle[!of], to, back, lengths);
+  const int clear = first == 1 || first == -1;
+  return clear && second == -first ? NULL : "an edge does not pass through a triangle";
+}
+
+// A point of each triangle, by two numbers of 16 bits: shares of the way from its first corner to
+// the second, and from there to the third.
+static const char *verify__near(verify__reader *r, const verify__pair *p) {
+  double apart[3] = {0, 0, 0};
+  for (int k = 0; k < 2; k++) {
+    const double v = (double)verify__read(r, 16) / 65535;
+    const double w = (double)verify__read(r, 16) / 65535;
+    const double sign = k ? -1 : 1;
+    const double weight[3] = {sign * (1 - v), sign * v * (1 - w), sign * v * w};
+    for (uint32_t c = 0; c < 3; c++) {
+      double x[3];
+      verify__corner_seen(p, k, 1, c, x);
+      for (int i = 0; i < 3; i++) apart[i] += weight[c] * x[i];
+    }
+  }
+  const double distance =
+      sqrt(verify__dot(apart, apart)) + VERIFY__MARGIN * verify__most_of(p, 0, 1);
+  return p->mover[1]->scale * distance < r->clearance ? NULL : "two points are not as near as that";
+}
+
+// How often is there an edge from one vertex to another? In a leaf about both.
+static int verify__count_edges(const nsvcd_verify_mesh *m, uint32_t from, uint32_t to) {
+  const float *x = m->positions + 3 * (size_t)from;
+  nsvcd_verify_node stack[40] = {{0, 0, (uint32_t)m->triangles}};
+  size_t height = 1;
+  int count = 0;
+  while (height > 0) {
+    const nsvcd_verify_node node = stack[--height];
+    const float *low = m->boxes + 6 * (size_t)node.box;
+    const uint32_t *corner = m->indices + 3 * (size_t)m->order[node.first];
+    int holds = 1;
+    for (int i = 0; i < 3; i++) holds = holds && low[i] <= x[i] && x[i] <= low[i + 3];
+    if (!holds) continue;
+    if (node.count > 1) {
+      verify__children(&node, stack + height);
+      height += 2;
+    }
+    for (int k = 0; k < 3 && node.count == 1; k++)
+      count += corner[k] == from && corner[(k + 1) % 3] == to;
+  }
+  return count;
+}
+
+// Whose corner, which, and a ray. Only components count of which each edge has as many reverses.
+static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
+  out->b = verify__read(r, 1);
+  out->a = verify__read(r, 32);
+  verify__read_normal(r);
+  const nsvcd_verify_mover *of = out->b ? r->b : r->a;
+  const nsvcd_verify_mover *by = out->b ? r->a : r->b;
+  const nsvcd_verify_mesh *m = by->mesh;
+  nsvcd_verify_place of_at, by_at;
+  double y[3];
+  int64_t sum = 0;
+  if (out->a >= of->mesh->vertices || of->mesh->part[out->a] == NSVCD_VERIFY_NONE)
+    return "it names a corner that there is not";
+  of->place(of->motion, out->time, &of_at);
+  by->place(by->motion, out->time, &by_at);
+  verify__seen(of, &of_at, by, &by_at, out->a, y);
+  if (!verify__cast(r, m, y, verify__most_seen(of, &of_at, by, &by_at)))
+    return "a ray passes too near to an edge";
+  for (size_t i = 0; i < 3 * m->triangles; i++) {
+    const uint32_t from = m->indices[i];
+    const uint32_t to = m->indices[i % 3 == 2 ? i - 2 : i + 1];
+    if (m->sums[m->part[from]] == 0) continue;
+    if (verify__count_edges(m, from, to) != verify__count_edges(m, to, from))
+      m->sums[m->part[from]] = 0;
+  }
+  for (size_t v = 0; v < m->vertices; v++) sum += m->sums[v];
+  return sum != 0 ? NULL : "a ray does not show that a corner is inside";
+}
+
+// HIT, NEAR and INSIDE: when, and what.
+static const char *verify__meeting(verify__reader *r, nsvcd_verify_report *out) {
+  verify__pair p;
+  out->time = (double)verify__read(r, 32) / 4294967295.0;
+  if (out->kind == NSVCD_VERIFY_INSIDE) return verify__inside(r, out);
+  out->a = p.triangle[0] = verify__read(r, 32);
+  out->b = p.triangle[1] = verify__read(r, 32);
+  p.mover[0] = r->a;
+  p.mover[1] = r->b;
+  for (int k = 0; k < 2; k++) {
+    if (p.triangle[k] >= p.mover[k]->mesh->triangles)
+      return "it names a triangle that there is not";
+    p.mover[k]->place(p.mover[k]->motion, out->time, &p.at[k]);
+  }
+  return out->kind == NSVCD_VERIFY_HIT ? verify__pierced(r, &p) : verify__near(r, &p);
+}
+#endif  // NSVCD_VERIFY_RAYS_H

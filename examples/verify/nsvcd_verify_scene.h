@@ -1,0 +1,310 @@
+// nsvcd_verify_scene.h - what nsvcd_verify.h speaks of: meshes with their trees, and motions.
+#ifndef NSVCD_VERIFY_SCENE_H
+#define NSVCD_VERIFY_SCENE_H
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#define NSVCD_VERIFY_NONE 0xffffffffu
+
+// A mesh, its components (triangles joined by corners), and a tree over its triangles. A node is a
+// run of triangles with a box about them. The root has all; a node of n > 1 triangles is cut along
+// the axis along which the sums of their corners differ most (of equals the first): its left child
+// has the n / 2 triangles with the least sums (of equals the lower numbers), its right child the
+// others.
+typedef struct nsvcd_verify_mesh {
+  const float *positions;   // (vertices, 3) metres
+  const uint32_t *indices;  // (triangles, 3), counter-clockwise from outside
+  size_t vertices, triangles;
+  uint32_t *order;  // (triangles): the leaves, from left to right
+  float *boxes;     // (2 triangles - 1, 6) low, high: of a node, of its left tree, its right tree
+  uint32_t *part;   // (vertices): the lowest vertex of the component; NONE: no triangle has it
+  int32_t *sums;    // (vertices): of each component, outwards less inwards along a ray
+  uint32_t digest;
+} nsvcd_verify_mesh;
+
+typedef struct nsvcd_verify_node {
+  uint32_t box, first, count;  // a row of boxes; of order
+} nsvcd_verify_node;
+
+// Takes a corner x to turn scale x + at.
+typedef struct nsvcd_verify_place {
+  double turn[9], at[3];
+} nsvcd_verify_place;
+
+// A mesh that moves. A motion is three functions: where it is at a time; the next knot (a time at
+// which it has a corner) after a time before 1; and by how much, at most, a point at r metres from
+// the body's origin leaves its chord between two times without a knot between: stray[0] + stray[1]
+// r.
+typedef struct nsvcd_verify_mover {
+  const nsvcd_verify_mesh *mesh;
+  double scale;
+  void (*place)(const void *motion, double t, nsvcd_verify_place *place);
+  double (*next)(const void *motion, double t);
+  void (*stray)(const void *motion, double t0, double t1, double *stray);
+  const void *motion;
+  uint32_t digest;  // of scale and motion
+} nsvcd_verify_mover;
+
+// Between two poses the position is linear and the rotation a slerp, the shorter way round.
+typedef struct nsvcd_verify_path {
+  const float *poses;  // (count, 7): x y z, and a unit quaternion x y z w
+  const float *times;  // (count) from 0 to 1, rising; NULL: uniform
+  size_t count;
+} nsvcd_verify_path;
+
+static uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    uint32_t word;
+    memcpy(&word, (const char *)words + 4 * i, 4);
+    hash = (hash ^ word) * 0x9e3779b1u;
+    hash ^= hash >> 15;
+  }
+  return hash;
+}
+
+// ---- meshes
+
+static const float *verify__corner(const nsvcd_verify_mesh *m, uint32_t triangle, uint32_t k) {
+  return m->positions + 3 * (size_t)m->indices[3 * (size_t)triangle + k];
+}
+
+static uint32_t verify__root(uint32_t *part, uint32_t v) {
+  while (part[v] != v) v = part[v] = part[part[v]];
+  return v;
+}
+
+static void verify__join(nsvcd_verify_mesh *m) {
+  const size_t corners = 3 * m->triangles;
+  for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
+  for (size_t i = 0; i < corners; i++) m->part[m->indices[i]] = m->indices[i];
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t x = verify__root(m->part, m->indices[i]);
+    const uint32_t y = verify__root(m->part, m->indices[i / 3 * 3]);
+    m->part[x > y ? x : y] = x > y ? y : x;
+  }
+  for (size_t i = 0; i < corners; i++)
+    m->part[m->indices[i]] = verify__root(m->part, m->indices[i]);
+}
+
+static double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
+  const double sum =
+      (double)verify__corner(m, triangle, 0)[axis] + (double)verify__corner(m, triangle, 1)[axis];
+  return sum + (double)verify__corner(m, triangle, 2)[axis];
+}
+
+static int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
+  const double x = verify__sum(m, i, axis);
+  const double y = verify__sum(m, j, axis);
+  return x < y || (!(y < x) && i < j);
+}
+
+// Makes a node's box, and cuts it: puts the triangles of its left child first (Hoare's selection).
+static void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
+  uint32_t *order = m->order + node->first;
+  float *low = m->boxes + 6 * (size_t)node->box;
+  float *high = low + 3;
+  const int64_t half = node->count / 2;
+  double widest = -1;
+  int axis = 0;
+  for (int k = 0; k < 3; k++) {
+    double least = HUGE_VAL;
+    double most = -HUGE_VAL;
+    low[k] = high[k] = verify__corner(m, order[0], 0)[k];
+    for (uint32_t i = 0; i < 3 * node->count; i++) {
+      const float x = verify__corner(m, order[i / 3], i % 3)[k];
+      low[k] = fminf(low[k], x);
+      high[k] = fmaxf(high[k], x);
+      least = fmin(least, verify__sum(m, order[i / 3], k));
+      most = fmax(most, verify__sum(m, order[i / 3], k));
+    }
+    if (most - least > widest) axis = k;
+    widest = fmax(widest, most - least);
+  }
+  for (int64_t from = 0, to = (int64_t)node->count - 1; from < to;) {
+    const uint32_t pivot = order[(from + to) / 2];
+    int64_t i = from;
+    int64_t j = to;
+    while (i <= j) {
+      while (verify__before(m, order[i], pivot, axis)) i++;
+      while (verify__before(m, pivot, order[j], axis)) j--;
+      if (i > j) break;
+      const uint32_t swapped = order[i];
+      order[i++] = order[j];
+      order[j--] = swapped;
+    }
+    if (half > j) from = i;
+    if (half < i) to = j;
+  }
+}
+
+static void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *child) {
+  const uint32_t half = node->count / 2;
+  const nsvcd_verify_node left = {node->box + 1, node->first, half};
+  const nsvcd_verify_node right = {node->box + 2 * half, node->first + half, node->count - half};
+  child[0] = left;
+  child[1] = right;
+}
+
+// Bytes of the memory that nsvcd_verify_mesh_init takes.
+static size_t nsvcd_verify_mesh_size(size_t vertices, size_t triangles) {
+  return 52 * triangles + 8 * vertices;
+}
+
+// Checks a mesh and builds its tree, in memory aligned to 4 bytes that stays, as the arrays do.
+// Returns why not, or NULL. Takes its triangles times the logarithm of their number.
+static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertices,
+                                          const uint32_t *indices, size_t triangles, void *memory,
+                                          nsvcd_verify_mesh *m) {
+  nsvcd_verify_node stack[40];
+  size_t height = 1;
+  if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000)
+    return "a mesh has no triangles, or too many";
+  for (size_t i = 0; i < 3 * triangles; i++) {
+    if (indices[i] >= vertices) return "a mesh has an index out of range";
+  }
+  for (size_t i = 0; i < 3 * vertices; i++) {
+    if (!(fabsf(positions[i]) <= 1e6f)) return "a mesh has a coordinate out of range";
+  }
+  m->positions = positions;
+  m->indices = indices;
+  m->vertices = vertices;
+  m->triangles = triangles;
+  m->boxes = (float *)memory;
+  m->order = (uint32_t *)(m->boxes + 12 * triangles);
+  m->part = m->order + triangles;
+  m->sums = (int32_t *)(m->part + vertices);
+  m->digest = verify__hash((uint32_t)vertices, positions, 3 * vertices);
+  m->digest = verify__hash(m->digest, indices, 3 * triangles);
+  verify__join(m);
+  for (size_t i = 0; i < triangles; i++) m->order[i] = (uint32_t)i;
+  stack[0].box = stack[0].first = 0;
+  stack[0].count = (uint32_t)triangles;
+  while (height > 0) {
+    const nsvcd_verify_node node = stack[--height];
+    verify__cut(m, &node);
+    if (node.count == 1) continue;
+    verify__children(&node, stack + height);
+    height += 2;
+  }
+  return NULL;
+}
+
+// ---- paths
+
+static double verify__knot(const nsvcd_verify_path *p, size_t k) {
+  return p->times ? (double)p->times[k] : (double)k / (double)(p->count - 1);
+}
+
+// The last pose, but for the last one, that is not after a time.
+static size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
+  size_t low = 0;
+  size_t high = p->count - 1;
+  while (high > low + 1) {
+    const size_t middle = (low + high) / 2;
+    if (verify__knot(p, middle) > t)
+      high = middle;
+    else
+      low = middle;
+  }
+  return low;
+}
+
+// The share of the way from pose k to the next one between two times, which may be t0 = knot k.
+static double verify__share(const nsvcd_verify_path *p, size_t k, double t0, double t1) {
+  return p->count > 1 ? (t1 - t0) / (verify__knot(p, k + 1) - verify__knot(p, k)) : 0;
+}
+
+// The quaternions of pose k and the next one, unit, on the same side, and the angle of the turn.
+static double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, double *to) {
+  const float *a = p->poses + 7 * k + 3;
+  const float *b = p->count > 1 ? a + 7 : a;
+  double dot = 0, square_a = 0, square_b = 0, apart = 0, together = 0;
+  for (int i = 0; i < 4; i++) {
+    dot += (double)a[i] * (double)b[i];
+    square_a += (double)a[i] * (double)a[i];
+    square_b += (double)b[i] * (double)b[i];
+  }
+  for (int i = 0; i < 4; i++) {
+    from[i] = (double)a[i] / sqrt(square_a);
+    to[i] = (double)b[i] / (dot < 0 ? -sqrt(square_b) : sqrt(square_b));
+    apart += (to[i] - from[i]) * (to[i] - from[i]);
+    together += (to[i] + from[i]) * (to[i] + from[i]);
+  }
+  return 4 * atan2(sqrt(apart), sqrt(together));
+}
+
+static void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
+  const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
+  const size_t k = verify__pose_before(p, t);
+  const double u = verify__share(p, k, p->count > 1 ? verify__knot(p, k) : 0, t);
+  const float *a = p->poses + 7 * k;
+  const float *b = p->count > 1 ? a + 7 : a;
+  double q[4], to[4], square = 0;
+  const double half = 0.5 * verify__turn(p, k, q, to);
+  const int turns = half > 1e-7;  // below, a line is as good
+  for (int i = 0; i < 3; i++) out->at[i] = (1 - u) * (double)a[i] + u * (double)b[i];
+  for (int i = 0; i < 4; i++) {
+    q[i] = turns ? sin((1 - u) * half) * q[i] + sin(u * half) * to[i] : (1 - u) * q[i] + u * to[i];
+    square += q[i] * q[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3;
+    const int l = (i + 2) % 3;
+    out->turn[4 * i] = 1 - 2 * (q[j] * q[j] + q[l] * q[l]) / square;
+    out->turn[3 * i + j] = 2 * (q[i] * q[j] - q[l] * q[3]) / square;
+    out->turn[3 * i + l] = 2 * (q[i] * q[l] + q[j] * q[3]) / square;
+  }
+}
+
+static double verify__path_next(const void *motion, double t) {
+  const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
+  return p->count > 1 ? verify__knot(p, verify__pose_before(p, t) + 1) : 1;
+}
+
+// At a constant rate a turn by h has a second derivative of h^2 r, and a stray of an eighth of it.
+static void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
+  const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
+  const size_t k = verify__pose_before(p, 0.5 * (t0 + t1));
+  double from[4], to[4];
+  const double h = verify__share(p, k, t0, t1) * verify__turn(p, k, from, to);
+  stray[0] = 0;
+  stray[1] = 0.1250001 * h * h;
+}
+
+// Makes a mover of a mesh, a scale and a path, which stay. Returns why not, or NULL. A turn by 180
+// degrees has no shorter way round.
+static const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, float scale,
+                                          const nsvcd_verify_path *p, nsvcd_verify_mover *mover) {
+  const int timed = p->times && p->count > 1;
+  if (p->count < 1 || p->count > 65536) return "a path has no poses, or too many";
+  if (!(scale >= 1e-6f && scale <= 1e6f)) return "a scale is out of range";
+  for (size_t i = 0; i < 7 * p->count; i++) {
+    if (!(fabsf(p->poses[i]) <= 1e6f)) return "a pose is out of range";
+  }
+  for (size_t k = 0; k < p->count; k++) {
+    const float *q = p->poses + 7 * k + 3;
+    double square = 0, dot = k > 0 ? 0 : 1;
+    for (int i = 0; i < 4; i++) {
+      square += (double)q[i] * (double)q[i];
+      if (k > 0) dot += (double)q[i] * (double)q[i - 7];
+    }
+    if (!(fabs(square - 1) < 2.1e-4)) return "a quaternion is not of unit length";
+    if (!(fabs(dot) > 1e-6)) return "a turn is one of 180 degrees";
+    if (timed && k > 0 && !((double)p->times[k] - (double)p->times[k - 1] >= 0.99e-7))
+      return "times do not rise";
+  }
+  if (timed && (p->times[0] != 0 || p->times[p->count - 1] != 1)) return "times are not 0 to 1";
+  mover->mesh = mesh;
+  mover->scale = (double)scale;
+  mover->place = verify__path_place;
+  mover->next = verify__path_next;
+  mover->stray = verify__path_stray;
+  mover->motion = p;
+  mover->digest = verify__hash((uint32_t)p->count, p->poses, 7 * p->count);
+  mover->digest = verify__hash(mover->digest, &scale, 1);
+  if (timed) mover->digest = verify__hash(mover->digest, p->times, p->count);
+  return NULL;
+}
+#endif  // NSVCD_VERIFY_SCENE_H

@@ -1,0 +1,437 @@
+// In: a question and two trees. Out: a certificate, or none. The form of its bits:
+//
+//   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
+//             the clearance (16)
+//   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
+//             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
+//             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
+//             b, at t = 0: 1 along the last normal, or 0, and a normal
+//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
+//             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
+//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
+//             zeros a new one: 0, two numbers of 8 bits; or 1, two of 16
+#pragma once
+#include "../ground/random.h"
+#include "rays.h"
+
+#ifndef NSVCD_NO_CERTIFICATES
+#define NSVCD__WALK_STACK 128  // nodes that wait
+#define NSVCD__NO_EDGE 3u
+#define NSVCD__SHORTEST_STRETCH 1e-12
+#define NSVCD__REMEMBERED 8  // normals
+#define NSVCD__RAYS 64       // that are tried for a part
+// of the sum of both nodes' lengths: where they go farther the time is halved
+#define NSVCD__FAR_TO_GO 0.35
+
+enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
+
+typedef struct nsvcd__visit {
+  nsvcd__nodes nodes;
+  double t0, t1;
+} nsvcd__visit;
+
+typedef struct nsvcd__certifier {
+  nsvcd__rider a, b;
+  nsvcd__stretch stretch;
+  // the last ones, the last first
+  nsvcd__d3 normals[NSVCD__REMEMBERED];
+  uint8_t *bytes;
+  size_t capacity, bits;
+  uint32_t digest;  // of motions, scales and the clearance
+  int apart;        // 1: the roots have been parted
+  int32_t *sums;    // (vertices)
+  nsvcd_certificate *made;
+} nsvcd__certifier;
+
+// ---- writing
+
+static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
+  while (count-- > 0) {
+    const size_t at = c->bits / 8;
+    if (at < c->capacity && c->bits % 8 == 0) c->bytes[at] = 0;
+    if (at < c->capacity && (value >> count & 1))
+      c->bytes[at] = (uint8_t)(c->bytes[at] | 0x80u >> c->bits % 8);
+    c->bits++;
+  }
+}
+
+// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes the
+// last.
+static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
+                                const nsvcd__written_normal *normal) {
+  const int known = k < NSVCD__REMEMBERED;
+  const nsvcd__d3 along = known ? c->normals[k] : normal->along;
+  nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
+  if (!known) {
+    nsvcd__write_bits(c, normal->bits == 16, 1);
+    nsvcd__write_bits(c, normal->x, normal->bits);
+    nsvcd__write_bits(c, normal->y, normal->bits);
+    k--;
+  }
+  for (; k > 0; k--) c->normals[k] = c->normals[k - 1];
+  c->normals[0] = along;
+}
+
+static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
+  const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
+  c->bits = 0;
+  nsvcd__write_bits(c, 1, 6);
+  nsvcd__write_bits(c, kind, 2);
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t half = digests[k] ^ digests[k] >> 16;
+    nsvcd__write_bits(c, k < 2 ? (half ^ half >> 8) & 0xff : half & 0xffff, k < 2 ? 8 : 16);
+  }
+}
+
+// A time as it is written: the nearest.
+static uint32_t nsvcd__time_code(double t) {
+  return (uint32_t)(nsvcd__max(0, nsvcd__min(t, 1)) * 4294967295.0 + 0.5);
+}
+static double nsvcd__coded_time(uint32_t code) {
+  return (double)code / 4294967295.0;
+}
+
+// ---- what meets
+
+// A triangle's corner k in another body's frame.
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                    uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
+  return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
+}
+
+// Does an edge of a triangle of one pass through one of the other? Which.
+static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                     const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                     uint32_t own, uint32_t other) {
+  const double lengths = nsvcd__lengths_seen(of, of_at, by, by_at);
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
+    const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
+    const nsvcd__d3 along = nsvcd__d3_sub(to, from);
+    const int there = nsvcd__ray_passes(by->tree, other, from, along, lengths);
+    if (there != 1 && there != -1) continue;
+    const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+    if (nsvcd__ray_passes(by->tree, other, to, back, lengths) == -there) return k;
+  }
+  return NSVCD__NO_EDGE;
+}
+
+// The points of two triangles that are nearest to each other, by Gilbert's iteration with the
+// corners' weights. Good to a hundredth of their distance, or in 200 steps as far as they lead.
+static void nsvcd__nearest_weights(const nsvcd__d3 *a, const nsvcd__d3 *b, double *of_a,
+                                   double *of_b) {
+  for (size_t k = 0; k < 3; k++) of_a[k] = of_b[k] = k == 0;
+  for (int step = 0; step < 200; step++) {
+    nsvcd__d3 v = nsvcd__d3_of(0, 0, 0);
+    size_t i = 0;
+    size_t j = 0;
+    for (size_t k = 0; k < 3; k++)
+      v = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], v));
+    for (size_t k = 1; k < 3; k++) {
+      if (nsvcd__d3_dot(v, a[k]) < nsvcd__d3_dot(v, a[i])) i = k;
+      if (nsvcd__d3_dot(v, b[k]) > nsvcd__d3_dot(v, b[j])) j = k;
+    }
+    const nsvcd__d3 to = nsvcd__d3_sub(nsvcd__d3_sub(a[i], b[j]), v);
+    const double square = nsvcd__d3_dot(to, to);
+    const double down = -nsvcd__d3_dot(v, to);
+    if (!(down > 0.01 * nsvcd__d3_dot(v, v)) || !(square > 0)) return;
+    const double share = nsvcd__min(1, down / square);
+    for (size_t k = 0; k < 3; k++) {
+      of_a[k] += share * ((k == i) - of_a[k]);
+      of_b[k] += share * ((k == j) - of_b[k]);
+    }
+  }
+}
+
+// A point of a triangle as it is written: shares of the way from the first corner to the second, and
+// from there to the third. Its weights become those that are read.
+static void nsvcd__point_code(double *weights, uint32_t *code) {
+  const double beyond = weights[1] + weights[2];
+  const double within = beyond > 0 ? weights[2] / beyond : 0;
+  const double v = floor(65535 * nsvcd__min(1, beyond) + 0.5);
+  const double w = floor(65535 * nsvcd__min(1, within) + 0.5);
+  code[0] = (uint32_t)v;
+  code[1] = (uint32_t)w;
+  weights[0] = 1 - v / 65535;
+  weights[1] = v / 65535 * (1 - w / 65535);
+  weights[2] = v / 65535 * (w / 65535);
+}
+
+// Are two triangles nearer to each other than the clearance? At points that are written.
+static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
+                          uint32_t tb, uint32_t *codes) {
+  nsvcd__d3 a[3], b[3];
+  double of_a[3], of_b[3];
+  nsvcd__d3 apart = nsvcd__d3_of(0, 0, 0);
+  const double lengths = nsvcd__lengths_seen(&c->a, &at->a, &c->b, &at->b);
+  for (uint32_t k = 0; k < 3; k++) {
+    a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
+    b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
+  }
+  nsvcd__nearest_weights(a, b, of_a, of_b);
+  nsvcd__point_code(of_a, codes);
+  nsvcd__point_code(of_b, codes + 2);
+  for (size_t k = 0; k < 3; k++)
+    apart = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], apart));
+  const double distance = nsvcd__d3_length(apart) + NSVCD__CERTIFIED_MARGIN * lengths;
+  return c->b.scale * distance < c->stretch.clearance;
+}
+
+// Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
+static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
+  const uint32_t code = nsvcd__time_code(when);
+  const double t = nsvcd__coded_time(code);
+  const nsvcd__instant at = nsvcd__instant_at(&c->a, &c->b, t);
+  uint32_t points[4];
+  uint32_t whose = 0;
+  uint32_t edge = nsvcd__piercing_edge(&c->a, &at.a, &c->b, &at.b, ta, tb);
+  if (edge == NSVCD__NO_EDGE) {
+    whose = 1;
+    edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
+  }
+  const int pierced = edge != NSVCD__NO_EDGE;
+  if (!pierced && !(c->stretch.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+    return 0;
+  nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
+  nsvcd__write_bits(c, code, 32);
+  nsvcd__write_bits(c, ta, 32);
+  nsvcd__write_bits(c, tb, 32);
+  if (pierced) {
+    nsvcd__write_bits(c, whose, 1);
+    nsvcd__write_bits(c, edge, 2);
+  }
+  for (size_t k = 0; k < 4 && !pierced; k++) nsvcd__write_bits(c, points[k], 16);
+  c->made->verdict = NSVCD_HIT;
+  c->made->time = t;
+  return 1;
+}
+
+// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
+                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  if (answer->verdict != NSVCD_HIT || !named || !(told->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  for (double later = 1e-7; later < 1; later *= 2) {
+    for (int k = 0; k < 2; k++) {
+      const double when = (double)told->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+    }
+  }
+  return 0;
+}
+
+// ---- the walk
+
+// The longest side of a node's box.
+static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
+  return rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z);
+}
+
+static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
+                                    const nsvcd__posed *at) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
+  return nsvcd__turned_by(rider, at, nsvcd__d3_scale(sum, 0.5));
+}
+
+// The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
+static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes) {
+  double way = 0;
+  nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const nsvcd__d3 a = nsvcd__node_middle(s->a, &nodes->a, &at->a);
+    const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
+    const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
+    const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
+    if (i > 0) way += sqrt(nsvcd__d3_distance2(now, last));
+    last = now;
+  }
+  return way;
+}
+
+// Puts two visits in place of one: of the children of the node whose box is longer, or of both
+// halves of the time. The one that comes first is the later one on the stack.
+static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
+  nsvcd__nodes *nodes = &v->nodes;
+  const double side_a = nsvcd__node_side(&c->a, &nodes->a);
+  const double side_b = nsvcd__node_side(&c->b, &nodes->b);
+  const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
+  const int halves =
+      leaves || nsvcd__way_apart(&c->stretch, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+  v[1] = *v;
+  nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
+  if (halves) {
+    v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
+    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_STRETCH;
+  }
+  if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
+    nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
+  else
+    nsvcd__children(&nodes->b, &v[1].nodes.b, &nodes->b);
+  return 1;
+}
+
+// FREE, HIT, or UNDECIDED.
+static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
+  nsvcd__visit stack[NSVCD__WALK_STACK];
+  size_t height = 1;
+  memset(stack, 0, sizeof *stack);
+  stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
+  stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
+  stack->t1 = 1;
+  nsvcd__write_head(c, NSVCD__PROVES_FREE);
+  while (height > 0) {
+    nsvcd__visit *v = &stack[height - 1];
+    const nsvcd__nodes *nodes = &v->nodes;
+    nsvcd__written_normal normal;
+    if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
+    nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
+    size_t k = 0;
+    while (k < NSVCD__REMEMBERED &&
+           !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
+      k++;
+    if (k < NSVCD__REMEMBERED ||
+        nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
+      nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
+      if (k > 0) nsvcd__write_normal(c, k, &normal);
+      if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
+      height--;
+      continue;
+    }
+    if (nodes->a.count == 1 && nodes->b.count == 1) {
+      const uint32_t ta = c->a.tree->order[nodes->a.first];
+      const uint32_t tb = c->b.tree->order[nodes->b.first];
+      if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
+    }
+    if (height == NSVCD__WALK_STACK || !nsvcd__divide_visit(c, v)) return NSVCD_UNDECIDED;
+    height++;
+  }
+  return NSVCD_FREE;
+}
+
+// ---- what is inside
+
+// A direction to try: along the axes, then anywhere.
+static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
+  nsvcd__d3 along = nsvcd__d3_of(0, 0, 0);
+  nsvcd__d3_set_axis(&along, k % 3, k < 3 ? 1 : -1);
+  // a little off, so that it does not run along faces that are parallel to an axis
+  along = nsvcd__d3_add(along, nsvcd__d3_of(0.05, 0.07, 0.11));
+  if (k >= 6) {
+    along.x = nsvcd__random(random) - 0.5;
+    along.y = nsvcd__random(random) - 0.5;
+    along.z = nsvcd__random(random) - 0.5;
+  }
+  return nsvcd__normal_of(along, 8);
+}
+
+// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT: one
+// shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
+  const nsvcd__rider *of = whose ? &c->b : &c->a;
+  const nsvcd__rider *by = whose ? &c->a : &c->b;
+  const nsvcd__posed of_at = of->place(of->motion, 0);
+  const nsvcd__posed by_at = by->place(by->motion, 0);
+  const double lengths = nsvcd__lengths_seen(of, &of_at, by, &by_at);
+  uint64_t random = 1;
+  for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
+    if (of->tree->part[v] != v) continue;
+    const nsvcd__d3 from = nsvcd__vertex_seen(of, &of_at, by, &by_at, v);
+    int shown = 0;
+    for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
+      const int same = k == 0;
+      const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
+      const nsvcd__d3 along = same ? c->normals[0] : ray.along;
+      if (!nsvcd__cast(by->tree, from, along, lengths, c->sums)) continue;
+      shown = 1;
+      for (size_t i = 0; i < by->tree->mesh.vertex_count; i++) shown &= c->sums[i] == 0;
+      if (shown) {
+        nsvcd__write_bits(c, (uint32_t)same, 1);
+        if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+      } else if (!same && nsvcd__sum_of_closed(by->tree, c->sums) != 0) {
+        nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
+        nsvcd__write_bits(c, nsvcd__time_code(0), 32);
+        nsvcd__write_bits(c, (uint32_t)whose, 1);
+        nsvcd__write_bits(c, v, 32);
+        nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+        c->made->inside = 1;
+        return NSVCD_HIT;
+      }
+    }
+    if (!shown) return NSVCD_UNDECIDED;
+  }
+  return NSVCD_FREE;
+}
+
+// ---- nsvcd_certify
+
+// Lays the workspace out at base, or, where that is NULL, only counts.
+static uint64_t nsvcd__certifier_layout(const nsvcd_question *question, const nsvcd_tree *a,
+                                        const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
+  uint64_t used = 0;
+  const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
+                                                                      : b->mesh.vertex_count;
+  c->stretch.capacity = nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
+  void *instants = nsvcd__take(base, &used, c->stretch.capacity, sizeof(nsvcd__instant));
+  c->stretch.instants = (nsvcd__instant *)instants;
+  c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
+  return used;
+}
+
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b) {
+  nsvcd__certifier counted;
+  if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
+      nsvcd__poses_check(&question->b))
+    return 0;
+  const uint64_t size = nsvcd__certifier_layout(question, a, b, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
+  nsvcd_mover movers[2];
+  nsvcd__certifier c;
+  nsvcd_certificate out;
+  if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
+  const float clearance = question->clearance;
+  memset(&c, 0, sizeof c);
+  memset(&out, 0, sizeof out);
+  nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
+  if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
+  if (result) return result;
+  if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_TOLERANCE;
+  const uint64_t needed = nsvcd__certifier_layout(question, a, b, (char *)workspace, &c);
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  c.stretch.a = &c.a;
+  c.stretch.b = &c.b;
+  c.stretch.clearance = (double)clearance;
+  c.bytes = bytes;
+  c.capacity = capacity;
+  c.digest = nsvcd__digest(c.a.digest + 31 * c.b.digest, &clearance, 1);
+  c.made = &out;
+  const int told = o->answer && nsvcd__meet_as_told(&c, o->answer);
+  if (!told) {
+    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c.bits + 7) / 8;
+  *made = out;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES

@@ -1,0 +1,155 @@
+// In: a mesh that moves. Out: where it is at a time, and by how much a point leaves the chord
+// between its places at two times. In double, and with no more of the motion floor than what makes
+// poses valid: a certificate is a second opinion.
+#pragma once
+#include "../motion/motion.h"
+#include "tree.h"
+
+#ifndef NSVCD_NO_CERTIFICATES
+// Takes a corner x to turn scale x + at.
+typedef struct nsvcd__posed {
+  nsvcd__dmat3 turn;
+  nsvcd__d3 at;
+} nsvcd__posed;
+
+// By how much a point at r metres from the body's origin leaves its chord, at most: base + per_metre
+// r.
+typedef struct nsvcd__off_chord {
+  double base, per_metre;
+} nsvcd__off_chord;
+
+// A mesh that moves, t in [0,1]. A knot is a time at which the motion has a corner; between two of
+// them points leave chords as said.
+typedef struct nsvcd__rider {
+  const nsvcd_tree *tree;
+  double scale;
+  nsvcd__posed (*place)(const void *motion, double t);
+  // the next knot after a time before 1
+  double (*next)(const void *motion, double t);
+  nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
+  const void *motion;
+  uint32_t digest;  // of the scale and the motion
+} nsvcd__rider;
+
+// ---- of poses: nsvcd_mover
+
+static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
+  return mover->times ? (double)mover->times[k] : (double)k / (double)(mover->count - 1);
+}
+
+// The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
+static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
+  size_t low = 0;
+  size_t high = mover->count - 1;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__mover_knot(mover, middle) <= t)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The arc from a pose to the next: rotations, on the shorter side; half the angle between them.
+typedef struct nsvcd__turning {
+  nsvcd__dquat from, to;
+  double half_angle;
+} nsvcd__turning;
+
+static nsvcd__dquat nsvcd__pose_rotation(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  return out;
+}
+
+static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  nsvcd__turning out;
+  const nsvcd__dquat from = nsvcd__pose_rotation(a);
+  const nsvcd__dquat to = nsvcd__pose_rotation(b);
+  const double side = nsvcd__dquat_dot(from, to) < 0 ? -1 : 1;
+  out.from = nsvcd__dquat_unit(from);
+  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
+  const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);
+  const nsvcd__dquat together = nsvcd__dquat_fma(1, out.from, out.to);
+  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(apart, apart)),
+                             sqrt(nsvcd__dquat_dot(together, together)));
+  return out;
+}
+
+static nsvcd__posed nsvcd__mover_place(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  nsvcd__posed out;
+  if (mover->count == 1) {
+    out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(nsvcd__pose_rotation(mover->poses)));
+    out.at = nsvcd__d3_load(mover->poses->position);
+    return out;
+  }
+  const size_t k = nsvcd__mover_pose(mover, t);
+  const nsvcd_pose *a = &mover->poses[k];
+  const double from = nsvcd__mover_knot(mover, k);
+  const double u = (t - from) / (nsvcd__mover_knot(mover, k + 1) - from);
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  double before = 1 - u;
+  double after = u;
+  // below, a line is as good
+  if (arc.half_angle > 1e-7) {
+    before = sin((1 - u) * arc.half_angle);
+    after = sin(u * arc.half_angle);
+  }
+  const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
+  out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(q));
+  out.at = nsvcd__d3_mix(nsvcd__d3_load(a->position), nsvcd__d3_load(a[1].position), u);
+  return out;
+}
+
+static double nsvcd__mover_next(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+}
+
+// A turn by h at a constant rate has a second derivative of h^2 r, and leaves its chord by an
+// eighth of it.
+static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, double t1) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  nsvcd__off_chord out = {0, 0};
+  if (mover->count == 1) return out;
+  const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
+  const nsvcd_pose *a = &mover->poses[k];
+  const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
+  const double h = 2 * nsvcd__turning_of(a, a + 1).half_angle * (t1 - t0) / whole;
+  out.per_metre = 0.1250001 * h * h;
+  return out;
+}
+
+// Makes a rider of a mover, which is copied to *meant, with the defaults filled in.
+static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree,
+                                nsvcd_mover *meant, nsvcd__rider *rider) {
+  const float scale = nsvcd__scale_of(mover);
+  *meant = *mover;
+  if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
+  if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+  const nsvcd_result result = nsvcd__poses_check(mover);
+  if (result) return result;
+  if (!mover->poses) {
+    meant->poses = &nsvcd__at_origin;
+    meant->count = 1;
+  }
+  if (meant->count == 1) meant->times = NULL;
+  for (size_t k = 1; k < meant->count; k++) {
+    const nsvcd__dquat from = nsvcd__pose_rotation(&meant->poses[k - 1]);
+    const double dot = nsvcd__dquat_dot(from, nsvcd__pose_rotation(&meant->poses[k]));
+    if (fabs(dot) < 1.001e-6) return NSVCD_ERROR_POSE;
+  }
+  rider->tree = tree;
+  rider->scale = (double)scale;
+  rider->place = nsvcd__mover_place;
+  rider->next = nsvcd__mover_next;
+  rider->off_chord = nsvcd__mover_off_chord;
+  rider->motion = meant;
+  rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
+  rider->digest = nsvcd__digest(rider->digest, &scale, 1);
+  if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES

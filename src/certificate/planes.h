@@ -1,0 +1,254 @@
+// In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
+// that takes a few bits; or none.
+#pragma once
+#include "law.h"
+
+#ifndef NSVCD_NO_CERTIFICATES
+// What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
+#define NSVCD__CERTIFIED_MARGIN 1.01e-10
+#define NSVCD__NORMAL_STEPS 20    // of Gilbert's iteration
+#define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
+// of both lengths: nodes that come as near are opened, not parted
+#define NSVCD__NORMAL_GIVE_UP 1e-3
+
+// A time, where both bodies are then, and by how much points leave their chords to the next one.
+typedef struct nsvcd__instant {
+  double t;
+  nsvcd__posed a, b;
+  nsvcd__off_chord off_a, off_b;
+} nsvcd__instant;
+
+// A stretch of time: both ends, and all knots between.
+typedef struct nsvcd__stretch {
+  const nsvcd__rider *a, *b;
+  double clearance;
+  nsvcd__instant *instants;  // (capacity)
+  size_t count, capacity;
+  double t0, t1;
+  // half way; its time is -1 before it is needed
+  nsvcd__instant middle;
+} nsvcd__stretch;
+
+// A node of each tree.
+typedef struct nsvcd__nodes {
+  nsvcd__node a, b;
+} nsvcd__nodes;
+
+// A direction as it is written: two whole numbers.
+typedef struct nsvcd__written_normal {
+  nsvcd__d3 along;
+  uint32_t x, y;
+  int bits;  // of each number: 8 or 16
+} nsvcd__written_normal;
+
+static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
+                                        double t) {
+  nsvcd__instant at;
+  memset(&at, 0, sizeof at);
+  at.t = t;
+  at.a = a->place(a->motion, t);
+  at.b = b->place(b->motion, t);
+  return at;
+}
+
+// There is room: the workspace was made for all knots.
+static void nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return;
+  double t = t0;
+  s->t0 = t0;
+  s->t1 = t1;
+  s->middle.t = -1;
+  for (s->count = 0; s->count < s->capacity;) {
+    nsvcd__instant *at = &s->instants[s->count++];
+    *at = nsvcd__instant_at(s->a, s->b, t);
+    if (!(t < t1)) return;
+    t = nsvcd__min(s->a->next(s->a->motion, t), s->b->next(s->b->motion, t));
+    t = nsvcd__min(t, t1);
+    at->off_a = s->a->off_chord(s->a->motion, at->t, t);
+    at->off_b = s->b->off_chord(s->b->motion, at->t, t);
+  }
+}
+
+// The instant half way.
+static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
+  if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
+  return &s->middle;
+}
+
+// ---- nodes
+
+// The corner of a node's box, or of its triangle, that is farthest along a direction of the world.
+static nsvcd__d3 nsvcd__farthest(const nsvcd__rider *rider, const nsvcd__node *node,
+                                 const nsvcd__posed *at, nsvcd__d3 along) {
+  const nsvcd__d3 way = nsvcd__dmat3_apply_transpose(&at->turn, along);
+  const nsvcd_tree *tree = rider->tree;
+  if (node->count > 1) {
+    const nsvcd__box *box = &tree->boxes[node->box];
+    return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
+                        (double)(way.y > 0 ? box->high.y : box->low.y),
+                        (double)(way.z > 0 ? box->high.z : box->low.z));
+  }
+  const uint32_t triangle = tree->order[node->first];
+  nsvcd__d3 best = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
+  for (uint32_t k = 1; k < 3; k++) {
+    const nsvcd__d3 x = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
+    if (nsvcd__d3_dot(x, way) > nsvcd__d3_dot(best, way)) best = x;
+  }
+  return best;
+}
+
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
+                                  nsvcd__d3 x) {
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->scale);
+}
+
+// Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+  const nsvcd__d3 a = nsvcd__farthest(s->a, &nodes->a, &at->a, back);
+  const nsvcd__d3 b = nsvcd__farthest(s->b, &nodes->b, &at->b, along);
+  const nsvcd__d3 turned =
+      nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
+  return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+}
+
+static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
+  return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+}
+
+static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
+         fabs(b->at.z);
+}
+
+// Does a plane of this normal part two nodes, at all instants and between them?
+static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    nsvcd__d3 along) {
+  const double length = nsvcd__d3_length(along);
+  const double ra = nsvcd__node_radius(s->a, &nodes->a);
+  const double rb = nsvcd__node_radius(s->b, &nodes->b);
+  double last = HUGE_VAL;
+  double leaves = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const double lengths = ra + rb + s->clearance + nsvcd__lengths_at(&at->a, &at->b);
+    const double gap = nsvcd__d3_dot(along, nsvcd__least_apart(s, nodes, at, along));
+    const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
+    if (!(gap > most && last > most)) return 0;
+    last = gap;
+    leaves = at->off_a.base + at->off_a.per_metre * ra;
+    leaves += at->off_b.base + at->off_b.per_metre * rb;
+  }
+  return 1;
+}
+
+// ---- normals
+
+static double nsvcd__signed(double magnitude, double sign) {
+  return sign < 0 ? -magnitude : magnitude;
+}
+
+// A point of the octahedron |x| + |y| + |z| = half, seen from above, its lower half folded
+// outwards.
+static nsvcd__written_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
+  const double half = (double)((1 << (bits - 1)) - 1);
+  const double sum = fabs(along.x) + fabs(along.y) + fabs(along.z);
+  const double x = along.x * (half / sum);
+  const double y = along.y * (half / sum);
+  const int below = along.z < 0;
+  nsvcd__written_normal out;
+  out.bits = bits;
+  const double u = floor((below ? nsvcd__signed(half - fabs(y), x) : x) + 0.5);
+  const double v = floor((below ? nsvcd__signed(half - fabs(x), y) : y) + 0.5);
+  const double z = half - fabs(u) - fabs(v);
+  out.x = (uint32_t)(u + half);
+  out.y = (uint32_t)(v + half);
+  out.along.x = z < 0 ? nsvcd__signed(half - fabs(v), u) : u;
+  out.along.y = z < 0 ? nsvcd__signed(half - fabs(u), v) : v;
+  out.along.z = z;
+  return out;
+}
+
+// The best direction so far, and how far apart it shows two nodes half way; less than 0: not at
+// all.
+typedef struct nsvcd__best {
+  nsvcd__d3 along;
+  double gap;
+} nsvcd__best;
+
+// Tries a direction, and the one back.
+static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                             const nsvcd__instant *at, nsvcd__d3 along, nsvcd__best *best) {
+  const double length = nsvcd__d3_length(along);
+  for (int k = 0; k < 2 && length > 0; k++) {
+    const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
+    const double gap = nsvcd__d3_dot(way, nsvcd__least_apart(s, nodes, at, way));
+    if (gap <= best->gap) continue;
+    best->along = way;
+    best->gap = gap;
+  }
+}
+
+// Gilbert's iteration towards the point of a - b that is nearest to the origin.
+static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                  const nsvcd__instant *at, nsvcd__d3 along) {
+  nsvcd__best best = {along, -HUGE_VAL};
+  nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
+  const double enough = NSVCD__NORMAL_ENOUGH;
+  const double size = nsvcd__d3_length(v);
+  for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
+    const double length = nsvcd__d3_length(v);
+    if (!(length > NSVCD__NORMAL_GIVE_UP * size)) break;
+    const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
+    const double gap = nsvcd__d3_dot(v, w) / length;
+    if (gap > best.gap) {
+      best.along = v;
+      best.gap = gap;
+    }
+    if (gap > enough * length) break;
+    const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
+    const double square = nsvcd__d3_dot(step_to, step_to);
+    if (!(square > 0)) break;
+    const double share = -nsvcd__d3_dot(v, step_to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(share, 1)), step_to, v);
+  }
+  return best;
+}
+
+// The edges of a leaf's triangle, in the world.
+static void nsvcd__leaf_edges(const nsvcd__rider *rider, const nsvcd__node *node,
+                              const nsvcd__posed *at, nsvcd__d3 *edges) {
+  const uint32_t triangle = rider->tree->order[node->first];
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 from = nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, k));
+    const nsvcd__d3 to =
+        nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, (k + 1) % 3));
+    edges[k] = nsvcd__turned_by(rider, at, nsvcd__d3_sub(to, from));
+  }
+}
+
+// Looks for a plane that parts two nodes all the while.
+static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
+                              nsvcd__written_normal *normal) {
+  const nsvcd__instant *at = nsvcd__stretch_middle(s);
+  nsvcd__best best = nsvcd__gilbert(s, nodes, at, last);
+  if (nodes->a.count == 1 && nodes->b.count == 1) {
+    nsvcd__d3 a[3], b[3];
+    nsvcd__leaf_edges(s->a, &nodes->a, &at->a, a);
+    nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
+    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
+    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
+    for (size_t i = 0; i < 9 && !(best.gap > 0); i++)
+      nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
+  }
+  if (!(best.gap > s->clearance)) return 0;
+  for (int bits = 8; bits <= 16; bits += 8) {
+    *normal = nsvcd__normal_of(best.along, bits);
+    if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
+  }
+  return 0;
+}
+#endif  // NSVCD_NO_CERTIFICATES

@@ -1,0 +1,191 @@
+// In: a mesh. Out: its components, and a tree of boxes over its triangles. The floor, top to
+// bottom:
+//
+//   tree        boxes, and components
+//   law         where a body is at a time, and how far points leave their chords
+//   planes      one that parts two nodes over a stretch of time; its normal in a few bits
+//   rays        what is inside of what at one time
+//   certify     the walk that a certificate is
+//
+// What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
+// rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+#pragma once
+#include "../interface/certificates.h"
+#include "../body/body.h"
+#include "../mesh/mesh.h"
+
+#ifndef NSVCD_NO_CERTIFICATES
+#define NSVCD__TREE_TRIANGLES 0x20000000
+// nodes that wait, while a tree of so many triangles is walked through
+#define NSVCD__TREE_STACK 32
+
+// A run of triangles of a tree, with a box about them.
+typedef struct nsvcd__node {
+  // a row of boxes; of order
+  uint32_t box, first, count;
+} nsvcd__node;
+
+struct nsvcd_tree {
+  nsvcd_mesh mesh;
+  // (2 triangles - 1), of a node, of its left tree, of its right tree
+  nsvcd__box *boxes;
+  // (triangles): the leaves, from left to right
+  uint32_t *order;
+  // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
+  uint32_t *part;
+  uint32_t digest;
+};
+
+static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    uint32_t word;
+    memcpy(&word, (const char *)words + 4 * i, 4);
+    digest = (digest ^ word) * 0x9e3779b1u;
+    digest ^= digest >> 15;
+  }
+  return digest;
+}
+
+static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
+  return tree->mesh.positions + 3 * (size_t)vertex;
+}
+
+// Three times a triangle's middle.
+static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
+  nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
+  for (uint32_t k = 1; k < 3; k++)
+    sum = nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)));
+  return sum;
+}
+
+// Is a triangle before another one, whose key is known? Below 0: yes; above: it is after it.
+static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
+                             double key, size_t axis) {
+  const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
+  if (own < key || own > key) return own < key ? -1 : 1;
+  return triangle < other ? -1 : triangle > other;
+}
+
+// The box of a node; its triangles so that those that are first along the axis
+// along which their middles differ most, of
+// equals those of lower number, are before the middle (Hoare 1961).
+static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
+  uint32_t *order = tree->order + node->first;
+  nsvcd__box box;
+  box.low = box.high = nsvcd__f3_load(nsvcd__tree_corner(tree, order[0], 0));
+  nsvcd__d3 least = nsvcd__tree_middle(tree, order[0]);
+  nsvcd__d3 most = least;
+  for (uint32_t i = 0; i < node->count; i++) {
+    const nsvcd__d3 middle = nsvcd__tree_middle(tree, order[i]);
+    least = nsvcd__d3_min(least, middle);
+    most = nsvcd__d3_max(most, middle);
+  }
+  for (uint32_t i = 0; i < 3 * node->count; i++) {
+    const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i / 3], i % 3));
+    box.low = nsvcd__f3_min(box.low, x);
+    box.high = nsvcd__f3_max(box.high, x);
+  }
+  tree->boxes[node->box] = box;
+  const nsvcd__d3 sides = nsvcd__d3_sub(most, least);
+  size_t axis = sides.y > sides.x;
+  if (sides.z > nsvcd__d3_axis(sides, axis)) axis = 2;
+  const ptrdiff_t half = (ptrdiff_t)(node->count / 2);
+  ptrdiff_t from = 0;
+  ptrdiff_t to = (ptrdiff_t)node->count - 1;
+  while (from < to) {
+    const uint32_t pivot = order[from + (to - from) / 2];
+    const double key = nsvcd__d3_axis(nsvcd__tree_middle(tree, pivot), axis);
+    ptrdiff_t i = from;
+    ptrdiff_t j = to;
+    while (i <= j) {
+      while (nsvcd__tree_order(tree, order[i], pivot, key, axis) < 0) i++;
+      while (nsvcd__tree_order(tree, order[j], pivot, key, axis) > 0) j--;
+      if (i > j) break;
+      const uint32_t swapped = order[i];
+      order[i++] = order[j];
+      order[j--] = swapped;
+    }
+    if (half > j) from = i;
+    if (half < i) to = j;
+  }
+}
+
+static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__node *right) {
+  const nsvcd__node whole = *node;
+  left->box = whole.box + 1;
+  left->first = whole.first;
+  left->count = whole.count / 2;
+  right->box = whole.box + 2 * left->count;
+  right->first = whole.first + left->count;
+  right->count = whole.count - left->count;
+}
+
+static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
+  while (part[v] != v) v = part[v] = part[part[v]];
+  return v;
+}
+
+static void nsvcd__find_parts(nsvcd_tree *tree) {
+  const uint32_t *indices = tree->mesh.indices;
+  const size_t corners = 3 * tree->mesh.triangle_count;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
+  for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t x = nsvcd__part_root(tree->part, indices[i]);
+    const uint32_t y = nsvcd__part_root(tree->part, indices[i / 3 * 3]);
+    tree->part[x > y ? x : y] = x > y ? y : x;
+  }
+  for (size_t i = 0; i < corners; i++)
+    tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+}
+
+// Lays a tree out at base, or, where that is NULL, only counts. Returns the bytes that it takes.
+static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tree *tree) {
+  uint64_t used = 0;
+  const size_t triangles = mesh->triangle_count;
+  (void)nsvcd__take(base, &used, 1, sizeof *tree);
+  tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
+  tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  return used;
+}
+
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh) {
+  nsvcd_tree counted;
+  if (nsvcd__mesh_check(mesh)) return 0;
+  const uint64_t size = nsvcd__tree_layout(mesh, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree) {
+  nsvcd__node stack[NSVCD__TREE_STACK];
+  size_t height = 1;
+  const nsvcd_result result = nsvcd__mesh_check(mesh);
+  if (result) return result;
+  if (!tree) return NSVCD_ERROR_ARGUMENT;
+  const size_t needed = nsvcd_tree_size(mesh);
+  if (mesh->triangle_count > NSVCD__TREE_TRIANGLES || !needed) return NSVCD_ERROR_TOO_LARGE;
+  if (!memory || size < needed || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  nsvcd_tree *t = (nsvcd_tree *)memory;
+  (void)nsvcd__tree_layout(mesh, (char *)memory, t);
+  t->mesh = *mesh;
+  t->digest =
+      nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
+  t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
+  nsvcd__find_parts(t);
+  for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
+  stack[0].box = stack[0].first = 0;
+  stack[0].count = (uint32_t)mesh->triangle_count;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    nsvcd__cut_node(t, &node);
+    if (node.count == 1) continue;
+    nsvcd__children(&node, &stack[height], &stack[height + 1]);
+    height += 2;
+  }
+  *tree = t;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_CERTIFICATES

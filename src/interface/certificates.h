@@ -1,0 +1,75 @@
+// In: a question, and its two meshes. Out: bytes that prove the answer to whoever has the meshes
+// and examples/verify, which shares nothing with this library.
+#pragma once
+#include "queries.h"
+
+#ifndef NSVCD_NO_CERTIFICATES
+// A tree of boxes over the triangles of a mesh, in the caller's memory, for nsvcd_certify. It keeps
+// pointers to the mesh's arrays, which stay as they are; threads may share it.
+typedef struct nsvcd_tree nsvcd_tree;
+
+// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 56 for a
+// triangle and 4 for a vertex.
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
+
+// Builds the tree of a mesh: once for each mesh, in a time like that of sorting it.
+//   mesh       not NULL
+//   memory     (size) bytes, nsvcd_tree_size(mesh) or more, not NULL, aligned to NSVCD_ALIGNMENT
+//   tree       not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree);
+
+#define NSVCD_DEFAULT_VISITS 1000000
+
+// What is zero is the default.
+typedef struct nsvcd_certify_options {
+  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it
+  const nsvcd_answer *answer;
+  // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
+  size_t visits;
+} nsvcd_certify_options;
+
+typedef struct nsvcd_certificate {
+  // FREE or HIT: the bytes prove it. UNDECIDED: there are none
+  nsvcd_verdict verdict;
+  // 1: a hit, for a corner of one is inside of the other
+  int inside;
+  // of a HIT, in [0,1]
+  double time;
+  // of all of it, also where that is more than there was room for
+  size_t size;
+  // that were taken
+  size_t visits;
+} nsvcd_certificate;
+
+// Bytes of the workspace that nsvcd_certify needs: some 250 for each pose of either, and 4 for each
+// vertex of the mesh that has more.
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b);
+
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is, and
+// writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
+// anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
+// corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
+// lengths, stays UNDECIDED.
+//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
+//              at and may be NULL
+//   a, b       trees of the meshes of question->a and question->b, not NULL
+//   options    NULL: the defaults
+//   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT
+//   bytes      (capacity): the certificate, as far as there is room; NULL where capacity is 0. Free
+//              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
+//   made       not NULL
+//   allocates  nothing
+//   errors     ARGUMENT (also if there is a skin), SCALE, POSE (also a turn by 180 degrees, which
+//              could go either way), TOLERANCE, WORKSPACE
+//   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
+//              Gilbert 1966
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made);
+#endif  // NSVCD_NO_CERTIFICATES
