@@ -303,7 +303,7 @@
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
 #endif
-#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_CERTIFICATES)
+#if (defined(NSVCD_NO_ENCODER) || defined(NSVCD_NO_PROOF)) && !defined(NSVCD_NO_CERTIFICATES)
 #define NSVCD_NO_CERTIFICATES
 #endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
@@ -1052,8 +1052,8 @@ typedef struct nsvcd_certificate {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
-// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is, and
-// writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
+// two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
 // anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
 // corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
 // lengths, stays UNDECIDED.
@@ -16973,6 +16973,8 @@ struct nsvcd_tree {
   nsvcd__box *boxes;
   // (triangles): the leaves, from left to right
   uint32_t *order;
+  // (triangles, 3, 3): their corners
+  float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *part;
   uint32_t digest;
@@ -17063,20 +17065,64 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
   right->count = whole.count - left->count;
 }
 
+static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
+  return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
+}
+
+// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at the
+// first.
+static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
+                                 uint32_t *lowest) {
+  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
+  size_t height = 1;
+  long count = 0;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    const nsvcd__box *box = &tree->boxes[node.box];
+    if (nsvcd__f3_exceeds(from, box->high) || nsvcd__f3_exceeds(box->low, from)) continue;
+    if (node.count > 1) {
+      nsvcd__children(&node, &stack[height], &stack[height + 1]);
+      height += 2;
+      continue;
+    }
+    const uint32_t triangle = tree->order[node.first];
+    for (uint32_t k = 0; k < 3; k++) {
+      const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
+      const nsvcd__f3 own = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, k));
+      const nsvcd__f3 next = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, (k + 1) % 3));
+      if (!nsvcd__same_point(own, from)) continue;
+      if (lowest && vertex < *lowest) *lowest = vertex;
+      count += nsvcd__same_point(next, to);
+    }
+  }
+  return count;
+}
+
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
   while (part[v] != v) v = part[v] = part[part[v]];
   return v;
 }
 
+static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
+  const uint32_t x = nsvcd__part_root(part, v);
+  const uint32_t y = nsvcd__part_root(part, w);
+  part[x > y ? x : y] = x > y ? y : x;
+}
+
+// Joins the corners of triangles, and vertices at the same place.
 static void nsvcd__find_parts(nsvcd_tree *tree) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
   for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
-  for (size_t i = 0; i < corners; i++) {
-    const uint32_t x = nsvcd__part_root(tree->part, indices[i]);
-    const uint32_t y = nsvcd__part_root(tree->part, indices[i / 3 * 3]);
-    tree->part[x > y ? x : y] = x > y ? y : x;
+  for (size_t i = 0; i < corners; i++)
+    nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
+  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
+    const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)v);
+    uint32_t lowest = v;
+    if (tree->part[v] == NSVCD_NO_TRIANGLE) continue;
+    (void)nsvcd__edges_between(tree, x, x, &lowest);
+    nsvcd__unite_parts(tree->part, v, lowest);
   }
   for (size_t i = 0; i < corners; i++)
     tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
@@ -17089,6 +17135,7 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   (void)nsvcd__take(base, &used, 1, sizeof *tree);
   tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
   tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   return used;
 }
@@ -17116,7 +17163,6 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
-  nsvcd__find_parts(t);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
@@ -17127,6 +17173,11 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
     nsvcd__children(&node, &stack[height], &stack[height + 1]);
     height += 2;
   }
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    const float *corner = nsvcd__tree_corner(t, t->order[i / 3], (uint32_t)(i % 3));
+    memcpy(t->corners + 3 * i, corner, 3 * sizeof *corner);
+  }
+  nsvcd__find_parts(t);
   *tree = t;
   return NSVCD_OK;
 }
@@ -17293,7 +17344,9 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
 #ifndef NSVCD_NO_CERTIFICATES
 // What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
 #define NSVCD__CERTIFIED_MARGIN 1.01e-10
-#define NSVCD__NORMAL_STEPS 20    // of Gilbert's iteration
+// triangles: of nodes of so many the corners count, of larger ones the boxes
+#define NSVCD__EXACT 24
+#define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
 #define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
 // of both lengths: nodes that come as near are opened, not parted
 #define NSVCD__NORMAL_GIVE_UP 1e-3
@@ -17302,6 +17355,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
+  double lengths;  // of both places
   nsvcd__off_chord off_a, off_b;
 } nsvcd__instant;
 
@@ -17316,9 +17370,10 @@ typedef struct nsvcd__stretch {
   nsvcd__instant middle;
 } nsvcd__stretch;
 
-// A node of each tree.
+// A node of each tree. No point of them is farther from its body's origin than the radii say.
 typedef struct nsvcd__nodes {
   nsvcd__node a, b;
+  double radius_a, radius_b;
 } nsvcd__nodes;
 
 // A direction as it is written: two whole numbers.
@@ -17328,6 +17383,11 @@ typedef struct nsvcd__written_normal {
   int bits;  // of each number: 8 or 16
 } nsvcd__written_normal;
 
+static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
+         fabs(b->at.z);
+}
+
 static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
                                         double t) {
   nsvcd__instant at;
@@ -17335,6 +17395,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
   at.t = t;
   at.a = a->place(a->motion, t);
   at.b = b->place(b->motion, t);
+  at.lengths = nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
@@ -17364,24 +17425,24 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 
 // ---- nodes
 
-// The corner of a node's box, or of its triangle, that is farthest along a direction of the world.
-static nsvcd__d3 nsvcd__farthest(const nsvcd__rider *rider, const nsvcd__node *node,
-                                 const nsvcd__posed *at, nsvcd__d3 along) {
-  const nsvcd__d3 way = nsvcd__dmat3_apply_transpose(&at->turn, along);
-  const nsvcd_tree *tree = rider->tree;
-  if (node->count > 1) {
+// The corner of a node's box, or of its triangle, that is farthest along a direction in its frame.
+static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
+                                 nsvcd__d3 way) {
+  if (node->count > NSVCD__EXACT) {
     const nsvcd__box *box = &tree->boxes[node->box];
     return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
                         (double)(way.y > 0 ? box->high.y : box->low.y),
                         (double)(way.z > 0 ? box->high.z : box->low.z));
   }
-  const uint32_t triangle = tree->order[node->first];
-  nsvcd__d3 best = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
-  for (uint32_t k = 1; k < 3; k++) {
-    const nsvcd__d3 x = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
-    if (nsvcd__d3_dot(x, way) > nsvcd__d3_dot(best, way)) best = x;
+  const float *corners = tree->corners + 9 * (size_t)node->first;
+  double most = -HUGE_VAL;
+  size_t farthest = 0;
+  for (size_t i = 0; i < 3 * (size_t)node->count; i++) {
+    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), way);
+    farthest = along > most ? i : farthest;
+    most = along > most ? along : most;
   }
-  return best;
+  return nsvcd__d3_row(corners, farthest);
 }
 
 static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
@@ -17393,11 +17454,25 @@ static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed 
 static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-  const nsvcd__d3 a = nsvcd__farthest(s->a, &nodes->a, &at->a, back);
-  const nsvcd__d3 b = nsvcd__farthest(s->b, &nodes->b, &at->b, along);
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, way_a);
+  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, way_b);
   const nsvcd__d3 turned =
       nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
   return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+}
+
+// How far it goes.
+static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                               const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
+  const double a = nsvcd__d3_dot(way_a, nsvcd__farthest(s->a->tree, &nodes->a, back));
+  const double b = nsvcd__d3_dot(way_b, nsvcd__farthest(s->b->tree, &nodes->b, way_b));
+  const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
+  return nsvcd__d3_dot(along, offset) + (s->a->scale * a - s->b->scale * b);
 }
 
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
@@ -17406,23 +17481,18 @@ static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *n
   return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
-static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
-  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
-         fabs(b->at.z);
-}
-
 // Does a plane of this normal part two nodes, at all instants and between them?
 static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double ra = nsvcd__node_radius(s->a, &nodes->a);
-  const double rb = nsvcd__node_radius(s->b, &nodes->b);
+  const double ra = nodes->radius_a;
+  const double rb = nodes->radius_b;
   double last = HUGE_VAL;
   double leaves = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const double lengths = ra + rb + s->clearance + nsvcd__lengths_at(&at->a, &at->b);
-    const double gap = nsvcd__d3_dot(along, nsvcd__least_apart(s, nodes, at, along));
+    const double lengths = ra + rb + s->clearance + at->lengths;
+    const double gap = nsvcd__gap_along(s, nodes, at, along);
     const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
     if (!(gap > most && last > most)) return 0;
     last = gap;
@@ -17472,7 +17542,7 @@ static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
   const double length = nsvcd__d3_length(along);
   for (int k = 0; k < 2 && length > 0; k++) {
     const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
-    const double gap = nsvcd__d3_dot(way, nsvcd__least_apart(s, nodes, at, way));
+    const double gap = nsvcd__gap_along(s, nodes, at, way);
     if (gap <= best->gap) continue;
     best->along = way;
     best->gap = gap;
@@ -17528,7 +17598,7 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
     nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
     nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
     nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
-    for (size_t i = 0; i < 9 && !(best.gap > 0); i++)
+    for (size_t i = 0; i < 9; i++)
       nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
   }
   if (!(best.gap > s->clearance)) return 0;
@@ -17557,19 +17627,28 @@ static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *
   return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->scale);
 }
 
-// No length in that frame is more.
-static double nsvcd__lengths_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                  const nsvcd__rider *by, const nsvcd__posed *by_at) {
+// In that frame: no length is more, and no point is off by as much as the margin.
+typedef struct nsvcd__extent {
+  double lengths, margin;
+} nsvcd__extent;
+
+static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                        const nsvcd__rider *by, const nsvcd__posed *by_at) {
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  return (radii + nsvcd__lengths_at(of_at, by_at)) / by->scale;
+  const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
+  const double places = 1e-3 * nsvcd__lengths_at(of_at, by_at);
+  nsvcd__extent out;
+  out.lengths = 1.000001 * (radii + apart) / by->scale;
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
+  return out;
 }
 
 // Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
-                             nsvcd__d3 along, double lengths) {
-  const double margin = NSVCD__CERTIFIED_MARGIN * lengths * lengths;
-  const double area = margin * nsvcd__d3_length(along);
+                             nsvcd__d3 along, const nsvcd__extent *e) {
+  const double margin = e->margin * nsvcd__d3_length(along);
+  const double area = margin * e->lengths;
   nsvcd__d3 p[3];
   double sides[3];
   for (uint32_t k = 0; k < 3; k++)
@@ -17577,7 +17656,7 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead * lengths < -area) return 0;
+  if (ahead < -margin) return 0;
   for (size_t k = 0; k < 3; k++)
     sides[k] = nsvcd__d3_dot(along, nsvcd__d3_cross(p[k], p[(k + 1) % 3]));
   const double least = nsvcd__min(sides[0], nsvcd__min(sides[1], sides[2]));
@@ -17585,55 +17664,69 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   if (least < -area && most > area) return 0;
   if (!(least > area || most < -area)) return NSVCD__UNCLEAR;
   const double volume = nsvcd__d3_dot(p[2], nsvcd__d3_cross(p[0], p[1]));
-  if (!(fabs(volume) > margin * lengths)) return NSVCD__UNCLEAR;
+  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (most > 0)) return 0;
   return most > 0 ? 1 : -1;
 }
 
-// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
-static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along, double lengths,
-                       int32_t *sums) {
-  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
-  for (size_t t = 0; t < tree->mesh.triangle_count; t++) {
-    const int crossed = nsvcd__ray_passes(tree, (uint32_t)t, from, along, lengths);
-    if (crossed == NSVCD__UNCLEAR) return 0;
-    sums[tree->part[tree->mesh.indices[3 * t]]] += crossed;
-  }
-  return 1;
+// Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
+// sides, along which they are apart.
+static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 along,
+                             double margin) {
+  const nsvcd__d3 low = nsvcd__d3_sub(nsvcd__d3_widen(box->low), from);
+  const nsvcd__d3 high = nsvcd__d3_sub(nsvcd__d3_widen(box->high), from);
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5);
+  const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+  const nsvcd__d3 size = nsvcd__d3_of(fabs(along.x), fabs(along.y), fabs(along.z));
+  const nsvcd__d3 off = nsvcd__d3_cross(along, middle);
+  return fabs(off.x) > size.y * half.z + size.z * half.y + margin ||
+         fabs(off.y) > size.z * half.x + size.x * half.z + margin ||
+         fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// How often there is an edge from one vertex to another.
-static long nsvcd__edges_between(const nsvcd_tree *tree, uint32_t from, uint32_t to) {
-  const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)from);
+// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
+static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
+                       const nsvcd__extent *e, int32_t *sums) {
+  const double margin = e->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
-  long count = 0;
+  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
   while (height > 0) {
     const nsvcd__node node = stack[--height];
-    const nsvcd__box *box = &tree->boxes[node.box];
-    if (nsvcd__f3_exceeds(x, box->high) || nsvcd__f3_exceeds(box->low, x)) continue;
+    if (nsvcd__ray_misses(&tree->boxes[node.box], from, along, margin)) continue;
     if (node.count > 1) {
       nsvcd__children(&node, &stack[height], &stack[height + 1]);
       height += 2;
       continue;
     }
-    const uint32_t *corner = tree->mesh.indices + 3 * (size_t)tree->order[node.first];
-    for (size_t k = 0; k < 3; k++) count += corner[k] == from && corner[(k + 1) % 3] == to;
+    const uint32_t triangle = tree->order[node.first];
+    const int crossed = nsvcd__ray_passes(tree, triangle, from, along, e);
+    if (crossed == NSVCD__UNCLEAR) return 0;
+    sums[tree->part[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
-  return count;
+  return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
+// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses. *open:
+// 1 if others have some too.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;
+  int any = 0;
+  *open = 0;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
+  if (!any) return 0;
   for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
-    const uint32_t from = indices[i];
-    const uint32_t to = indices[i % 3 == 2 ? i - 2 : i + 1];
-    int32_t *crossed = &sums[tree->part[from]];
+    const uint32_t next = indices[i % 3 == 2 ? i - 2 : i + 1];
+    const nsvcd__f3 from = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)indices[i]);
+    const nsvcd__f3 to = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)next);
+    int32_t *crossed = &sums[tree->part[indices[i]]];
     if (*crossed == 0) continue;
-    if (nsvcd__edges_between(tree, from, to) != nsvcd__edges_between(tree, to, from))
-      *crossed = 0;
+    if (nsvcd__edges_between(tree, from, to, NULL) ==
+        nsvcd__edges_between(tree, to, from, NULL))
+      continue;
+    *crossed = 0;
+    *open = 1;
   }
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
   return sum;
@@ -17745,77 +17838,51 @@ static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *
 static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
                                      const nsvcd__rider *by, const nsvcd__posed *by_at,
                                      uint32_t own, uint32_t other) {
-  const double lengths = nsvcd__lengths_seen(of, of_at, by, by_at);
+  const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
     const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
     const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
     const nsvcd__d3 along = nsvcd__d3_sub(to, from);
-    const int there = nsvcd__ray_passes(by->tree, other, from, along, lengths);
+    const int there = nsvcd__ray_passes(by->tree, other, from, along, &e);
     if (there != 1 && there != -1) continue;
     const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-    if (nsvcd__ray_passes(by->tree, other, to, back, lengths) == -there) return k;
+    if (nsvcd__ray_passes(by->tree, other, to, back, &e) == -there) return k;
   }
   return NSVCD__NO_EDGE;
 }
 
-// The points of two triangles that are nearest to each other, by Gilbert's iteration with the
-// corners' weights. Good to a hundredth of their distance, or in 200 steps as far as they lead.
-static void nsvcd__nearest_weights(const nsvcd__d3 *a, const nsvcd__d3 *b, double *of_a,
-                                   double *of_b) {
-  for (size_t k = 0; k < 3; k++) of_a[k] = of_b[k] = k == 0;
-  for (int step = 0; step < 200; step++) {
-    nsvcd__d3 v = nsvcd__d3_of(0, 0, 0);
-    size_t i = 0;
-    size_t j = 0;
-    for (size_t k = 0; k < 3; k++)
-      v = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], v));
-    for (size_t k = 1; k < 3; k++) {
-      if (nsvcd__d3_dot(v, a[k]) < nsvcd__d3_dot(v, a[i])) i = k;
-      if (nsvcd__d3_dot(v, b[k]) > nsvcd__d3_dot(v, b[j])) j = k;
-    }
-    const nsvcd__d3 to = nsvcd__d3_sub(nsvcd__d3_sub(a[i], b[j]), v);
-    const double square = nsvcd__d3_dot(to, to);
-    const double down = -nsvcd__d3_dot(v, to);
-    if (!(down > 0.01 * nsvcd__d3_dot(v, v)) || !(square > 0)) return;
-    const double share = nsvcd__min(1, down / square);
-    for (size_t k = 0; k < 3; k++) {
-      of_a[k] += share * ((k == i) - of_a[k]);
-      of_b[k] += share * ((k == j) - of_b[k]);
-    }
-  }
-}
-
 // A point of a triangle as it is written: shares of the way from the first corner to the second, and
-// from there to the third. Its weights become those that are read.
-static void nsvcd__point_code(double *weights, uint32_t *code) {
-  const double beyond = weights[1] + weights[2];
-  const double within = beyond > 0 ? weights[2] / beyond : 0;
-  const double v = floor(65535 * nsvcd__min(1, beyond) + 0.5);
-  const double w = floor(65535 * nsvcd__min(1, within) + 0.5);
-  code[0] = (uint32_t)v;
-  code[1] = (uint32_t)w;
-  weights[0] = 1 - v / 65535;
-  weights[1] = v / 65535 * (1 - w / 65535);
-  weights[2] = v / 65535 * (w / 65535);
+// from there to the third. Returns the point that is read.
+static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
+  const nsvcd__d3 first = nsvcd__d3_sub(t[1], t[0]);
+  const nsvcd__d3 second = nsvcd__d3_sub(t[2], t[1]);
+  const double square = nsvcd__d3_dot(n, n);
+  // off = v (first + w second)
+  const double vw = nsvcd__d3_dot(n, nsvcd__d3_cross(first, off)) / square;
+  const double v =
+      vw + nsvcd__d3_dot(n, nsvcd__d3_cross(off, nsvcd__d3_sub(t[2], t[0]))) / square;
+  const int has_area = square > 0 && v > 0;
+  code[0] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? v : 0) + 0.5);
+  code[1] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? vw / v : 0) + 0.5);
+  const nsvcd__d3 along = nsvcd__d3_fma((double)code[1] / 65535, second, first);
+  return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
 
 // Are two triangles nearer to each other than the clearance? At points that are written.
 static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  double of_a[3], of_b[3];
-  nsvcd__d3 apart = nsvcd__d3_of(0, 0, 0);
-  const double lengths = nsvcd__lengths_seen(&c->a, &at->a, &c->b, &at->b);
+  const nsvcd__extent e = nsvcd__extent_seen(&c->a, &at->a, &c->b, &at->b);
   for (uint32_t k = 0; k < 3; k++) {
     a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
     b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
   }
-  nsvcd__nearest_weights(a, b, of_a, of_b);
-  nsvcd__point_code(of_a, codes);
-  nsvcd__point_code(of_b, codes + 2);
-  for (size_t k = 0; k < 3; k++)
-    apart = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], apart));
-  const double distance = nsvcd__d3_length(apart) + NSVCD__CERTIFIED_MARGIN * lengths;
+  const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+  const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
+  const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
+  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
   return c->b.scale * distance < c->stretch.clearance;
 }
 
@@ -17929,7 +17996,9 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__write_head(c, NSVCD__PROVES_FREE);
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
-    const nsvcd__nodes *nodes = &v->nodes;
+    nsvcd__nodes *nodes = &v->nodes;
+    nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
+    nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
     nsvcd__written_normal normal;
     if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
     nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
@@ -17979,7 +18048,7 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__rider *by = whose ? &c->a : &c->b;
   const nsvcd__posed of_at = of->place(of->motion, 0);
   const nsvcd__posed by_at = by->place(by->motion, 0);
-  const double lengths = nsvcd__lengths_seen(of, &of_at, by, &by_at);
+  const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
     if (of->tree->part[v] != v) continue;
@@ -17989,13 +18058,14 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const int same = k == 0;
       const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(by->tree, from, along, lengths, c->sums)) continue;
-      shown = 1;
-      for (size_t i = 0; i < by->tree->mesh.vertex_count; i++) shown &= c->sums[i] == 0;
+      if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
+      int open;
+      const int sum = nsvcd__sum_of_closed(by->tree, c->sums, &open);
+      shown = sum == 0 && !open;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
-      } else if (!same && nsvcd__sum_of_closed(by->tree, c->sums) != 0) {
+      } else if (!same && sum != 0) {
         nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
         nsvcd__write_bits(c, nsvcd__time_code(0), 32);
         nsvcd__write_bits(c, (uint32_t)whose, 1);

@@ -39,6 +39,7 @@
 #define NSVCD_VERIFY_H
 #include "nsvcd_verify_rays.h"
 
+#define VERIFY__EXACT 24
 #define VERIFY__SHORTEST 1e-12  // of a stretch that is halved
 #define VERIFY__STACK 128       // two trees of 30 levels, and 40 halvings
 
@@ -51,7 +52,7 @@ typedef struct verify__visit {
 
 // The most of n.(s R x) over a node.
 static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
-                           const double *turn, const double *n) {
+                           const double *turn, const double *n, int exact) {
   const nsvcd_verify_mesh *m = mover->mesh;
   const float *low = m->boxes + 6 * (size_t)node->box;
   double way[3], most = 0;
@@ -59,10 +60,10 @@ static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_n
     way[i] = mover->scale * (n[0] * turn[i] + n[1] * turn[3 + i] + n[2] * turn[6 + i]);
     most += way[i] * (double)low[way[i] > 0 ? i + 3 : i];
   }
-  if (node->count > 1) return most;
+  if (!exact || node->count > VERIFY__EXACT) return most;
   most = -HUGE_VAL;
-  for (uint32_t k = 0; k < 3; k++) {
-    const float *x = verify__corner(m, m->order[node->first], k);
+  for (uint32_t i = 0; i < 3 * node->count; i++) {
+    const float *x = verify__corner(m, m->order[node->first + i / 3], i % 3);
     const double along = way[0] * (double)x[0] + way[1] * (double)x[1] + way[2] * (double)x[2];
     if (!(along <= most)) most = along;
   }
@@ -70,7 +71,7 @@ static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_n
 }
 
 // Does the plane of the last normal part two nodes at all instants and between them?
-static int verify__parts(const verify__reader *r, const verify__visit *v) {
+static int verify__parts(const verify__reader *r, const verify__visit *v, int exact) {
   const double *n = r->normals[0];
   const double back[3] = {-n[0], -n[1], -n[2]};
   const double length = sqrt(verify__dot(n, n));
@@ -80,8 +81,8 @@ static int verify__parts(const verify__reader *r, const verify__visit *v) {
   double stray = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
     const double lengths = verify__lengths(ra + rb + r->clearance, &at->a, &at->b);
-    double gap = -verify__most(r->a, &v->a, at->a.turn, back);
-    gap -= verify__most(r->b, &v->b, at->b.turn, n);
+    double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
+    gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
     const double least = length * (r->clearance + stray + VERIFY__MARGIN * lengths);
     if (!(gap > least && last > least)) return 0;
@@ -96,15 +97,15 @@ static int verify__parts(const verify__reader *r, const verify__visit *v) {
 // Places both bodies at t0, at t1, and at all knots between. 0: there is no room.
 static int verify__place(verify__reader *r, double t0, double t1) {
   double t = t0;
-  for (r->count = 0; r->count < r->capacity; t = fmin(t, t1)) {
+  for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
     verify__instant *at = &r->instants[r->count++];
     at->t = t;
     r->a->place(r->a->motion, t, &at->a);
     r->b->place(r->b->motion, t, &at->b);
     if (!(t < t1)) return 1;
-    t = fmin(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));
-    r->a->stray(r->a->motion, at->t, fmin(t, t1), at->stray_a);
-    r->b->stray(r->b->motion, at->t, fmin(t, t1), at->stray_b);
+    t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));
+    r->a->stray(r->a->motion, at->t, verify__min(t, t1), at->stray_a);
+    r->b->stray(r->b->motion, at->t, verify__min(t, t1), at->stray_b);
   }
   return 0;
 }
@@ -113,7 +114,7 @@ static int verify__place(verify__reader *r, double t0, double t1) {
 static double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double most = 0;
-  for (int i = 0; i < 3; i++) most = fmax(most, (double)low[i + 3] - (double)low[i]);
+  for (int i = 0; i < 3; i++) most = verify__max(most, (double)low[i + 3] - (double)low[i]);
   return mover->scale * most;
 }
 
@@ -152,7 +153,8 @@ static const char *verify__walk(verify__reader *r) {
     if (!opens && !halves) {
       if (!same) verify__read_normal(r);
       if (r->at > r->bits) return "it ends early";
-      if (!verify__parts(r, v)) return "a plane does not part its nodes";
+      if (!verify__parts(r, v, 0) && !verify__parts(r, v, 1))
+        return "a plane does not part its nodes";
       if (v->a.box == 0 && v->b.box == 0) r->apart = 1;
       height--;
       continue;

@@ -80,7 +80,7 @@ static double verify__dot(const double *a, const double *b) {
 static double verify__radius(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
-  for (int i = 0; i < 3; i++) corner[i] = fmax(-(double)low[i], (double)low[i + 3]);
+  for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
   return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
 }
 
@@ -110,52 +110,113 @@ static void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place 
   }
 }
 
+// In the frame of one mover, in units of its scale: no length is more, and no point is off by as much
+// as the margin.
+typedef struct verify__extent {
+  double lengths, margin;
+} verify__extent;
+
 // Does a ray from y along d leave (1) or enter (-1) through a triangle, or miss it (0)? 2: that is
-// not clear. No length is more than `lengths`.
+// not clear, by the margin.
 static int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
-                           const double *d, double lengths) {
-  const double area = lengths * lengths * sqrt(verify__dot(d, d));
+                           const double *d, const verify__extent *e) {
+  const double along = e->margin * sqrt(verify__dot(d, d));
   double p[3][3], cross[3], ahead = -HUGE_VAL, least = HUGE_VAL, most = -HUGE_VAL;
   for (uint32_t k = 0; k < 3; k++) {
     for (int i = 0; i < 3; i++) p[k][i] = (double)verify__corner(m, triangle, k)[i] - y[i];
-    ahead = fmax(ahead, verify__dot(p[k], d));
+    ahead = verify__max(ahead, verify__dot(p[k], d));
   }
-  if (ahead * lengths < -VERIFY__MARGIN * area) return 0;
+  if (ahead < -along) return 0;
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
     for (int i = 0; i < 3; i++)
       cross[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-    least = fmin(least, verify__dot(d, cross));
-    most = fmax(most, verify__dot(d, cross));
+    least = verify__min(least, verify__dot(d, cross));
+    most = verify__max(most, verify__dot(d, cross));
   }
   // sides of its edges: it passes them on both sides, or on one; then, on which side of it is y?
   const double volume = verify__dot(p[2], cross);
-  if (least < -VERIFY__MARGIN * area && most > VERIFY__MARGIN * area) return 0;
-  if (!(least > VERIFY__MARGIN * area || most < -VERIFY__MARGIN * area)) return 2;
-  if (!(fabs(volume) > VERIFY__MARGIN * lengths * lengths * lengths)) return 2;
+  if (least < -along * e->lengths && most > along * e->lengths) return 0;
+  if (!(least > along * e->lengths || most < -along * e->lengths)) return 2;
+  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return 2;
   if ((volume > 0) != (most > 0)) return 0;
   return most > 0 ? 1 : -1;
 }
 
+// Does the line of a ray miss a box by a margin? If something across both of them parts them.
+static int verify__misses(const float *box, const double *y, const double *d, double margin) {
+  const double most = margin * sqrt(verify__dot(d, d));
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    const double off_j = 0.5 * ((double)box[j] + (double)box[j + 3]) - y[j];
+    const double off_k = 0.5 * ((double)box[k] + (double)box[k + 3]) - y[k];
+    const double half_j = 0.5 * ((double)box[j + 3] - (double)box[j]);
+    const double half_k = 0.5 * ((double)box[k + 3] - (double)box[k]);
+    const double off = fabs(d[j] * off_k - d[k] * off_j);
+    if (off > fabs(d[j]) * half_k + fabs(d[k]) * half_j + most) return 1;
+  }
+  return 0;
+}
+
 // Sums what a ray of the last normal crosses of a mesh, by components. 0: it is not clear.
 static int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, const double *y,
-                        double lengths) {
+                        const verify__extent *e) {
+  const double *d = r->normals[0];
+  nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
+  size_t height = 1;
   if (!(verify__dot(y, y) < HUGE_VAL)) return 0;
   memset(m->sums, 0, m->vertices * sizeof *m->sums);
-  for (size_t t = 0; t < m->triangles; t++) {
-    const int crossed = verify__crosses(m, (uint32_t)t, y, r->normals[0], lengths);
+  while (height > 0) {
+    const nsvcd_verify_node node = stack[--height];
+    if (verify__misses(m->boxes + 6 * (size_t)node.box, y, d, e->margin)) continue;
+    if (node.count > 1) {
+      verify__children(&node, stack + height);
+      height += 2;
+      continue;
+    }
+    const uint32_t triangle = m->order[node.first];
+    const int crossed = verify__crosses(m, triangle, y, d, e);
     if (crossed == 2) return 0;
-    m->sums[m->part[m->indices[3 * t]]] += crossed;
+    m->sums[m->part[m->indices[3 * (size_t)triangle]]] += crossed;
   }
   return 1;
 }
 
-static double verify__most_seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
-                                const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at) {
+// The sum over closed components: those of which each edge has as many reverses. *open: 1 if others
+// have sums as well.
+static int64_t verify__wound(const nsvcd_verify_mesh *m, int *open) {
+  int64_t sum = 0;
+  int any = 0;
+  *open = 0;
+  for (size_t v = 0; v < m->vertices; v++) any |= m->sums[v];
+  for (size_t i = 0; any && i < 3 * m->triangles; i++) {
+    const float *from = verify__corner(m, (uint32_t)(i / 3), i % 3);
+    const float *to = verify__corner(m, (uint32_t)(i / 3), (i + 1) % 3);
+    int32_t *sum_of = &m->sums[m->part[m->indices[i]]];
+    if (*sum_of == 0 || verify__edges(m, from, to) == verify__edges(m, to, from)) continue;
+    *sum_of = 0;
+    *open = 1;
+  }
+  for (size_t v = 0; v < m->vertices; v++) sum += m->sums[v];
+  return sum;
+}
+
+static verify__extent verify__extent_of(const nsvcd_verify_mover *of,
+                                        const nsvcd_verify_place *of_at,
+                                        const nsvcd_verify_mover *by,
+                                        const nsvcd_verify_place *by_at) {
   const nsvcd_verify_node root = {0, 0, 2};
+  const double offset[3] = {of_at->at[0] - by_at->at[0], of_at->at[1] - by_at->at[1],
+                            of_at->at[2] - by_at->at[2]};
+  const double apart = sqrt(verify__dot(offset, offset));
   const double radii = verify__radius(of, &root) + verify__radius(by, &root);
-  return verify__lengths(radii, of_at, by_at) / by->scale;
+  const double places = verify__lengths(0, of_at, by_at);
+  verify__extent out;
+  out.lengths = (radii + apart) / by->scale;
+  out.margin = VERIFY__MARGIN * out.lengths + 1e-3 * VERIFY__MARGIN * places / by->scale;
+  return out;
 }
 
 // Rays from all components of one mover at t = 0.
@@ -164,17 +225,17 @@ static const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *
   nsvcd_verify_place of_at, by_at;
   of->place(of->motion, 0, &of_at);
   by->place(by->motion, 0, &by_at);
-  const double lengths = verify__most_seen(of, &of_at, by, &by_at);
+  const verify__extent e = verify__extent_of(of, &of_at, by, &by_at);
   for (uint32_t v = 0; v < of->mesh->vertices; v++) {
     double y[3];
+    int open;
     if (of->mesh->part[v] != v) continue;
     if (!verify__read(r, 1)) verify__read_normal(r);
     if (r->at > r->bits) return "it ends early";
     verify__seen(of, &of_at, by, &by_at, v, y);
-    if (!verify__cast(r, by->mesh, y, lengths)) return "a ray passes too near to an edge";
-    for (size_t i = 0; i < by->mesh->vertices; i++) {
-      if (by->mesh->sums[i] != 0) return "a ray does not show that a component is outside";
-    }
+    if (!verify__cast(r, by->mesh, y, &e)) return "a ray passes too near to an edge";
+    if (verify__wound(by->mesh, &open) != 0 || open)
+      return "a ray does not show that a component is outside";
   }
   return NULL;
 }
@@ -194,8 +255,8 @@ static void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t 
   verify__seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by], vertex, out);
 }
 
-static double verify__most_of(const verify__pair *p, int of, int by) {
-  return verify__most_seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
+static verify__extent verify__extent_in(const verify__pair *p, int of, int by) {
+  return verify__extent_of(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
 }
 
 // Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
@@ -204,7 +265,7 @@ static const char *verify__pierced(verify__reader *r, const verify__pair *p) {
   const int of = (int)verify__read(r, 1);
   const uint32_t edge = verify__read(r, 2);
   const nsvcd_verify_mesh *m = p->mover[!of]->mesh;
-  const double lengths = verify__most_of(p, of, !of);
+  const verify__extent e = verify__extent_in(p, of, !of);
   double from[3], to[3], there[3], back[3];
   if (edge == 3) return "it names an edge that there is not";
   verify__corner_seen(p, of, !of, edge, from);
@@ -213,8 +274,8 @@ static const char *verify__pierced(verify__reader *r, const verify__pair *p) {
     there[i] = to[i] - from[i];
     back[i] = -there[i];
   }
-  const int first = verify__crosses(m, p->triangle[!of], from, there, lengths);
-  const int second = verify__crosses(m, p->triangle[!of], to, back, lengths);
+  const int first = verify__crosses(m, p->triangle[!of], from, there, &e);
+  const int second = verify__crosses(m, p->triangle[!of], to, back, &e);
   const int clear = first == 1 || first == -1;
   return clear && second == -first ? NULL : "an edge does not pass through a triangle";
 }
@@ -234,32 +295,8 @@ static const char *verify__near(verify__reader *r, const verify__pair *p) {
       for (int i = 0; i < 3; i++) apart[i] += weight[c] * x[i];
     }
   }
-  const double distance =
-      sqrt(verify__dot(apart, apart)) + VERIFY__MARGIN * verify__most_of(p, 0, 1);
+  const double distance = sqrt(verify__dot(apart, apart)) + verify__extent_in(p, 0, 1).margin;
   return p->mover[1]->scale * distance < r->clearance ? NULL : "two points are not as near as that";
-}
-
-// How often is there an edge from one vertex to another? In a leaf about both.
-static int verify__count_edges(const nsvcd_verify_mesh *m, uint32_t from, uint32_t to) {
-  const float *x = m->positions + 3 * (size_t)from;
-  nsvcd_verify_node stack[40] = {{0, 0, (uint32_t)m->triangles}};
-  size_t height = 1;
-  int count = 0;
-  while (height > 0) {
-    const nsvcd_verify_node node = stack[--height];
-    const float *low = m->boxes + 6 * (size_t)node.box;
-    const uint32_t *corner = m->indices + 3 * (size_t)m->order[node.first];
-    int holds = 1;
-    for (int i = 0; i < 3; i++) holds = holds && low[i] <= x[i] && x[i] <= low[i + 3];
-    if (!holds) continue;
-    if (node.count > 1) {
-      verify__children(&node, stack + height);
-      height += 2;
-    }
-    for (int k = 0; k < 3 && node.count == 1; k++)
-      count += corner[k] == from && corner[(k + 1) % 3] == to;
-  }
-  return count;
 }
 
 // Whose corner, which, and a ray. Only components count of which each edge has as many reverses.
@@ -272,23 +309,15 @@ static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
   const nsvcd_verify_mesh *m = by->mesh;
   nsvcd_verify_place of_at, by_at;
   double y[3];
-  int64_t sum = 0;
+  int open;
   if (out->a >= of->mesh->vertices || of->mesh->part[out->a] == NSVCD_VERIFY_NONE)
     return "it names a corner that there is not";
   of->place(of->motion, out->time, &of_at);
   by->place(by->motion, out->time, &by_at);
   verify__seen(of, &of_at, by, &by_at, out->a, y);
-  if (!verify__cast(r, m, y, verify__most_seen(of, &of_at, by, &by_at)))
-    return "a ray passes too near to an edge";
-  for (size_t i = 0; i < 3 * m->triangles; i++) {
-    const uint32_t from = m->indices[i];
-    const uint32_t to = m->indices[i % 3 == 2 ? i - 2 : i + 1];
-    if (m->sums[m->part[from]] == 0) continue;
-    if (verify__count_edges(m, from, to) != verify__count_edges(m, to, from))
-      m->sums[m->part[from]] = 0;
-  }
-  for (size_t v = 0; v < m->vertices; v++) sum += m->sums[v];
-  return sum != 0 ? NULL : "a ray does not show that a corner is inside";
+  const verify__extent e = verify__extent_of(of, &of_at, by, &by_at);
+  if (!verify__cast(r, m, y, &e)) return "a ray passes too near to an edge";
+  return verify__wound(m, &open) != 0 ? NULL : "a ray does not show that a corner is inside";
 }
 
 // HIT, NEAR and INSIDE: when, and what.

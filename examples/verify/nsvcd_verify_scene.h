@@ -7,8 +7,10 @@
 #include <string.h>
 
 #define NSVCD_VERIFY_NONE 0xffffffffu
+#define VERIFY__LEVELS 40  // of a tree, and some more
 
-// A mesh, its components (triangles joined by corners), and a tree over its triangles. A node is a
+// A mesh, its components (triangles joined by
+// corners at the same place), and a tree over its triangles. A node is a
 // run of triangles with a box about them. The root has all; a node of n > 1 triangles is cut along
 // the axis along which the sums of their corners differ most (of equals the first): its left child
 // has the n / 2 triangles with the least sums (of equals the lower numbers), its right child the
@@ -54,6 +56,14 @@ typedef struct nsvcd_verify_path {
   size_t count;
 } nsvcd_verify_path;
 
+// Of two numbers; fmin and fmax, which look for NaN, are calls.
+static double verify__min(double a, double b) {
+  return a < b ? a : b;
+}
+static double verify__max(double a, double b) {
+  return a > b ? a : b;
+}
+
 static uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
     uint32_t word;
@@ -66,26 +76,8 @@ static uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
 
 // ---- meshes
 
-static const float *verify__corner(const nsvcd_verify_mesh *m, uint32_t triangle, uint32_t k) {
-  return m->positions + 3 * (size_t)m->indices[3 * (size_t)triangle + k];
-}
-
-static uint32_t verify__root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) v = part[v] = part[part[v]];
-  return v;
-}
-
-static void verify__join(nsvcd_verify_mesh *m) {
-  const size_t corners = 3 * m->triangles;
-  for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
-  for (size_t i = 0; i < corners; i++) m->part[m->indices[i]] = m->indices[i];
-  for (size_t i = 0; i < corners; i++) {
-    const uint32_t x = verify__root(m->part, m->indices[i]);
-    const uint32_t y = verify__root(m->part, m->indices[i / 3 * 3]);
-    m->part[x > y ? x : y] = x > y ? y : x;
-  }
-  for (size_t i = 0; i < corners; i++)
-    m->part[m->indices[i]] = verify__root(m->part, m->indices[i]);
+static const float *verify__corner(const nsvcd_verify_mesh *m, size_t triangle, size_t k) {
+  return m->positions + 3 * (size_t)m->indices[3 * triangle + k];
 }
 
 static double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
@@ -114,13 +106,13 @@ static void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
     low[k] = high[k] = verify__corner(m, order[0], 0)[k];
     for (uint32_t i = 0; i < 3 * node->count; i++) {
       const float x = verify__corner(m, order[i / 3], i % 3)[k];
-      low[k] = fminf(low[k], x);
-      high[k] = fmaxf(high[k], x);
-      least = fmin(least, verify__sum(m, order[i / 3], k));
-      most = fmax(most, verify__sum(m, order[i / 3], k));
+      if (x < low[k]) low[k] = x;
+      if (x > high[k]) high[k] = x;
+      least = verify__min(least, verify__sum(m, order[i / 3], k));
+      most = verify__max(most, verify__sum(m, order[i / 3], k));
     }
     if (most - least > widest) axis = k;
-    widest = fmax(widest, most - least);
+    widest = verify__max(widest, most - least);
   }
   for (int64_t from = 0, to = (int64_t)node->count - 1; from < to;) {
     const uint32_t pivot = order[(from + to) / 2];
@@ -147,6 +139,71 @@ static void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *c
   child[1] = right;
 }
 
+static int verify__same(const float *x, const float *y) {
+  return !(x[0] < y[0] || x[0] > y[0] || x[1] < y[1] || x[1] > y[1] || x[2] < y[2] || x[2] > y[2]);
+}
+
+// How many edges go from one place to another? *lowest: the lowest vertex at the first.
+static int verify__edges_from(const nsvcd_verify_mesh *m, const float *from, const float *to,
+                              uint32_t *lowest) {
+  nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
+  size_t height = 1;
+  int count = 0;
+  while (height > 0) {
+    const nsvcd_verify_node node = stack[--height];
+    const float *low = m->boxes + 6 * (size_t)node.box;
+    const uint32_t triangle = m->order[node.first];
+    int holds = 1;
+    for (int i = 0; i < 3; i++) holds = holds && low[i] <= from[i] && from[i] <= low[i + 3];
+    if (!holds) continue;
+    if (node.count > 1) {
+      verify__children(&node, stack + height);
+      height += 2;
+      continue;
+    }
+    for (size_t k = 0; k < 3; k++) {
+      const uint32_t vertex = m->indices[3 * (size_t)triangle + k];
+      if (!verify__same(verify__corner(m, triangle, k), from)) continue;
+      if (vertex < *lowest) *lowest = vertex;
+      count += verify__same(verify__corner(m, triangle, (k + 1) % 3), to);
+    }
+  }
+  return count;
+}
+
+static int verify__edges(const nsvcd_verify_mesh *m, const float *from, const float *to) {
+  uint32_t lowest = NSVCD_VERIFY_NONE;
+  return verify__edges_from(m, from, to, &lowest);
+}
+
+static uint32_t verify__root(uint32_t *part, uint32_t v) {
+  while (part[v] != v) v = part[v] = part[part[v]];
+  return v;
+}
+
+static void verify__unite(uint32_t *part, uint32_t v, uint32_t w) {
+  const uint32_t x = verify__root(part, v);
+  const uint32_t y = verify__root(part, w);
+  part[x > y ? x : y] = x > y ? y : x;
+}
+
+// Finds the components: joins the corners of triangles, and vertices at the same place.
+static void verify__join(nsvcd_verify_mesh *m) {
+  const size_t corners = 3 * m->triangles;
+  for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
+  for (size_t i = 0; i < corners; i++) m->part[m->indices[i]] = m->indices[i];
+  for (size_t i = 0; i < corners; i++) verify__unite(m->part, m->indices[i], m->indices[i / 3 * 3]);
+  for (uint32_t v = 0; v < m->vertices; v++) {
+    const float *x = m->positions + 3 * (size_t)v;
+    uint32_t lowest = v;
+    if (m->part[v] == NSVCD_VERIFY_NONE) continue;
+    (void)verify__edges_from(m, x, x, &lowest);
+    verify__unite(m->part, v, lowest);
+  }
+  for (size_t i = 0; i < corners; i++)
+    m->part[m->indices[i]] = verify__root(m->part, m->indices[i]);
+}
+
 // Bytes of the memory that nsvcd_verify_mesh_init takes.
 static size_t nsvcd_verify_mesh_size(size_t vertices, size_t triangles) {
   return 52 * triangles + 8 * vertices;
@@ -157,7 +214,7 @@ static size_t nsvcd_verify_mesh_size(size_t vertices, size_t triangles) {
 static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertices,
                                           const uint32_t *indices, size_t triangles, void *memory,
                                           nsvcd_verify_mesh *m) {
-  nsvcd_verify_node stack[40];
+  nsvcd_verify_node stack[VERIFY__LEVELS];
   size_t height = 1;
   if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000)
     return "a mesh has no triangles, or too many";
@@ -177,7 +234,6 @@ static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertice
   m->sums = (int32_t *)(m->part + vertices);
   m->digest = verify__hash((uint32_t)vertices, positions, 3 * vertices);
   m->digest = verify__hash(m->digest, indices, 3 * triangles);
-  verify__join(m);
   for (size_t i = 0; i < triangles; i++) m->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)triangles;
@@ -188,6 +244,7 @@ static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertice
     verify__children(&node, stack + height);
     height += 2;
   }
+  verify__join(m);
   return NULL;
 }
 

@@ -12,6 +12,7 @@
 //             zeros a new one: 0, two numbers of 8 bits; or 1, two of 16
 #pragma once
 #include "../ground/random.h"
+#include "../proof/couples.h"
 #include "rays.h"
 
 #ifndef NSVCD_NO_CERTIFICATES
@@ -105,77 +106,51 @@ static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *
 static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
                                      const nsvcd__rider *by, const nsvcd__posed *by_at,
                                      uint32_t own, uint32_t other) {
-  const double lengths = nsvcd__lengths_seen(of, of_at, by, by_at);
+  const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
     const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
     const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
     const nsvcd__d3 along = nsvcd__d3_sub(to, from);
-    const int there = nsvcd__ray_passes(by->tree, other, from, along, lengths);
+    const int there = nsvcd__ray_passes(by->tree, other, from, along, &e);
     if (there != 1 && there != -1) continue;
     const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-    if (nsvcd__ray_passes(by->tree, other, to, back, lengths) == -there) return k;
+    if (nsvcd__ray_passes(by->tree, other, to, back, &e) == -there) return k;
   }
   return NSVCD__NO_EDGE;
 }
 
-// The points of two triangles that are nearest to each other, by Gilbert's iteration with the
-// corners' weights. Good to a hundredth of their distance, or in 200 steps as far as they lead.
-static void nsvcd__nearest_weights(const nsvcd__d3 *a, const nsvcd__d3 *b, double *of_a,
-                                   double *of_b) {
-  for (size_t k = 0; k < 3; k++) of_a[k] = of_b[k] = k == 0;
-  for (int step = 0; step < 200; step++) {
-    nsvcd__d3 v = nsvcd__d3_of(0, 0, 0);
-    size_t i = 0;
-    size_t j = 0;
-    for (size_t k = 0; k < 3; k++)
-      v = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], v));
-    for (size_t k = 1; k < 3; k++) {
-      if (nsvcd__d3_dot(v, a[k]) < nsvcd__d3_dot(v, a[i])) i = k;
-      if (nsvcd__d3_dot(v, b[k]) > nsvcd__d3_dot(v, b[j])) j = k;
-    }
-    const nsvcd__d3 to = nsvcd__d3_sub(nsvcd__d3_sub(a[i], b[j]), v);
-    const double square = nsvcd__d3_dot(to, to);
-    const double down = -nsvcd__d3_dot(v, to);
-    if (!(down > 0.01 * nsvcd__d3_dot(v, v)) || !(square > 0)) return;
-    const double share = nsvcd__min(1, down / square);
-    for (size_t k = 0; k < 3; k++) {
-      of_a[k] += share * ((k == i) - of_a[k]);
-      of_b[k] += share * ((k == j) - of_b[k]);
-    }
-  }
-}
-
 // A point of a triangle as it is written: shares of the way from the first corner to the second, and
-// from there to the third. Its weights become those that are read.
-static void nsvcd__point_code(double *weights, uint32_t *code) {
-  const double beyond = weights[1] + weights[2];
-  const double within = beyond > 0 ? weights[2] / beyond : 0;
-  const double v = floor(65535 * nsvcd__min(1, beyond) + 0.5);
-  const double w = floor(65535 * nsvcd__min(1, within) + 0.5);
-  code[0] = (uint32_t)v;
-  code[1] = (uint32_t)w;
-  weights[0] = 1 - v / 65535;
-  weights[1] = v / 65535 * (1 - w / 65535);
-  weights[2] = v / 65535 * (w / 65535);
+// from there to the third. Returns the point that is read.
+static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
+  const nsvcd__d3 first = nsvcd__d3_sub(t[1], t[0]);
+  const nsvcd__d3 second = nsvcd__d3_sub(t[2], t[1]);
+  const double square = nsvcd__d3_dot(n, n);
+  // off = v (first + w second)
+  const double vw = nsvcd__d3_dot(n, nsvcd__d3_cross(first, off)) / square;
+  const double v =
+      vw + nsvcd__d3_dot(n, nsvcd__d3_cross(off, nsvcd__d3_sub(t[2], t[0]))) / square;
+  const int has_area = square > 0 && v > 0;
+  code[0] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? v : 0) + 0.5);
+  code[1] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? vw / v : 0) + 0.5);
+  const nsvcd__d3 along = nsvcd__d3_fma((double)code[1] / 65535, second, first);
+  return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
 
 // Are two triangles nearer to each other than the clearance? At points that are written.
 static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
                           uint32_t tb, uint32_t *codes) {
   nsvcd__d3 a[3], b[3];
-  double of_a[3], of_b[3];
-  nsvcd__d3 apart = nsvcd__d3_of(0, 0, 0);
-  const double lengths = nsvcd__lengths_seen(&c->a, &at->a, &c->b, &at->b);
+  const nsvcd__extent e = nsvcd__extent_seen(&c->a, &at->a, &c->b, &at->b);
   for (uint32_t k = 0; k < 3; k++) {
     a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
     b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
   }
-  nsvcd__nearest_weights(a, b, of_a, of_b);
-  nsvcd__point_code(of_a, codes);
-  nsvcd__point_code(of_b, codes + 2);
-  for (size_t k = 0; k < 3; k++)
-    apart = nsvcd__d3_fma(of_a[k], a[k], nsvcd__d3_fma(-of_b[k], b[k], apart));
-  const double distance = nsvcd__d3_length(apart) + NSVCD__CERTIFIED_MARGIN * lengths;
+  const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+  const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
+  const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
+  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
   return c->b.scale * distance < c->stretch.clearance;
 }
 
@@ -289,7 +264,9 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__write_head(c, NSVCD__PROVES_FREE);
   while (height > 0) {
     nsvcd__visit *v = &stack[height - 1];
-    const nsvcd__nodes *nodes = &v->nodes;
+    nsvcd__nodes *nodes = &v->nodes;
+    nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
+    nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
     nsvcd__written_normal normal;
     if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
     nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
@@ -339,7 +316,7 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__rider *by = whose ? &c->a : &c->b;
   const nsvcd__posed of_at = of->place(of->motion, 0);
   const nsvcd__posed by_at = by->place(by->motion, 0);
-  const double lengths = nsvcd__lengths_seen(of, &of_at, by, &by_at);
+  const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
     if (of->tree->part[v] != v) continue;
@@ -349,13 +326,14 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const int same = k == 0;
       const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
-      if (!nsvcd__cast(by->tree, from, along, lengths, c->sums)) continue;
-      shown = 1;
-      for (size_t i = 0; i < by->tree->mesh.vertex_count; i++) shown &= c->sums[i] == 0;
+      if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
+      int open;
+      const int sum = nsvcd__sum_of_closed(by->tree, c->sums, &open);
+      shown = sum == 0 && !open;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
-      } else if (!same && nsvcd__sum_of_closed(by->tree, c->sums) != 0) {
+      } else if (!same && sum != 0) {
         nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
         nsvcd__write_bits(c, nsvcd__time_code(0), 32);
         nsvcd__write_bits(c, (uint32_t)whose, 1);

@@ -6,7 +6,9 @@
 #ifndef NSVCD_NO_CERTIFICATES
 // What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
 #define NSVCD__CERTIFIED_MARGIN 1.01e-10
-#define NSVCD__NORMAL_STEPS 20    // of Gilbert's iteration
+// triangles: of nodes of so many the corners count, of larger ones the boxes
+#define NSVCD__EXACT 24
+#define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
 #define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
 // of both lengths: nodes that come as near are opened, not parted
 #define NSVCD__NORMAL_GIVE_UP 1e-3
@@ -15,6 +17,7 @@
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
+  double lengths;  // of both places
   nsvcd__off_chord off_a, off_b;
 } nsvcd__instant;
 
@@ -29,9 +32,10 @@ typedef struct nsvcd__stretch {
   nsvcd__instant middle;
 } nsvcd__stretch;
 
-// A node of each tree.
+// A node of each tree. No point of them is farther from its body's origin than the radii say.
 typedef struct nsvcd__nodes {
   nsvcd__node a, b;
+  double radius_a, radius_b;
 } nsvcd__nodes;
 
 // A direction as it is written: two whole numbers.
@@ -41,6 +45,11 @@ typedef struct nsvcd__written_normal {
   int bits;  // of each number: 8 or 16
 } nsvcd__written_normal;
 
+static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
+         fabs(b->at.z);
+}
+
 static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
                                         double t) {
   nsvcd__instant at;
@@ -48,6 +57,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
   at.t = t;
   at.a = a->place(a->motion, t);
   at.b = b->place(b->motion, t);
+  at.lengths = nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
@@ -77,24 +87,24 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 
 // ---- nodes
 
-// The corner of a node's box, or of its triangle, that is farthest along a direction of the world.
-static nsvcd__d3 nsvcd__farthest(const nsvcd__rider *rider, const nsvcd__node *node,
-                                 const nsvcd__posed *at, nsvcd__d3 along) {
-  const nsvcd__d3 way = nsvcd__dmat3_apply_transpose(&at->turn, along);
-  const nsvcd_tree *tree = rider->tree;
-  if (node->count > 1) {
+// The corner of a node's box, or of its triangle, that is farthest along a direction in its frame.
+static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
+                                 nsvcd__d3 way) {
+  if (node->count > NSVCD__EXACT) {
     const nsvcd__box *box = &tree->boxes[node->box];
     return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
                         (double)(way.y > 0 ? box->high.y : box->low.y),
                         (double)(way.z > 0 ? box->high.z : box->low.z));
   }
-  const uint32_t triangle = tree->order[node->first];
-  nsvcd__d3 best = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
-  for (uint32_t k = 1; k < 3; k++) {
-    const nsvcd__d3 x = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k));
-    if (nsvcd__d3_dot(x, way) > nsvcd__d3_dot(best, way)) best = x;
+  const float *corners = tree->corners + 9 * (size_t)node->first;
+  double most = -HUGE_VAL;
+  size_t farthest = 0;
+  for (size_t i = 0; i < 3 * (size_t)node->count; i++) {
+    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), way);
+    farthest = along > most ? i : farthest;
+    most = along > most ? along : most;
   }
-  return best;
+  return nsvcd__d3_row(corners, farthest);
 }
 
 static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
@@ -106,11 +116,25 @@ static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed 
 static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
-  const nsvcd__d3 a = nsvcd__farthest(s->a, &nodes->a, &at->a, back);
-  const nsvcd__d3 b = nsvcd__farthest(s->b, &nodes->b, &at->b, along);
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, way_a);
+  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, way_b);
   const nsvcd__d3 turned =
       nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
   return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+}
+
+// How far it goes.
+static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                               const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
+  const double a = nsvcd__d3_dot(way_a, nsvcd__farthest(s->a->tree, &nodes->a, back));
+  const double b = nsvcd__d3_dot(way_b, nsvcd__farthest(s->b->tree, &nodes->b, way_b));
+  const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
+  return nsvcd__d3_dot(along, offset) + (s->a->scale * a - s->b->scale * b);
 }
 
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
@@ -119,23 +143,18 @@ static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *n
   return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
-static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
-  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
-         fabs(b->at.z);
-}
-
 // Does a plane of this normal part two nodes, at all instants and between them?
 static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
-  const double ra = nsvcd__node_radius(s->a, &nodes->a);
-  const double rb = nsvcd__node_radius(s->b, &nodes->b);
+  const double ra = nodes->radius_a;
+  const double rb = nodes->radius_b;
   double last = HUGE_VAL;
   double leaves = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
-    const double lengths = ra + rb + s->clearance + nsvcd__lengths_at(&at->a, &at->b);
-    const double gap = nsvcd__d3_dot(along, nsvcd__least_apart(s, nodes, at, along));
+    const double lengths = ra + rb + s->clearance + at->lengths;
+    const double gap = nsvcd__gap_along(s, nodes, at, along);
     const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
     if (!(gap > most && last > most)) return 0;
     last = gap;
@@ -185,7 +204,7 @@ static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
   const double length = nsvcd__d3_length(along);
   for (int k = 0; k < 2 && length > 0; k++) {
     const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
-    const double gap = nsvcd__d3_dot(way, nsvcd__least_apart(s, nodes, at, way));
+    const double gap = nsvcd__gap_along(s, nodes, at, way);
     if (gap <= best->gap) continue;
     best->along = way;
     best->gap = gap;
@@ -241,7 +260,7 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
     nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
     nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
     nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
-    for (size_t i = 0; i < 9 && !(best.gap > 0); i++)
+    for (size_t i = 0; i < 9; i++)
       nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
   }
   if (!(best.gap > s->clearance)) return 0;

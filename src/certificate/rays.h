@@ -16,19 +16,28 @@ static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *
   return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->scale);
 }
 
-// No length in that frame is more.
-static double nsvcd__lengths_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                  const nsvcd__rider *by, const nsvcd__posed *by_at) {
+// In that frame: no length is more, and no point is off by as much as the margin.
+typedef struct nsvcd__extent {
+  double lengths, margin;
+} nsvcd__extent;
+
+static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                        const nsvcd__rider *by, const nsvcd__posed *by_at) {
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
-  return (radii + nsvcd__lengths_at(of_at, by_at)) / by->scale;
+  const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
+  const double places = 1e-3 * nsvcd__lengths_at(of_at, by_at);
+  nsvcd__extent out;
+  out.lengths = 1.000001 * (radii + apart) / by->scale;
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
+  return out;
 }
 
 // Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
-                             nsvcd__d3 along, double lengths) {
-  const double margin = NSVCD__CERTIFIED_MARGIN * lengths * lengths;
-  const double area = margin * nsvcd__d3_length(along);
+                             nsvcd__d3 along, const nsvcd__extent *e) {
+  const double margin = e->margin * nsvcd__d3_length(along);
+  const double area = margin * e->lengths;
   nsvcd__d3 p[3];
   double sides[3];
   for (uint32_t k = 0; k < 3; k++)
@@ -36,7 +45,7 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead * lengths < -area) return 0;
+  if (ahead < -margin) return 0;
   for (size_t k = 0; k < 3; k++)
     sides[k] = nsvcd__d3_dot(along, nsvcd__d3_cross(p[k], p[(k + 1) % 3]));
   const double least = nsvcd__min(sides[0], nsvcd__min(sides[1], sides[2]));
@@ -44,55 +53,69 @@ static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d
   if (least < -area && most > area) return 0;
   if (!(least > area || most < -area)) return NSVCD__UNCLEAR;
   const double volume = nsvcd__d3_dot(p[2], nsvcd__d3_cross(p[0], p[1]));
-  if (!(fabs(volume) > margin * lengths)) return NSVCD__UNCLEAR;
+  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return NSVCD__UNCLEAR;
   if ((volume > 0) != (most > 0)) return 0;
   return most > 0 ? 1 : -1;
 }
 
-// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
-static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along, double lengths,
-                       int32_t *sums) {
-  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
-  for (size_t t = 0; t < tree->mesh.triangle_count; t++) {
-    const int crossed = nsvcd__ray_passes(tree, (uint32_t)t, from, along, lengths);
-    if (crossed == NSVCD__UNCLEAR) return 0;
-    sums[tree->part[tree->mesh.indices[3 * t]]] += crossed;
-  }
-  return 1;
+// Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
+// sides, along which they are apart.
+static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 along,
+                             double margin) {
+  const nsvcd__d3 low = nsvcd__d3_sub(nsvcd__d3_widen(box->low), from);
+  const nsvcd__d3 high = nsvcd__d3_sub(nsvcd__d3_widen(box->high), from);
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5);
+  const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+  const nsvcd__d3 size = nsvcd__d3_of(fabs(along.x), fabs(along.y), fabs(along.z));
+  const nsvcd__d3 off = nsvcd__d3_cross(along, middle);
+  return fabs(off.x) > size.y * half.z + size.z * half.y + margin ||
+         fabs(off.y) > size.z * half.x + size.x * half.z + margin ||
+         fabs(off.z) > size.x * half.y + size.y * half.x + margin;
 }
 
-// How often there is an edge from one vertex to another.
-static long nsvcd__edges_between(const nsvcd_tree *tree, uint32_t from, uint32_t to) {
-  const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)from);
+// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
+static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
+                       const nsvcd__extent *e, int32_t *sums) {
+  const double margin = e->margin * nsvcd__d3_length(along);
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
   size_t height = 1;
-  long count = 0;
+  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
   while (height > 0) {
     const nsvcd__node node = stack[--height];
-    const nsvcd__box *box = &tree->boxes[node.box];
-    if (nsvcd__f3_exceeds(x, box->high) || nsvcd__f3_exceeds(box->low, x)) continue;
+    if (nsvcd__ray_misses(&tree->boxes[node.box], from, along, margin)) continue;
     if (node.count > 1) {
       nsvcd__children(&node, &stack[height], &stack[height + 1]);
       height += 2;
       continue;
     }
-    const uint32_t *corner = tree->mesh.indices + 3 * (size_t)tree->order[node.first];
-    for (size_t k = 0; k < 3; k++) count += corner[k] == from && corner[(k + 1) % 3] == to;
+    const uint32_t triangle = tree->order[node.first];
+    const int crossed = nsvcd__ray_passes(tree, triangle, from, along, e);
+    if (crossed == NSVCD__UNCLEAR) return 0;
+    sums[tree->part[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
   }
-  return count;
+  return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
+// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses. *open:
+// 1 if others have some too.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;
+  int any = 0;
+  *open = 0;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
+  if (!any) return 0;
   for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
-    const uint32_t from = indices[i];
-    const uint32_t to = indices[i % 3 == 2 ? i - 2 : i + 1];
-    int32_t *crossed = &sums[tree->part[from]];
+    const uint32_t next = indices[i % 3 == 2 ? i - 2 : i + 1];
+    const nsvcd__f3 from = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)indices[i]);
+    const nsvcd__f3 to = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)next);
+    int32_t *crossed = &sums[tree->part[indices[i]]];
     if (*crossed == 0) continue;
-    if (nsvcd__edges_between(tree, from, to) != nsvcd__edges_between(tree, to, from))
-      *crossed = 0;
+    if (nsvcd__edges_between(tree, from, to, NULL) ==
+        nsvcd__edges_between(tree, to, from, NULL))
+      continue;
+    *crossed = 0;
+    *open = 1;
   }
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
   return sum;

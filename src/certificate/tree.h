@@ -31,6 +31,8 @@ struct nsvcd_tree {
   nsvcd__box *boxes;
   // (triangles): the leaves, from left to right
   uint32_t *order;
+  // (triangles, 3, 3): their corners
+  float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *part;
   uint32_t digest;
@@ -121,20 +123,64 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
   right->count = whole.count - left->count;
 }
 
+static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
+  return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
+}
+
+// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at the
+// first.
+static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
+                                 uint32_t *lowest) {
+  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
+  size_t height = 1;
+  long count = 0;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    const nsvcd__box *box = &tree->boxes[node.box];
+    if (nsvcd__f3_exceeds(from, box->high) || nsvcd__f3_exceeds(box->low, from)) continue;
+    if (node.count > 1) {
+      nsvcd__children(&node, &stack[height], &stack[height + 1]);
+      height += 2;
+      continue;
+    }
+    const uint32_t triangle = tree->order[node.first];
+    for (uint32_t k = 0; k < 3; k++) {
+      const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
+      const nsvcd__f3 own = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, k));
+      const nsvcd__f3 next = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, (k + 1) % 3));
+      if (!nsvcd__same_point(own, from)) continue;
+      if (lowest && vertex < *lowest) *lowest = vertex;
+      count += nsvcd__same_point(next, to);
+    }
+  }
+  return count;
+}
+
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
   while (part[v] != v) v = part[v] = part[part[v]];
   return v;
 }
 
+static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
+  const uint32_t x = nsvcd__part_root(part, v);
+  const uint32_t y = nsvcd__part_root(part, w);
+  part[x > y ? x : y] = x > y ? y : x;
+}
+
+// Joins the corners of triangles, and vertices at the same place.
 static void nsvcd__find_parts(nsvcd_tree *tree) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
   for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
-  for (size_t i = 0; i < corners; i++) {
-    const uint32_t x = nsvcd__part_root(tree->part, indices[i]);
-    const uint32_t y = nsvcd__part_root(tree->part, indices[i / 3 * 3]);
-    tree->part[x > y ? x : y] = x > y ? y : x;
+  for (size_t i = 0; i < corners; i++)
+    nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
+  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
+    const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)v);
+    uint32_t lowest = v;
+    if (tree->part[v] == NSVCD_NO_TRIANGLE) continue;
+    (void)nsvcd__edges_between(tree, x, x, &lowest);
+    nsvcd__unite_parts(tree->part, v, lowest);
   }
   for (size_t i = 0; i < corners; i++)
     tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
@@ -147,6 +193,7 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   (void)nsvcd__take(base, &used, 1, sizeof *tree);
   tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
   tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
   return used;
 }
@@ -174,7 +221,6 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
-  nsvcd__find_parts(t);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
@@ -185,6 +231,11 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
     nsvcd__children(&node, &stack[height], &stack[height + 1]);
     height += 2;
   }
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    const float *corner = nsvcd__tree_corner(t, t->order[i / 3], (uint32_t)(i % 3));
+    memcpy(t->corners + 3 * i, corner, 3 * sizeof *corner);
+  }
+  nsvcd__find_parts(t);
   *tree = t;
   return NSVCD_OK;
 }

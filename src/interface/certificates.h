@@ -49,8 +49,8 @@ typedef struct nsvcd_certificate {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
-// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is, and
-// writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
+// two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
 // anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
 // corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
 // lengths, stays UNDECIDED.

@@ -10,7 +10,7 @@
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
 #endif
-#if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_CERTIFICATES)
+#if (defined(NSVCD_NO_ENCODER) || defined(NSVCD_NO_PROOF)) && !defined(NSVCD_NO_CERTIFICATES)
 #define NSVCD_NO_CERTIFICATES
 #endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
