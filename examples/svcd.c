@@ -17,6 +17,7 @@
 #include "scenery/sweep_motion.h"
 // and these the oracle
 #include "scenery/poses.h"
+#include "scenery/certificates.h"
 #include "scenery/sweep_picture.h"
 #include "scenery/robot_picture.h"
 
@@ -32,6 +33,7 @@ typedef struct settings {  // of all commands
   float measure;         // metres
   size_t repeat;
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
+  const char *certificate, *certificates;
   size_t seed, samples;
   int int8, help;
   const char *paths[2];
@@ -56,6 +58,8 @@ static const option options[] = {
      "NSVCD_MAX_COORDINATE"},
     {"--first", CHECK | SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m"},
     {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL},
+    {"--certificates", CHECK, OPTION_TEXT, AT(certificates), 0, 0, NULL},
+    {"--certificate", SWEEP, OPTION_TEXT, AT(certificate), 0, 0, NULL},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network"},
     {"--points", CHECK | ENCODE | SWEEP, OPTION_COUNT, AT(encode.patches), 1, POINTS,
@@ -231,6 +235,8 @@ static int check_options(settings *options) {
     return usage_error("--method network", "it knows neither --clearance, --first nor --skin");
   if (options->details && !ends_with(options->details, ".tsv"))
     return usage_error("--details", "a file that ends in .tsv is wanted");
+  if (options->certificates && (options->encode.no_triangles || sweep->skin > 0))
+    return usage_error("--certificates", "not with --method network, nor with --skin");
   if (!recall_is_known(sweep)) return usage_error("--recall", "none of 0, 0.99, 0.999, 0.9999");
   return DONE;
 }
@@ -247,7 +253,9 @@ static int check(settings *options) {
     memset(s.bodies, 0, s.file.mesh_count * sizeof *s.bodies);
   }
   good = good && encode_meshes(&s.file, &options->encode, s.bodies) && answer_all(&s, options) &&
-         (!options->details || write_details(&s, options->details)) && print_answers(&s);
+         (!options->details || write_details(&s, options->details)) && print_answers(&s) &&
+         (!options->certificates ||
+          write_certificates(&s, options->certificates, options->sweep.clearance));
   if (good) print_summary(&s);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);
@@ -937,6 +945,13 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
   print_answer(job, options);
+  if (options->certificate) {
+    if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
+                     options->sweep.clearance, &job->answer))
+      return REFUSED;
+    printf("certificate  %s, of the problem in %.*stxt\n", options->certificate,
+           (int)strlen(options->certificate) - 4, options->certificate);
+  }
   return !options->picture || draw_job(job, options) ? DONE : REFUSED;
 }
 
@@ -946,6 +961,10 @@ static int sweep(settings *options) {
     return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
+  if (options->certificate &&
+      (!ends_with(options->certificate, ".cert") || options->sweep.skin > 0 ||
+       is_body_file(options->paths[0]) || is_body_file(options->paths[1])))
+    return usage_error("--certificate", "a file that ends in .cert; of meshes, without --skin");
   if (!take_scales(options->scale, 2, scales)) return USAGE;
   if (options->picture && !draw_may_write(options->picture)) return REFUSED;
   sweep_job *job = (sweep_job *)allocate(sizeof *job);
@@ -965,7 +984,8 @@ static void help_sweep(FILE *out) {
   fprintf(
       out,
       "svcd sweep A B [--from POSE] [--to POSE] [--rotate AXIS,DEGREES] [--scale S[,S]]\n"
-      "           [--picture OUT.svg] [--clearance METRES] [--measure METRES] [--skin METRES]\n"
+      "           [--picture OUT.svg] [--certificate OUT.cert] [--clearance METRES]\n"
+      "           [--measure METRES] [--skin METRES]\n"
       "           [--first T|METRESm] [--method proof|network] [--points N] [--work N] [--repeat "
       "R]\n"
       "A moves, B rests where its file has it: do they hit each other? A and B are OBJ or .body\n"
@@ -976,6 +996,8 @@ static void help_sweep(FILE *out) {
       "  --rotate AXIS,DEG  turn on the way, about A's origin: z,90\n"
       "  --scale S[,S]      to metres: 0.001 of millimetres; of both, or of A and of B (1)\n"
       "  --picture OUT.svg  draws B, and A at the start, at the contact and at the end\n"
+      "  --certificate OUT.cert  writes a proof of the answer, and what it is about to OUT.txt:\n"
+      "                     build/verify OUT.txt FOLDER checks it\n"
       "  --clearance M      to come as near as this is a hit (0: to meet is)\n"
       "  --measure M        if they are free: how near do they come? to this\n"
       "  --skin M           to touch at the start, no deeper than this, is no hit (0)\n"
@@ -1018,7 +1040,8 @@ static void help_check(FILE *out) {
       out,
       "svcd check [--method proof|network] [--points N] [--pairs K] [--model tiny|small|base]\n"
       "           [--int8] [--recall R] [--clearance METRES] [--first T|METRESm]\n"
-      "           [--skin METRES] [--work LIMIT] [--repeat R] [--details OUT.tsv] FILE\n"
+      "           [--skin METRES] [--work LIMIT] [--repeat R] [--details OUT.tsv]\n"
+      "           [--certificates FOLDER] FILE\n"
       "Answers the problems of FILE, a line each on standard output, separated by tabs:\n"
       "ID LOGIT COLLIDES TIME MOVING_PATCH FIXED_PATCH STATUS MICROSECONDS; a summary on\n"
       "standard error.\n"
@@ -1036,7 +1059,9 @@ static void help_check(FILE *out) {
       "  --work LIMIT        units that a proof may take (%d)\n"
       "  --repeat R          time every query R times, report the least (5)\n"
       "  --details OUT.tsv   writes all that is known, a line a problem: brackets of time and\n"
-      "                      distance, depth, where it is safe to go, contacts\n",
+      "                      distance, depth, where it is safe to go, contacts\n"
+      "  --certificates FOLDER  writes a proof of each answer, ID.cert, into a folder that is\n"
+      "                      there: build/verify FILE FOLDER checks them\n",
       NSVCD_MAX_PATCHES, NSVCD_DEFAULT_PATCHES, NSVCD_DEFAULT_NETWORK_PATCHES, NSVCD_MAX_PAIRS,
       NSVCD_DEFAULT_WORK);
 }

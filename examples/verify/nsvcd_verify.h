@@ -1,15 +1,17 @@
 // nsvcd_verify.h - checks a certificate that two moving bodies never meet, or that they do. It
 // shares no line with neuralsvcd.h, which makes certificates (nsvcd_certify): who doubts that one
-// reads this one, with nsvcd_verify_scene.h, and for what meets nsvcd_verify_hit.h. C99 or C++11,
-// libc and libm; nothing global, no allocation, no recursion. MIT licence (LICENSE).
+// reads this one, with nsvcd_verify_scene.h (meshes, motions) and nsvcd_verify_rays.h (what is
+// inside, what meets). C99 or C++11, libc and libm; nothing global, no allocation, no recursion. MIT
+// licence (LICENSE).
 //
 // STATEMENT. Two movers, a and b, each have a mesh (triangles, corners x in float), a scale s and a
 // motion: at a time t in [0,1] x is at s R(t) x + p(t). What nsvcd_verify accepts as
 //   FREE    proves: at no time does a point of a's triangles come within the clearance of one of
-//           b's, and never is a component of one inside what components of the other enclose;
+//           b's, and never is a component of one inside what closed components of the other enclose
+//           (wind about); a component is triangles joined by corners at the same place;
 //   HIT     at report.time an edge of one passes through a triangle of the other;
 //   NEAR    at report.time points of two triangles are nearer to each other than the clearance;
-//   INSIDE  at report.time a corner of one is inside of the other, which is closed.
+//   INSIDE  at report.time a corner of one is inside what closed components of the other enclose.
 //
 // WHY. FREE is a walk over (node of a's tree, node of b's, stretch of time), which begins with both
 // roots and [0,1]. A visit reads one code:
@@ -22,13 +24,13 @@
 //   n.(p_a - p_b) + min over a's node of n.(s R x) - max over b's node of n.(s R x)          (1)
 // is more than (clearance + both strays) |n|. For of any two points, one of each node, n.(x - y) is
 // no less than (1) at the ends, so no less than the lesser on the chord between, and each point
-// leaves its chord by its stray at most. Over a box n.(s R x) is a sum over three sides, over a
-// triangle it is most and least at corners.
+// leaves its chord by its stray at most. Over a box n.(s R x) is a sum over three sides; over few
+// triangles it is most and least at corners.
 //   Surfaces that never meet do not get inside of each other later on. If somewhere the roots are
 // parted, nothing is inside then. Else a ray follows for each component of a, from a corner of it
-// at t = 0, then for each of b: of every component of the other it crosses as many triangles
-// inwards as outwards. So no closed ones, alone or together, wind about that corner, nor about the
-// rest of its component, which does not cross them.
+// at t = 0, then for each of b. Of each component of the other that is not closed it crosses as many
+// triangles inwards as outwards, and so it does of all closed ones together. So these do not wind
+// about that corner, nor about the rest of its component, which does not cross them.
 //
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it: sums of some ten products, roots, and libm's sin and atan2 are good to units
@@ -39,7 +41,7 @@
 #define NSVCD_VERIFY_H
 #include "nsvcd_verify_rays.h"
 
-#define VERIFY__EXACT 24
+#define VERIFY__EXACT 24        // triangles: of no more, corners count; of more, the box
 #define VERIFY__SHORTEST 1e-12  // of a stretch that is halved
 #define VERIFY__STACK 128       // two trees of 30 levels, and 40 halvings
 

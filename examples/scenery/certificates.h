@@ -1,0 +1,154 @@
+// certificates.h - writes certificates of problems, which examples/verify checks. Include
+// neuralsvcd.h, problem_file.h, load.h and problem_summary.h first.
+#ifndef NSVCD_SCENERY_CERTIFICATES_H
+#define NSVCD_SCENERY_CERTIFICATES_H
+
+// A mesh of a problem file, and its tree.
+typedef struct proof_mesh {
+  nsvcd_mesh mesh;
+  void *memory;
+  const nsvcd_tree *tree;
+} proof_mesh;
+
+// Returns 0 after a complaint.
+static int load_tree(const problem_file *file, const mesh_entry *entry, proof_mesh *out) {
+  char path[4096];
+  path_of(file->path, entry->path, path, sizeof path);
+  if (!load_mesh("", path, &out->mesh)) return 0;
+  const size_t size = nsvcd_tree_size(&out->mesh);
+  out->memory = allocate(size);
+  const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
+  return result ? complain("%s: %s", path, reason_of(result)) : 1;
+}
+
+// Makes a certificate; *bytes is to be freed. Returns 0 after a complaint.
+static int make_certificate(const nsvcd_question *question, const proof_mesh *a,
+                            const proof_mesh *b, const nsvcd_answer *answer, uint8_t **bytes,
+                            nsvcd_certificate *made) {
+  const nsvcd_certify_options options = {answer, 0};
+  const size_t size = nsvcd_certify_workspace_size(question, a->tree, b->tree);
+  void *workspace = allocate(size);
+  size_t room = 4096;
+  nsvcd_result result = NSVCD_OK;
+  *bytes = NULL;
+  do {
+    if (*bytes) room = made->size;
+    free(*bytes);
+    *bytes = (uint8_t *)allocate(room);
+    result =
+        nsvcd_certify(question, a->tree, b->tree, &options, workspace, size, *bytes, room, made);
+  } while (!result && made->size > room);
+  free(workspace);
+  return result ? complain("the certificate: %s", reason_of(result)) : 1;
+}
+
+// Makes and writes one, FOLDER/ID.cert. Where there can be none a file that is there goes. Returns 0
+// after a complaint.
+static int write_certificate(const char *folder, const char *id, const nsvcd_question *question,
+                             const proof_mesh *a, const proof_mesh *b, const nsvcd_answer *answer,
+                             nsvcd_certificate *made) {
+  char path[4096];
+  uint8_t *bytes;
+  snprintf(path, sizeof path, "%s/%s.cert", folder, id);
+  int good = make_certificate(question, a, b, answer, &bytes, made);
+  if (good && made->size == 0) remove(path);
+  if (good && made->size > 0) {
+    FILE *file = fopen(path, "wb");
+    if (file) fwrite(bytes, 1, made->size, file);
+    good = file ? close_written(file, path) : complain("%s: %s", path, strerror(errno));
+  }
+  free(bytes);
+  return good;
+}
+
+// One for each problem that has an answer. Returns 0 after a complaint.
+static int write_certificates(const session *s, const char *folder, float clearance) {
+  const problem_file *file = &s->file;
+  proof_mesh *meshes = (proof_mesh *)allocate(file->mesh_count * sizeof *meshes);
+  size_t made_count = 0;
+  size_t answered = 0;
+  size_t bytes = 0;
+  double taken = 0;
+  int good = 1;
+  memset(meshes, 0, file->mesh_count * sizeof *meshes);
+  for (size_t i = 0; i < file->mesh_count && good; i++)
+    good = load_tree(file, &file->meshes[i], &meshes[i]);
+  for (size_t i = 0; i < file->problem_count && good; i++) {
+    const problem *p = &file->problems[i];
+    const nsvcd_answer *answer = &s->outcomes[i].answer;
+    nsvcd_question question = question_of_problem(file, p);
+    nsvcd_certificate made;
+    question.clearance = clearance;
+    const double start = seconds();
+    good = write_certificate(folder, p->id, &question, &meshes[p->moving], &meshes[p->fixed],
+                             answer, &made);
+    taken += seconds() - start;
+    if (!good) break;
+    answered += answer->verdict != NSVCD_UNDECIDED;
+    made_count += made.size > 0;
+    bytes += made.size;
+    if (answer->verdict != NSVCD_UNDECIDED && made.verdict != answer->verdict)
+      complain("%s:%zu: problem %s: %s, and no certificate of that%s", file->path, p->line, p->id,
+               nsvcd_verdict_string(answer->verdict), made.size > 0 ? ", but of the contrary" : "");
+  }
+  if (good)
+    fprintf(stderr, "certificates: %zu, of %zu answers; %.0f bytes and %.0f us on average\n",
+            made_count, answered, made_count ? (double)bytes / (double)made_count : 0,
+            file->problem_count ? 1e6 * taken / (double)file->problem_count : 0);
+  for (size_t i = 0; i < file->mesh_count; i++) {
+    nsvcd_mesh_free(&meshes[i].mesh, NULL);
+    free(meshes[i].memory);
+  }
+  free(meshes);
+  return good;
+}
+
+// ---- of one sweep
+
+// A problem file of one problem, for who checks the certificate: OUT.txt for OUT.cert. Paths of
+// meshes are as given, which are from the working folder: so they go up from the file's.
+static int write_problem(const char *path, const char *id, const char *const *meshes,
+                         const float *scales, const nsvcd_pose *poses, size_t count) {
+  FILE *out = fopen(path, "w");
+  if (!out) return complain("%s: %s", path, strerror(errno));
+  fprintf(out, "nsvcd-problems 1\n");
+  for (int k = 0; k < 2; k++) {
+    fprintf(out, "mesh %c ", k ? 'B' : 'A');
+    for (const char *p = path; meshes[k][0] != '/' && p < file_name(path); p++)
+      if (*p == '/') fprintf(out, "../");
+    fprintf(out, "%s\n", meshes[k]);
+  }
+  fprintf(out, "problem %s A %.9g B %.9g  0 0 0 0 0 0 1  -1 nan %zu\n", id, (double)scales[0],
+          (double)scales[1], count);
+  for (size_t k = 0; k < count; k++) {
+    for (size_t n = 0; n < 7; n++) {
+      const float number = n < 3 ? poses[k].position[n] : poses[k].rotation[n - 3];
+      fprintf(out, "%.9g%c", (double)number, n < 6 ? ' ' : '\n');
+    }
+  }
+  return close_written(out, path);
+}
+
+// Writes OUT.txt and OUT.cert, of what that file says. Returns 0 after a complaint.
+static int write_proof(const char *path, const char *const *meshes, const float *scales,
+                       const nsvcd_pose *poses, size_t count, float clearance,
+                       const nsvcd_answer *answer) {
+  char folder[4096], id[256], problem_path[4096];
+  const char *name = file_name(path);
+  session s;
+  outcome outcome_of;
+  memset(&s, 0, sizeof s);
+  memset(&outcome_of, 0, sizeof outcome_of);
+  outcome_of.answer = *answer;
+  s.outcomes = &outcome_of;
+  snprintf(folder, sizeof folder, "%.*s", name > path ? (int)(name - path) - 1 : 1,
+           name > path ? path : ".");
+  snprintf(id, sizeof id, "%.*s", (int)strlen(name) - 5, name);
+  snprintf(problem_path, sizeof problem_path, "%.*stxt", (int)strlen(path) - 4, path);
+  const int good = write_problem(problem_path, id, meshes, scales, poses, count) &&
+                   read_problems(problem_path, &s.file) &&
+                   write_certificates(&s, folder, clearance);
+  free_problems(&s.file);
+  return good;
+}
+#endif  // NSVCD_SCENERY_CERTIFICATES_H

@@ -1,0 +1,144 @@
+// verify.c - checks a folder of certificates against a problem file. It shares no code with
+// neuralsvcd.h: nsvcd_verify.h is what there is to be believed.
+//
+//   verify PROBLEMS.txt FOLDER [--clearance METRES]
+//
+// PROBLEMS.txt is a problem file (examples/FORMATS.md); FOLDER holds a certificate ID.cert for each
+// problem, as `svcd check --certificates FOLDER` writes them. A line a problem, separated by tabs:
+//   ID accepted|refused REASON BYTES MICROSECONDS
+// REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
+// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 all are
+// accepted, 1 one is refused, 2 a file cannot be read, or usage.
+#include <time.h>
+
+#include "verify_files.h"
+
+#define REPEAT 20  // checks, by a clock that may know no less than a microsecond
+
+typedef struct named {
+  char *name;
+  nsvcd_verify_mesh mesh;
+} named;
+
+typedef struct side {
+  nsvcd_verify_path path;
+  nsvcd_verify_mover mover;
+} side;
+
+// The next line of a problem file, of so many words.
+static char **expect(const char *path, char **text, char **words, size_t least) {
+  if (next_words(text, words, 80) < least) fail(path, "a line has too few words");
+  return words;
+}
+
+// A pose, of a quaternion of any length about 1, which is made unit in double.
+static void read_pose(const char *path, char *const *words, float *pose) {
+  double q[4], square = 0;
+  for (size_t k = 0; k < 3; k++) pose[k] = (float)number_of(path, words[k]);
+  for (size_t k = 0; k < 4; k++) {
+    q[k] = number_of(path, words[3 + k]);
+    square += q[k] * q[k];
+  }
+  for (size_t k = 0; k < 4; k++) pose[3 + k] = (float)(q[k] / sqrt(square));
+}
+
+static void read_poses(const char *path, char **text, size_t count, float *poses) {
+  char *words[80];
+  for (size_t k = 0; k < count; k++) read_pose(path, expect(path, text, words, 7), poses + 7 * k);
+}
+
+static const nsvcd_verify_mesh *mesh_named(const char *path, const list *meshes, const char *name) {
+  const named *all = (const named *)meshes->items;
+  for (size_t i = 0; i < meshes->count; i++)
+    if (strcmp(all[i].name, name) == 0) return &all[i].mesh;
+  fail(path, "a problem names a mesh that is not above it");
+  return NULL;
+}
+
+// Checks one certificate, and writes its line. 1: it is accepted.
+static int check(const char *folder, const char *id, const side *a, const side *b,
+                 float clearance) {
+  static const char *const kinds[] = {"free", "hit", "near", "inside"};
+  char path[4096];
+  nsvcd_verify_report report;
+  size_t size;
+  snprintf(path, sizeof path, "%s/%s.cert", folder, id);
+  uint8_t *bytes = (uint8_t *)read_file(path, &size);
+  if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", id), 0;
+  const size_t room = nsvcd_verify_workspace_size(a->path.count + b->path.count + 2);
+  void *workspace = allocate(room);
+  int accepted = 0;
+  const clock_t start = clock();
+  for (int k = 0; k < REPEAT; k++)
+    accepted = nsvcd_verify(&a->mover, &b->mover, clearance, bytes, size, workspace, room, &report);
+  const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC / REPEAT;
+  if (accepted) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, kinds[report.kind], size, taken);
+  if (!accepted)
+    printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", id, report.reason, report.position, size,
+           taken);
+  free(workspace);
+  free(bytes);
+  return accepted;
+}
+
+static void prepare(const char *path, const nsvcd_verify_mesh *mesh, const char *scale, side *s) {
+  const char *why =
+      nsvcd_verify_path_init(mesh, (float)number_of(path, scale), &s->path, &s->mover);
+  if (why) fail(path, why);
+}
+
+// problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT [FIXED_COUNT]
+static int check_problem(const char *path, char **text, char **words, size_t count,
+                         const list *meshes, const char *folder, float clearance) {
+  side a, b;
+  const size_t poses_a = strtoul(words[15], NULL, 10);
+  const size_t poses_b = count > 16 ? strtoul(words[16], NULL, 10) : 0;
+  float *poses = (float *)allocate(7 * (poses_a + poses_b + 1) * sizeof *poses);
+  read_poses(path, text, poses_a + poses_b, poses);
+  read_pose(path, words + 6, poses + 7 * (poses_a + poses_b));
+  a.path.poses = poses;
+  a.path.count = poses_a;
+  b.path.poses = poses + 7 * poses_a;  // of one that rests the pose of the line itself, behind
+  b.path.count = poses_b > 0 ? poses_b : 1;
+  a.path.times = b.path.times = NULL;
+  prepare(path, mesh_named(path, meshes, words[2]), words[3], &a);
+  prepare(path, mesh_named(path, meshes, words[4]), words[5], &b);
+  const int accepted = check(folder, words[1], &a, &b, clearance);
+  free(poses);
+  return accepted;
+}
+
+int main(int argc, char **argv) {
+  const int asked = argc == 5 && strcmp(argv[3], "--clearance") == 0;
+  if (argc != 3 && !asked) {
+    fprintf(stderr, "verify PROBLEMS.txt FOLDER [--clearance METRES]\n");
+    return 2;
+  }
+  const char *path = argv[1];
+  const float clearance = asked ? (float)number_of("--clearance", argv[4]) : 0;
+  const char *slash = strrchr(path, '/');
+  list meshes = {NULL, 0, 0};
+  char *words[80];
+  size_t size;
+  int all = 1;
+  char *text = read_file(path, &size);
+  if (!text) fail(path, strerror(errno));
+  char *next = text;
+  expect(path, &next, words, 2);
+  if (strcmp(words[0], "nsvcd-problems") != 0) fail(path, "its first line is not nsvcd-problems 1");
+  for (size_t n = next_words(&next, words, 80); n > 0; n = next_words(&next, words, 80)) {
+    if (n == 3 && strcmp(words[0], "mesh") == 0) {
+      char file[4096];
+      named *mesh = (named *)add(&meshes, sizeof *mesh);
+      const int folder = words[2][0] == '/' || !slash ? 0 : (int)(slash + 1 - path);
+      snprintf(file, sizeof file, "%.*s%s", folder, path, words[2]);
+      mesh->name = words[1];
+      read_mesh(file, &mesh->mesh);
+    } else if (n >= 16 && strcmp(words[0], "problem") == 0) {
+      all &= check_problem(path, &next, words, n, &meshes, argv[2], clearance);
+    } else {
+      fail(path, "a line is neither a mesh nor a problem");
+    }
+  }
+  return all ? 0 : 1;
+}

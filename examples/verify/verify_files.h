@@ -1,0 +1,291 @@
+// verify_files.h - of verify.c: reads OBJ and STL files and problem files (examples/FORMATS.md), as
+// neuralsvcd.h and svcd do, by code of its own.
+#ifndef NSVCD_VERIFY_FILES_H
+#define NSVCD_VERIFY_FILES_H
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "nsvcd_verify.h"
+
+// An array that grows.
+typedef struct list {
+  void *items;
+  size_t count, capacity;
+} list;
+
+static void fail(const char *path, const char *reason) {
+  fprintf(stderr, "verify: %s: %s\n", path, reason);
+  exit(2);
+}
+
+static void *allocate(size_t size) {
+  void *memory = malloc(size ? size : 1);
+  if (!memory) fail("memory", "there is none");
+  return memory;
+}
+
+// Room for one more item at the end of a list.
+static void *add(list *l, size_t size) {
+  if (l->count == l->capacity) {
+    l->capacity = l->capacity ? 2 * l->capacity : 256;
+    l->items = realloc(l->items, l->capacity * size);
+    if (!l->items) fail("memory", "there is none");
+  }
+  return (char *)l->items + size * l->count++;
+}
+static void add_float(list *l, double x) {
+  *(float *)add(l, sizeof(float)) = (float)x;
+}
+static void add_index(list *l, uint32_t i) {
+  *(uint32_t *)add(l, sizeof(uint32_t)) = i;
+}
+
+// All bytes of a file, and a 0 behind them. NULL: it cannot be read.
+static char *read_file(const char *path, size_t *size) {
+  list bytes = {NULL, 0, 0};
+  FILE *file = fopen(path, "rb");
+  if (!file) return NULL;
+  for (int c = getc(file); c != EOF; c = getc(file)) *(char *)add(&bytes, 1) = (char)c;
+  const int failed = ferror(file);
+  fclose(file);
+  *(char *)add(&bytes, 1) = 0;
+  *size = bytes.count - 1;
+  return failed ? NULL : (char *)bytes.items;
+}
+
+// The next line of a text that has any words, cut into them; 0: there is none.
+static size_t next_words(char **text, char **words, size_t most) {
+  size_t count = 0;
+  while (**text && count == 0) {
+    char *line = *text;
+    char *end = line + strcspn(line, "\r\n");
+    // a backslash continues a line
+    while (*end && end > line && end[-1] == '\\' && !memchr(line, '#', (size_t)(end - line))) {
+      end[-1] = ' ';
+      if (end[0] == '\r' && end[1] == '\n') *end++ = ' ';
+      *end = ' ';
+      end += strcspn(end, "\r\n");
+    }
+    *text = *end ? end + 1 : end;
+    *end = 0;
+    line[strcspn(line, "#")] = 0;
+    for (char *word = strtok(line, " \t\v\f"); word; word = strtok(NULL, " \t\v\f"))
+      if (count < most) words[count++] = word;
+  }
+  return count;
+}
+
+static double number_of(const char *path, const char *word) {
+  char *end;
+  const double x = strtod(word, &end);
+  if (end == word || *end || !(fabs(x) <= 3e38)) fail(path, "a number is none");
+  return x;
+}
+
+// ---- OBJ
+
+typedef struct corner {
+  double x, y;
+  uint32_t vertex, previous, next;
+  int waits;
+} corner;
+
+static double turn_of(const corner *a, const corner *b, const corner *c) {
+  return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+}
+static int same_place(const corner *a, const corner *b) {
+  return !(a->x < b->x || a->x > b->x || a->y < b->y || a->y > b->y);
+}
+
+// Is corner i convex, and no reflex corner within its triangle?
+static int is_ear(const corner *c, uint32_t i) {
+  const corner *a = &c[c[i].previous];
+  const corner *b = &c[i];
+  const corner *d = &c[c[i].next];
+  if (!(turn_of(a, b, d) > 0)) return 0;
+  for (uint32_t k = d->next; k != c[i].previous; k = c[k].next) {
+    const corner *p = &c[k];
+    if (!(turn_of(&c[p->previous], p, &c[p->next]) < 0)) continue;
+    if (same_place(p, a) || same_place(p, b) || same_place(p, d)) continue;
+    if (turn_of(a, b, p) >= 0 && turn_of(b, d, p) >= 0 && turn_of(d, a, p) >= 0) return 0;
+  }
+  return 1;
+}
+
+// Puts the corners into a plane: drops the axis along which the polygon's normal is longest.
+static void project(corner *c, uint32_t count, const float *positions) {
+  const float *origin = positions + 3 * (size_t)c[0].vertex;
+  double n[3] = {0, 0, 0};
+  for (uint32_t i = 0; i < count; i++) {
+    const float *p = positions + 3 * (size_t)c[i].vertex;
+    const float *q = positions + 3 * (size_t)c[(i + 1) % count].vertex;
+    for (int k = 0; k < 3; k++) {
+      const int u = (k + 1) % 3;
+      const int v = (k + 2) % 3;
+      n[k] += ((double)p[u] - (double)origin[u]) * ((double)q[v] - (double)origin[v]) -
+              ((double)p[v] - (double)origin[v]) * ((double)q[u] - (double)origin[u]);
+    }
+  }
+  int axis = fabs(n[1]) > fabs(n[0]) ? 1 : 0;
+  if (fabs(n[2]) > fabs(n[axis])) axis = 2;
+  const int turned = n[axis] < 0;
+  for (uint32_t i = 0; i < count; i++) {
+    const float *p = positions + 3 * (size_t)c[i].vertex;
+    c[i].x = (double)p[(axis + 1 + turned) % 3];
+    c[i].y = (double)p[(axis + 2 - turned) % 3];
+  }
+}
+
+// Cuts ears off a polygon, in the order of a queue of those that may be one (Meisters 1975).
+static void triangulate(corner *c, uint32_t count, const float *positions, list *indices) {
+  uint32_t *queue = (uint32_t *)allocate(count * sizeof *queue);
+  size_t first = 0;
+  size_t length = count;
+  uint32_t at = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    c[i].previous = (i + count - 1) % count;
+    c[i].next = (i + 1) % count;
+    c[i].waits = 1;
+    queue[i] = i;
+  }
+  if (count > 3) project(c, count, positions);
+  for (uint32_t left = count; left > 3;) {
+    const int stuck = length == 0;
+    const uint32_t i = stuck ? at : queue[first];
+    if (!stuck) {
+      first = (first + 1) % count;
+      length--;
+      c[i].waits = 0;
+      if (!is_ear(c, i)) continue;
+    }
+    const uint32_t beside[2] = {c[i].previous, c[i].next};
+    add_index(indices, c[beside[0]].vertex);
+    add_index(indices, c[i].vertex);
+    add_index(indices, c[beside[1]].vertex);
+    c[beside[0]].next = beside[1];
+    c[beside[1]].previous = beside[0];
+    for (int k = 0; k < 2; k++) {
+      if (!c[beside[k]].waits) queue[(first + length++) % count] = beside[k];
+      c[beside[k]].waits = 1;
+    }
+    at = beside[1];
+    left--;
+  }
+  add_index(indices, c[at].vertex);
+  add_index(indices, c[c[at].next].vertex);
+  add_index(indices, c[c[at].previous].vertex);
+  free(queue);
+}
+
+#define MOST_CORNERS 65536
+static void read_obj(const char *path, char *text, list *positions, list *indices) {
+  char **words = (char **)allocate(MOST_CORNERS * sizeof *words);
+  list corners = {NULL, 0, 0};
+  list sizes = {NULL, 0, 0};
+  for (size_t n = next_words(&text, words, MOST_CORNERS); n > 0;
+       n = next_words(&text, words, MOST_CORNERS)) {
+    if (strcmp(words[0], "v") == 0 && n >= 4)
+      for (size_t k = 1; k < 4; k++) add_float(positions, number_of(path, words[k]));
+    if (strcmp(words[0], "f") != 0) continue;
+    add_index(&sizes, (uint32_t)(n - 1));
+    for (size_t k = 1; k < n; k++) {
+      const long at = strtol(words[k], NULL, 10);
+      add_index(&corners, (uint32_t)(at < 0 ? (long)(positions->count / 3) + at : at - 1));
+    }
+  }
+  const uint32_t *vertex = (const uint32_t *)corners.items;
+  for (size_t f = 0; f < sizes.count; f++) {
+    const uint32_t count = ((const uint32_t *)sizes.items)[f];
+    corner *polygon = (corner *)allocate(count * sizeof *polygon);
+    for (uint32_t i = 0; i < count; i++) {
+      polygon[i].vertex = *vertex++;
+      if (polygon[i].vertex >= positions->count / 3) fail(path, "an index is out of range");
+    }
+    if (count < 3) fail(path, "a face has fewer than three corners");
+    triangulate(polygon, count, (const float *)positions->items, indices);
+    free(polygon);
+  }
+  free(words);
+  free(corners.items);
+  free(sizes.items);
+}
+
+// ---- STL
+
+// Makes one vertex of corners at the same place, in the order in which they come first.
+static void weld(list *positions, list *indices) {
+  float *x = (float *)positions->items;
+  const size_t corners = positions->count / 3;
+  const size_t slots = 2 * corners + 1;
+  uint32_t *table = (uint32_t *)allocate(slots * sizeof *table);
+  size_t vertices = 0;
+  memset(table, 0xff, slots * sizeof *table);
+  for (size_t i = 0; i < corners; i++) {
+    float at[3];
+    for (int k = 0; k < 3; k++) at[k] = x[3 * i + (size_t)k] + 0.0f;  // no -0
+    size_t slot = verify__hash(0, at, 3) % slots;
+    while (table[slot] != 0xffffffffu &&
+           memcmp(x + 3 * (size_t)table[slot], at, sizeof at) != 0)
+      slot = (slot + 1) % slots;
+    if (table[slot] == 0xffffffffu) {
+      memcpy(x + 3 * vertices, at, sizeof at);
+      table[slot] = (uint32_t)vertices++;
+    }
+    add_index(indices, table[slot]);
+  }
+  positions->count = 3 * vertices;
+  free(table);
+}
+
+static void read_stl(const char *path, char *text, size_t size, list *positions, list *indices) {
+  uint32_t told = 0;
+  const unsigned char *bytes = (const unsigned char *)text;
+  for (size_t k = 0; k < 4 && size >= 84; k++) told |= (uint32_t)bytes[80 + k] << (8 * k);
+  const char *start = text + strspn(text, " \t\r\n\v\f");
+  const int is_solid = (start[0] | 32) == 's' && (start[1] | 32) == 'o' && (start[2] | 32) == 'l' &&
+                       (start[3] | 32) == 'i' && (start[4] | 32) == 'd';
+  if (size == 84 + 50 * (size_t)told || !is_solid) {
+    if (size < 84 || (size - 84) / 50 < told) fail(path, "it ends early");
+    for (size_t i = 0; i < 9 * (size_t)told; i++) {
+      const unsigned char *p = bytes + 84 + i / 9 * 50 + 12 + i % 9 * 4;
+      const uint32_t word =
+          p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+      float x;
+      memcpy(&x, &word, sizeof x);
+      add_float(positions, (double)x);
+    }
+  } else {
+    char *words[8];
+    for (size_t n = next_words(&text, words, 8); n > 0; n = next_words(&text, words, 8)) {
+      if (n == 4 && (words[0][0] | 32) == 'v')
+        for (size_t k = 1; k < 4; k++) add_float(positions, number_of(path, words[k]));
+    }
+  }
+  weld(positions, indices);
+}
+
+// Reads a mesh and builds its tree; ends the program where that cannot be.
+static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
+  size_t size;
+  list positions = {NULL, 0, 0};
+  list indices = {NULL, 0, 0};
+  char *text = read_file(path, &size);
+  if (!text) fail(path, strerror(errno));
+  const size_t length = strlen(path);
+  const int is_stl = length > 4 && (path[length - 3] | 32) == 's' && (path[length - 2] | 32) == 't';
+  char *begin = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+  if (is_stl) read_stl(path, text, size, &positions, &indices);
+  if (!is_stl) read_obj(path, begin, &positions, &indices);
+  const size_t vertices = positions.count / 3;
+  const size_t triangles = indices.count / 3;
+  void *memory = allocate(nsvcd_verify_mesh_size(vertices, triangles));
+  const char *why =
+      nsvcd_verify_mesh_init((const float *)positions.items, vertices,
+                             (const uint32_t *)indices.items, triangles, memory, mesh);
+  if (why) fail(path, why);
+  free(text);
+}
+#endif  // NSVCD_VERIFY_FILES_H
