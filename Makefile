@@ -17,6 +17,8 @@ LIBRARY = neuralsvcd.h weights.h
 ROOMS = $(wildcard src/*.h src/*/*.h)
 # What the examples and the tests share.
 SCENERY = $(wildcard examples/scenery/*.h)
+# The checker of certificates, which knows nothing of the library.
+VERIFIER = $(wildcard examples/verify/*.h)
 
 # libccd checks the oracle on convex pairs. Found by pkg-config, or by its header where that is not installed.
 HASH := \#
@@ -42,7 +44,7 @@ endif
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
 DEMOS = build/quickstart build/plan build/game build/fly_through $(PLANNERS)
 
-all: build/svcd $(DEMOS)  ## the examples, in build/: svcd, quickstart, plan, game, fly_through and three tasks for arms
+all: build/svcd build/verify $(DEMOS)  ## the examples, in build/: svcd, verify, quickstart, plan, game, fly_through and three tasks for arms
 
 help:  ## this list
 	@sed -n 's/^\([a-z][a-z-]*\):.*##/\1:/p' $(MAKEFILE_LIST) | sort
@@ -59,6 +61,9 @@ EXAMPLES = $(patsubst examples/%.c,build/%,$(wildcard examples/*.c))
 $(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
+
+build/verify: examples/verify/verify.c $(VERIFIER) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ $< -lm
 
 # What the module of examples/python opens.
 build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
@@ -124,7 +129,7 @@ uninstall:  ## takes it away again
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
-HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS)
+HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS) $(VERIFIER)
 PEERS = $(wildcard tests/bench/*.h)
 TEST_OBJECTS = build/main.o $(patsubst tests/%.c,build/%.o,$(wildcard tests/test_*.c))
 # Each test file holds the rooms of src/ that it is about, test_asks.c, test_round.c and test_processor.c the header as users have it, and
@@ -545,7 +550,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/web tests tests/bench
+WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/verify examples/web tests tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

@@ -236,6 +236,7 @@
 //     steps           what the joints do between two times
 //     stray           by how much a part leaves the line and the slerp between two samples
 //     path            pieces, pair by pair
+//     proofs          certificates of pairs
 //     trees           configurations, and the nearest of them
 //     postures        one configuration: gaps and their slopes, a way out, who can meet
 //     ramps           from one state to another, within limits of speed and acceleration
@@ -1230,6 +1231,30 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
+
+#ifndef NSVCD_NO_CERTIFICATES
+// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of the
+// mesh that has more.
+NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
+                                                  const nsvcd_tree *a, const nsvcd_tree *b);
+
+// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
+// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
+//   checker    not NULL
+//   motion     not NULL, as nsvcd_check takes it, of one piece or more
+//   pair       of the scene's pairs
+//   clearance  metres
+//   a, b       trees of the meshes of the pair's parts, not NULL
+//   errors     those of nsvcd_certify and nsvcd_check, and ARGUMENT for a motion whose joints turn
+//              by more than 10,000 or, in the whole motion's time, 100,000
+NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
+                                         const nsvcd_joint_motion *motion, size_t pair,
+                                         float clearance, const nsvcd_tree *a,
+                                         const nsvcd_tree *b,
+                                         const nsvcd_certify_options *options, void *workspace,
+                                         size_t workspace_size, uint8_t *bytes,
+                                         size_t capacity, nsvcd_certificate *made);
+#endif
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
 // ------------------------------------------------------------------------------ interface/postures
@@ -17211,6 +17236,7 @@ typedef struct nsvcd__rider {
   double (*next)(const void *motion, double t);
   nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
   const void *motion;
+  double reach;     // metres: beside places, what these are reckoned from is no longer
   uint32_t digest;  // of the scale and the motion
 } nsvcd__rider;
 
@@ -17330,6 +17356,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   rider->next = nsvcd__mover_next;
   rider->off_chord = nsvcd__mover_off_chord;
   rider->motion = meant;
+  rider->reach = 0;
   rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   rider->digest = nsvcd__digest(rider->digest, &scale, 1);
   if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);
@@ -17355,7 +17382,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
-  double lengths;  // of both places
+  double lengths;  // of both places, and what they are reckoned from
   nsvcd__off_chord off_a, off_b;
 } nsvcd__instant;
 
@@ -17395,7 +17422,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
   at.t = t;
   at.a = a->place(a->motion, t);
   at.b = b->place(b->motion, t);
-  at.lengths = nsvcd__lengths_at(&at.a, &at.b);
+  at.lengths = a->reach + b->reach + nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
@@ -17637,7 +17664,7 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = 1e-3 * nsvcd__lengths_at(of_at, by_at);
+  const double places = 1e-3 * (of->reach + by->reach + nsvcd__lengths_at(of_at, by_at));
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->scale;
   out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
@@ -18082,17 +18109,54 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
 
 // ---- nsvcd_certify
 
-// Lays the workspace out at base, or, where that is NULL, only counts.
-static uint64_t nsvcd__certifier_layout(const nsvcd_question *question, const nsvcd_tree *a,
+// Lays the workspace out at base, or, where that is NULL, only counts. instants: all knots.
+static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                         const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
   uint64_t used = 0;
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
-  c->stretch.capacity = nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
-  void *instants = nsvcd__take(base, &used, c->stretch.capacity, sizeof(nsvcd__instant));
-  c->stretch.instants = (nsvcd__instant *)instants;
+  c->stretch.capacity = instants;
+  c->stretch.instants =
+      (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
+}
+
+// Both riders are in c, and all else is 0.
+static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float clearance,
+                                   const nsvcd_certify_options *options, void *workspace,
+                                   size_t workspace_size, uint8_t *bytes, size_t capacity,
+                                   nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
+  nsvcd_certificate out;
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_TOLERANCE;
+  const uint64_t needed =
+      nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  c->stretch.a = &c->a;
+  c->stretch.b = &c->b;
+  c->stretch.clearance = (double)clearance;
+  c->bytes = bytes;
+  c->capacity = capacity;
+  c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
+  c->made = &out;
+  const int told = o->answer && nsvcd__meet_as_told(c, o->answer);
+  if (!told) {
+    out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
+  *made = out;
+  return NSVCD_OK;
+}
+
+static size_t nsvcd__knots_of(const nsvcd_question *question) {
+  return nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
 }
 
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
@@ -18101,7 +18165,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
   if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
       nsvcd__poses_check(&question->b))
     return 0;
-  const uint64_t size = nsvcd__certifier_layout(question, a, b, NULL, &counted);
+  const uint64_t size =
+      nsvcd__certifier_layout(nsvcd__knots_of(question), a, b, NULL, &counted);
   return size > SIZE_MAX ? 0 : (size_t)size;
 }
 
@@ -18109,40 +18174,16 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
                                     const nsvcd_tree *b, const nsvcd_certify_options *options,
                                     void *workspace, size_t workspace_size, uint8_t *bytes,
                                     size_t capacity, nsvcd_certificate *made) {
-  const nsvcd_certify_options defaults = {NULL, 0};
-  const nsvcd_certify_options *o = options ? options : &defaults;
   nsvcd_mover movers[2];
   nsvcd__certifier c;
-  nsvcd_certificate out;
   if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
-  const float clearance = question->clearance;
   memset(&c, 0, sizeof c);
-  memset(&out, 0, sizeof out);
   nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
   if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
   if (result) return result;
   if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
-    return NSVCD_ERROR_TOLERANCE;
-  const uint64_t needed = nsvcd__certifier_layout(question, a, b, (char *)workspace, &c);
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
-    return NSVCD_ERROR_WORKSPACE;
-  c.stretch.a = &c.a;
-  c.stretch.b = &c.b;
-  c.stretch.clearance = (double)clearance;
-  c.bytes = bytes;
-  c.capacity = capacity;
-  c.digest = nsvcd__digest(c.a.digest + 31 * c.b.digest, &clearance, 1);
-  c.made = &out;
-  const int told = o->answer && nsvcd__meet_as_told(&c, o->answer);
-  if (!told) {
-    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
-  }
-  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c.bits + 7) / 8;
-  *made = out;
-  return NSVCD_OK;
+  return nsvcd__certify(&c, nsvcd__knots_of(question), question->clearance, options, workspace,
+                        workspace_size, bytes, capacity, made);
 }
 #endif  // NSVCD_NO_CERTIFICATES
 
@@ -18156,6 +18197,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
+//   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
 //   postures    one configuration: what is near, a way out; which pairs can meet
 //   ramps       from one state to another, within limits of speed and acceleration
@@ -19076,6 +19118,23 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
   return NSVCD_NONE;
 }
 
+// Is a motion, as it is meant, in order?
+static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+  const double most = (double)NSVCD_MAX_COORDINATE;
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE))
+    return NSVCD_ERROR_ARGUMENT;
+  if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
+    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_NUMBER;
+  }
+  for (size_t p = 0; p <= m->pieces && m->times; p++) {
+    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_NUMBER;
+    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
+  }
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
@@ -19085,17 +19144,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   const nsvcd_scene *scene = checker->scene;
   const size_t joints = scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  if (m.pieces && (m.degree < 1 || m.degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
-  if (m.pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
-    return NSVCD_ERROR_ARGUMENT;
-  const double most = (double)NSVCD_MAX_COORDINATE;
-  for (size_t k = 0; k < (m.pieces * m.degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(m.points[k], most)) return NSVCD_ERROR_NUMBER;
-  }
-  for (size_t p = 0; p <= m.pieces && m.times; p++) {
-    if (!nsvcd__is_number(m.times[p], most)) return NSVCD_ERROR_NUMBER;
-    if (p > 0 && !(m.times[p] > m.times[p - 1])) return NSVCD_ERROR_ARGUMENT;
-  }
+  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__is_finite(o.clearance) || !nsvcd__is_finite(o.finest) || o.clearance < 0 ||
@@ -19107,7 +19157,6 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(scene, &m, p);
   found.verdict = NSVCD_UNDECIDED;
-  nsvcd_result result = NSVCD_OK;
   if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces && !result; p = next) {
@@ -19130,6 +19179,236 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   return NSVCD_OK;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
+
+// ------------------------------------------------------------------------------------ robot/proofs
+// In: a pair of parts, a motion of the joints, and their meshes' trees. Out: a certificate that the
+// two never meet, as the joints move them.
+//
+// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share of
+// a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j one of
+// the distance of a point y from joint j: the sum of what stands between them; of a joint that slides
+// 1. Then
+//   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
+// the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
+// bound of robot/stray is a better one, from where the links are; this one a checker can reckon again
+// in a few lines.
+// Source: this library.
+
+#if !defined(NSVCD_NO_CERTIFICATES) && !defined(NSVCD_NO_ROBOTS)
+// A part, as a rider sees it.
+typedef struct nsvcd__carried {
+  const nsvcd_checker *checker;
+  nsvcd_joint_motion motion;
+  size_t part;
+  // from which it is seen
+  size_t base;
+} nsvcd__carried;
+
+static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
+  const double first = nsvcd__piece_start(m, 0);
+  return (nsvcd__piece_start(m, k) - first) / (nsvcd__piece_start(m, m->pieces) - first);
+}
+
+static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
+  size_t low = 0;
+  size_t high = m->pieces;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__knot_of(m, middle) <= t)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The points of a joint's curve from one time of [0,1] to another, both in a piece.
+static void nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
+                            double *p) {
+  const nsvcd_joint_motion *m = &c->motion;
+  const size_t piece = nsvcd__knot_before(m, 0.5 * (t0 + t1));
+  const double start = nsvcd__knot_of(m, piece);
+  const double whole = nsvcd__knot_of(m, piece + 1) - start;
+  const double from = nsvcd__max((t0 - start) / whole, 0);
+  const double to = nsvcd__min((t1 - start) / whole, 1);
+  nsvcd__joint_points(m, piece, c->checker->scene->joint_count, joint, p);
+  nsvcd__cut_curve(p, m->degree, from, to);
+}
+
+static nsvcd__posed nsvcd__carried_place(const void *motion, double t) {
+  const nsvcd__carried *c = (const nsvcd__carried *)motion;
+  const nsvcd_scene *scene = c->checker->scene;
+  nsvcd__frame at = c->checker->members[c->part].frame;
+  for (size_t link = scene->parts[c->part].link; link != c->base;
+       link = scene->joints[link - 1].parent) {
+    const nsvcd__link *carrier = &c->checker->links[link - 1];
+    double p[NSVCD_MAX_DEGREE + 1];
+    nsvcd__curve_of(c, link - 1, t, t, p);
+    const int slides = nsvcd__slides(c->checker, link - 1);
+    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? p[0] : sin(0.5 * p[0]));
+    nsvcd__frame joint = {{axis.x, axis.y, axis.z, cos(0.5 * p[0])}, {0, 0, 0}};
+    if (slides) {
+      const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
+      joint = slid;
+    }
+    const nsvcd__frame origin = {carrier->turn, carrier->place};
+    at = nsvcd__frame_in(&joint, &at);
+    at = nsvcd__frame_in(&origin, &at);
+  }
+  const nsvcd__posed out = {nsvcd__dmat3_of(nsvcd__dquat_unit(at.turn)), at.place};
+  return out;
+}
+
+static double nsvcd__carried_next(const void *motion, double t) {
+  const nsvcd_joint_motion *m = &((const nsvcd__carried *)motion)->motion;
+  return nsvcd__knot_of(m, nsvcd__knot_before(m, t) + 1);
+}
+
+// THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
+// origin, and what goes with it.
+static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, double t1) {
+  const nsvcd__carried *c = (const nsvcd__carried *)motion;
+  const nsvcd_scene *scene = c->checker->scene;
+  const double n = (double)c->motion.degree;
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  nsvcd__off_chord outer = {0, 0};
+  nsvcd__off_chord out = {0, 0};
+  for (size_t link = scene->parts[c->part].link; link != c->base;
+       link = scene->joints[link - 1].parent) {
+    const int slides = nsvcd__slides(c->checker, link - 1);
+    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0 : 1};
+    double p[NSVCD_MAX_DEGREE + 1];
+    double most = 0;
+    double speed = 0;
+    double bend = 0;
+    nsvcd__curve_of(c, link - 1, t0, t1, p);
+    for (size_t i = 0; i <= c->motion.degree; i++) most = nsvcd__max(most, fabs(p[i]));
+    for (size_t i = 0; i + 1 <= c->motion.degree; i++)
+      speed = nsvcd__max(speed, n * fabs(p[i + 1] - p[i]));
+    for (size_t i = 0; i + 2 <= c->motion.degree; i++)
+      bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
+    const double own = slides ? 0 : speed;
+    out.base += bend * lever.base + own * (2 * outer.base + own * lever.base);
+    out.per_metre +=
+        bend * lever.per_metre + own * (2 * outer.per_metre + own * lever.per_metre);
+    outer.base += speed * lever.base;
+    outer.per_metre += speed * lever.per_metre;
+    const nsvcd__d3 offset = c->checker->links[link - 1].place;
+    reach += nsvcd__d3_length(offset) + (slides ? most : 0);
+  }
+  out.base *= 0.1250001;
+  out.per_metre *= 0.1250001;
+  return out;
+}
+
+// A digest of what carries a part, and by how much its places can be off: lengths that they are
+// reckoned from.
+static void nsvcd__carry(const nsvcd__carried *c, const nsvcd_tree *tree,
+                         nsvcd__rider *rider) {
+  const nsvcd_scene *scene = c->checker->scene;
+  const nsvcd_part *part = &scene->parts[c->part];
+  const nsvcd_joint_motion *m = &c->motion;
+  const float scale = part->scale > 0 ? part->scale : 1;
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
+  d = nsvcd__digest(d, &scale, 1);
+  for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
+    const nsvcd_joint *joint = &scene->joints[link - 1];
+    const uint32_t slides = joint->kind == NSVCD_JOINT_PRISMATIC;
+    double most = 0;
+    d = nsvcd__digest(d + slides, joint->origin.position, 7);
+    d = nsvcd__digest(d + (uint32_t)link, joint->axis, 3);
+    for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+      const double *value = &m->points[i * scene->joint_count + link - 1];
+      d = nsvcd__digest(d, value, 2);
+      most = nsvcd__max(most, fabs(*value));
+    }
+    reach += nsvcd__d3_length(c->checker->links[link - 1].place) + (slides ? most : 0);
+  }
+  d += (uint32_t)m->degree;
+  for (size_t i = 0; i <= m->pieces; i++) {
+    const double time = nsvcd__piece_start(m, i);
+    d = nsvcd__digest(d, &time, 2);
+  }
+  rider->tree = tree;
+  rider->scale = (double)scale;
+  rider->place = nsvcd__carried_place;
+  rider->next = nsvcd__carried_next;
+  rider->off_chord = nsvcd__carried_off_chord;
+  rider->motion = c;
+  rider->reach = reach;
+  rider->digest = d;
+}
+
+// Are there pieces, and are they such that a double has digits left for angles and for times?
+static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *m) {
+  const size_t joints = c->scene->joint_count;
+  if (m->pieces < 1 || m->pieces > NSVCD_MAX_POSES) return 0;
+  for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+    const size_t piece = i > 0 ? (i - 1) / m->degree : 0;
+    const double whole = nsvcd__knot_of(m, piece + 1) - nsvcd__knot_of(m, piece);
+    if (!(whole >= 1.001e-9)) return 0;
+    for (size_t j = 0; j < joints; j++) {
+      const double *value = &m->points[i * joints + j];
+      const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e4)) return 0;
+      if (!(step <= 0.999e5 * whole)) return 0;
+    }
+  }
+  return 1;
+}
+
+// The last link that carries two others.
+static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
+  while (a != b) {
+    if (a > b)
+      a = scene->joints[a - 1].parent;
+    else
+      b = scene->joints[b - 1].parent;
+  }
+  return a;
+}
+
+NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
+                                                  const nsvcd_tree *a, const nsvcd_tree *b) {
+  nsvcd__certifier counted;
+  if (!motion || !a || !b) return 0;
+  const uint64_t size = nsvcd__certifier_layout(motion->pieces + 3, a, b, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
+                                         const nsvcd_joint_motion *motion, size_t pair,
+                                         float clearance, const nsvcd_tree *a,
+                                         const nsvcd_tree *b,
+                                         const nsvcd_certify_options *options, void *workspace,
+                                         size_t workspace_size, uint8_t *bytes,
+                                         size_t capacity, nsvcd_certificate *made) {
+  nsvcd__certifier c;
+  nsvcd__carried carried[2];
+  if (!checker || !motion || !a || !b || !made || (capacity > 0 && !bytes))
+    return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = checker->scene;
+  if (!motion->points) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
+  if (result) return result;
+  if (pair >= scene->pair_count || !nsvcd__is_provable(checker, motion))
+    return NSVCD_ERROR_ARGUMENT;
+  memset(&c, 0, sizeof c);
+  const nsvcd_body_pair *parts = &scene->pairs[pair];
+  const size_t base =
+      nsvcd__common_link(scene, scene->parts[parts->a].link, scene->parts[parts->b].link);
+  for (size_t k = 0; k < 2; k++) {
+    carried[k].checker = checker;
+    carried[k].motion = *motion;
+    carried[k].part = k ? parts->b : parts->a;
+    carried[k].base = base;
+    nsvcd__carry(&carried[k], k ? b : a, k ? &c.b : &c.a);
+  }
+  return nsvcd__certify(&c, motion->pieces + 3, clearance, options, workspace, workspace_size,
+                        bytes, capacity, made);
+}
+#endif  // NSVCD_NO_CERTIFICATES, NSVCD_NO_ROBOTS
 
 // ------------------------------------------------------------------------------------- robot/trees
 // In: configurations. Out: a tree of them, and the one that is nearest to another.

@@ -17,9 +17,9 @@
 #include "scenery/sweep_motion.h"
 // and these the oracle
 #include "scenery/poses.h"
-#include "scenery/certificates.h"
 #include "scenery/sweep_picture.h"
 #include "scenery/robot_picture.h"
+#include "scenery/certificates.h"
 
 // ---------------------------------------------------------------------------------------- settings
 
@@ -58,7 +58,7 @@ static const option options[] = {
      "NSVCD_MAX_COORDINATE"},
     {"--first", CHECK | SWEEP, OPTION_LENGTH, AT(first), 0, 1, "or metres: 0.001m"},
     {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL},
-    {"--certificates", CHECK, OPTION_TEXT, AT(certificates), 0, 0, NULL},
+    {"--certificates", CHECK | PLAN, OPTION_TEXT, AT(certificates), 0, 0, NULL},
     {"--certificate", SWEEP, OPTION_TEXT, AT(certificate), 0, 0, NULL},
     {"--method", CHECK | SWEEP, OPTION_WORD, AT(sweep.method), NSVCD_METHOD_PROOF, 0,
      "proof|network"},
@@ -575,6 +575,8 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
       fprintf(out, "\n");
     }
     if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
+    if (is_found && options->certificates)
+      good = write_motion_proof(in, options->certificates, task->id, m, asked.clearance);
     if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
   }
   free(memory);
@@ -1067,17 +1069,20 @@ static void help_check(FILE *out) {
 }
 
 static void help_plan(FILE *out) {
-  fprintf(out,
-          "svcd plan [--clearance METRES] [--seed S] [--only ID[,ID]] [--samples N --joints "
-          "OUT.tsv]\n"
-          "          [--picture OUT.svg] [--film OUT.svg] FILE\n"
-          "Seeks a motion for each plan of a planning file, and proves it. A line each, separated\n"
-          "by tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH\n"
-          "  --clearance D       the motion keeps this away from all that it must not touch (0)\n"
-          "  --seed S            of the random numbers (0)\n"
-          "  --only ID,ID        these alone\n"
-          "  --samples N --joints OUT.tsv   the joints at N times, a line each: ID K JOINTS\n"
-          "  --picture, --film OUT.svg      the motion of one plan, which is named by --only\n");
+  fprintf(
+      out,
+      "svcd plan [--clearance METRES] [--seed S] [--only ID[,ID]] [--samples N --joints "
+      "OUT.tsv]\n"
+      "          [--picture OUT.svg] [--film OUT.svg] [--certificates FOLDER] FILE\n"
+      "Seeks a motion for each plan of a planning file, and proves it. A line each, separated\n"
+      "by tabs: ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH\n"
+      "  --clearance D       the motion keeps this away from all that it must not touch (0)\n"
+      "  --seed S            of the random numbers (0)\n"
+      "  --only ID,ID        these alone\n"
+      "  --samples N --joints OUT.tsv   the joints at N times, a line each: ID K JOINTS\n"
+      "  --certificates FOLDER          a proof of each motion, ID.cert, into a folder that is\n"
+      "                      there: build/verify FILE FOLDER checks them\n"
+      "  --picture, --film OUT.svg      the motion of one plan, which is named by --only\n");
 }
 static void help_path(FILE *out) {
   fprintf(out,

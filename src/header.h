@@ -311,6 +311,7 @@ extern "C" {
 #include "robot/steps.h"  // what the joints do between two times
 #include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
 #include "robot/path.h"      // pieces, pair by pair
+#include "robot/proofs.h"    // certificates of pairs
 #include "robot/trees.h"     // configurations, and the nearest of them
 #include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
 #include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration

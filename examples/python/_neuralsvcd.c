@@ -44,6 +44,12 @@ size_t nsvcd_route_size(const nsvcd_checker *, const nsvcd_route_problem *,
                         const nsvcd_route_options *);
 nsvcd_result nsvcd_route(nsvcd_checker *, const nsvcd_route_problem *, const nsvcd_route_options *,
                          void *, size_t, nsvcd_route_answer *);
+size_t nsvcd_tree_size(const nsvcd_mesh *);
+nsvcd_result nsvcd_tree_build(const nsvcd_mesh *, void *, size_t, const nsvcd_tree **);
+size_t nsvcd_certify_workspace_size(const nsvcd_question *, const nsvcd_tree *, const nsvcd_tree *);
+nsvcd_result nsvcd_certify(const nsvcd_question *, const nsvcd_tree *, const nsvcd_tree *,
+                           const nsvcd_certify_options *, void *, size_t, uint8_t *, size_t,
+                           nsvcd_certificate *);
 
 // A struct is at 0, a field at its offset; a constant has its value for the place, and no size.
 typedef struct neuralsvcd_layout {
@@ -147,6 +153,9 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(route_answer, motion), FIELD(route_answer, stops), FIELD(route_answer, duration),
     FIELD(route_answer, unhindered), FIELD(route_answer, check), FIELD(route_answer, nodes),
     FIELD(route_answer, checks), FIELD(route_answer, proven),
+    STRUCT(certify_options), FIELD(certify_options, answer), FIELD(certify_options, visits),
+    STRUCT(certificate), FIELD(certificate, verdict), FIELD(certificate, inside),
+    FIELD(certificate, time), FIELD(certificate, size), FIELD(certificate, visits),
     CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
     CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),
     CONSTANT(ROUTE_GOAL),

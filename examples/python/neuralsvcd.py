@@ -34,11 +34,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "Answer", "Ask", "Body", "By", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint", "JointKind",
-    "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan", "PlanOptions",
-    "PlanStatus", "Precision", "Progress", "Range", "Robot", "Route", "RouteStatus", "SafePlace", "Stage", "Verdict",
-    "Why", "cut_mesh", "load_obj", "load_stl", "parse_obj", "parse_stl", "plan", "spline", "sweep", "sweep_batch",
-    "sweep_gradient",
+    "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
+    "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
+    "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Robot", "Route", "RouteStatus", "SafePlace",
+    "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_obj", "load_stl", "parse_obj", "parse_stl", "plan",
+    "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
 
 Floats = NDArray[np.float32]
@@ -240,7 +240,10 @@ _RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float,
 _RouteAnswer = _struct(
     "nsvcd_route_answer", status=c_int, goal=c_size_t, motion=_JointMotion, stops=c_size_t, duration=c_double,
     unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
-_STRUCTS = (_Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Gap, _GapOptions, _EscapeOptions,
+_CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
+_Certificate = _struct(
+    "nsvcd_certificate", verdict=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
+_STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Gap, _GapOptions, _EscapeOptions,
             _PairCounts, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
 _Layout = _struct("neuralsvcd_layout", name=c_char_p, place=c_size_t, size=c_size_t)
@@ -274,6 +277,10 @@ _PROTOTYPES = {
     "nsvcd_hand_over": (c_int, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
     "nsvcd_route_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_route": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_tree_size": (c_size_t, c_void_p),
+    "nsvcd_tree_build": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
+    "nsvcd_certify_workspace_size": (c_size_t, c_void_p, c_void_p, c_void_p),
+    "nsvcd_certify": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
 
@@ -862,27 +869,28 @@ def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], side: str, b
     return _Motion(kept, _floats(times, (*each, kept.shape[-2]), f"times_{side}"))
 
 
-def _mover(body: Body, motion: _Motion, scale: float, side: str) -> Any:
-    if not isinstance(body, Body):
-        raise TypeError(f"{side}: a Body is needed, not {type(body).__name__}")
+def _mover(body: Union[Body, Tree], motion: _Motion, scale: float, side: str, kind: Any) -> Any:
+    if not isinstance(body, kind):
+        raise TypeError(f"{side}: a {kind.__name__} is needed, not {type(body).__name__}")
     factor = c_float(scale)
     if not factor.value:
         raise ValueError(f"scale_{side}: {scale}")  # in C that is 1
+    address = body._address if isinstance(body, Body) else None
     if motion.poses is None:
-        return body._address, None, 0, None, factor
+        return address, None, 0, None, factor
     times = None if motion.times is None else _address(motion.times)
-    return body._address, _address(motion.poses), len(motion.poses), times, factor
+    return address, _address(motion.poses), len(motion.poses), times, factor
 
 
-def _question(a: Body, b: Body, poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
+def _question(a: Union[Body, Tree], b: Union[Body, Tree], poses_a: Optional[ArrayLike], poses_b: Optional[ArrayLike],
               times_a: Optional[ArrayLike], times_b: Optional[ArrayLike], scale_a: float, scale_b: float,
-              options: Options) -> Any:
+              options: Options, kind: Any = Body) -> Any:
     motion_a = _motion(poses_a, times_a, "a")
     # The same arrays twice are the same motion, which the library refuses of one body.
     same = poses_b is poses_a and times_b is times_a
     motion_b = motion_a if same else _motion(poses_b, times_b, "b")
     question = _Question.from_buffer_copy(options._c)
-    question.a, question.b = _mover(a, motion_a, scale_a, "a"), _mover(b, motion_b, scale_b, "b")
+    question.a, question.b = _mover(a, motion_a, scale_a, "a", kind), _mover(b, motion_b, scale_b, "b", kind)
     question.kept = motion_a, motion_b
     return question
 
@@ -923,6 +931,75 @@ def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_
     _check(_library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
                                          _address(by_a), _address(by_b)))
     return Gradient(_answer_of(answer), by_a, by_b)
+
+
+# -------------------------------------------------------------------------------------------------------- certificates
+
+
+class Tree:
+    """A mesh as certify takes it: nsvcd_tree. It does not change; threads may share it; it can be pickled and copied.
+
+    vertices   (n, 3) metres
+    triangles  (m, 3) integers
+    """
+
+    __slots__ = ("_mesh", "_memory", "_address")
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
+        self._mesh = _c_mesh(vertices, triangles)
+        size = _library.nsvcd_tree_size(byref(self._mesh))
+        self._memory = _memory(size)
+        tree = c_void_p()
+        _check(_library.nsvcd_tree_build(byref(self._mesh), _address(self._memory), size, byref(tree)))
+        self._address = tree.value
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Tree, self._mesh.kept
+
+
+class Certificate(NamedTuple):
+    """What was proven: nsvcd_certificate.
+
+    verdict  free or hit: the bytes prove it; undecided: there are none
+    inside   a hit, for a corner of one is inside of the other
+    time     in [0, 1], of a hit
+    bytes    the proof, for nsvcd_verify.py and examples/verify
+    visits   steps that were taken
+    """
+    verdict: Verdict
+    inside: bool
+    time: float
+    bytes: bytes
+    visits: int
+
+
+def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
+            times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1,
+            scale_b: float = 1, clearance: float = 0, answer: Optional[Answer] = None, visits: int = 0) -> Certificate:
+    """Do two meshes hit each other? Poses, times and scales as sweep has them; what is answered is proven to others.
+
+    clearance  metres: to come as near as this is a hit
+    answer     of sweep, where a hit is looked for first; it is not believed
+    visits     steps that may be taken; 1000000
+    """
+    question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, Options(clearance=clearance), Tree)
+    options = _filled(_CertifyOptions, visits=visits)
+    if answer is not None:
+        named = answer.nearest
+        triangles = (NO_TRIANGLE if k is None else k for k in (named.triangle_a, named.triangle_b))
+        told = _Answer(verdict=_number_of(answer.verdict))
+        told.nearest.time, (told.nearest.triangle_a, told.nearest.triangle_b) = named.time, triangles
+        options.answer = ctypes.addressof(told)
+    size = _library.nsvcd_certify_workspace_size(byref(question), a._address, b._address)
+    workspace = _memory(size)
+    made = _Certificate(size=1 << 20)  # more than most take
+    room = 0
+    while room < made.size:
+        room = made.size
+        data = _memory(room)
+        _check(_library.nsvcd_certify(byref(question), a._address, b._address, byref(options), _address(workspace),
+                                      size, _address(data), room, byref(made)))
+    return Certificate(_VERDICTS[made.verdict], bool(made.inside), made.time, data[:made.size].tobytes(), made.visits)
 
 
 # -------------------------------------------------------------------------------------------------------- many motions

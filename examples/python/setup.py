@@ -15,10 +15,11 @@ setup(
     license="MIT",
     python_requires=">=3.9",
     install_requires=["numpy"],
-    py_modules=["neuralsvcd"],
-    # An extension is what setuptools can build. This one is a plain library, which neuralsvcd.py opens with ctypes, and
-    # so it fits every Python, as "abi3" says.
-    ext_modules=[Extension("_neuralsvcd", ["_neuralsvcd.c"], libraries=["m"], py_limited_api=True)],
+    py_modules=["neuralsvcd", "nsvcd_verify"],
+    # An extension is what setuptools can build. These are plain libraries, which the modules open with ctypes, and so
+    # they fit every Python, as "abi3" says.
+    ext_modules=[Extension(name, [f"{name}.c"], libraries=["m"], py_limited_api=True)
+                 for name in ("_neuralsvcd", "_nsvcd_verify")],
     data_files=[("share/doc/neuralsvcd", ["../../LICENSE"])],
     # force: setuptools would not see that the header or CFLAGS have changed.
     options={"build_ext": {"force": True}, "bdist_wheel": {"py_limited_api": "cp39"}},

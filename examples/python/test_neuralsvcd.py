@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import gc
 import io
 import os
@@ -24,6 +25,7 @@ from pathlib import Path
 import numpy as np
 
 import neuralsvcd as nsvcd
+import nsvcd_verify
 from neuralsvcd import Answer, Ask, Body, By, Code, Error, Method, Options, PlanOptions, PlanStatus, Stage, Verdict, Why
 
 HERE = Path(__file__).resolve().parent
@@ -978,6 +980,187 @@ class Robots(unittest.TestCase):
         self.assertEqual((raised.exception.code, raised.exception.line), (Code.SYNTAX, 2))
 
 
+class Certificates(unittest.TestCase):
+    """Made by neuralsvcd, checked by nsvcd_verify."""
+
+    def setUp(self) -> None:
+        self.meshes = {name: nsvcd.load_obj(ASSETS / f"{name}.obj") for name in ("mug", "dish_rack")}
+        self.meshes["box"] = nsvcd.Mesh(CUBE, FACES)
+        self.trees = {name: nsvcd.Tree(*mesh) for name, mesh in self.meshes.items()}
+        self.checked = {name: nsvcd_verify.Mesh(*mesh) for name, mesh in self.meshes.items()}
+
+    def certify(self, a: str, b: str, *poses, **named) -> nsvcd.Certificate:
+        return nsvcd.certify(self.trees[a], self.trees[b], *poses, **named)
+
+    def verify(self, proof: bytes, a: str, b: str, *poses, **named) -> nsvcd_verify.Report:
+        return nsvcd_verify.verify(proof, self.checked[a], self.checked[b], *poses, **named)
+
+    def both(self, *scene, **named) -> tuple[nsvcd.Certificate, nsvcd_verify.Report]:
+        """What is made is accepted."""
+        made = self.certify(*scene, **named)
+        named.pop("answer", None)
+        report = self.verify(made.bytes, *scene, **named)
+        self.assertEqual((report.accepted, report.reason, report.position >= len(made.bytes) - 1), (True, "", True))
+        self.assertEqual((made.verdict == "free", made.inside), (bool(report), report.kind == "inside"))
+        self.assertEqual(report.time, made.time)
+        return made, report
+
+    def test_kinds(self) -> None:
+        made, report = self.both("mug", "dish_rack", HIGH)
+        self.assertEqual((made.verdict, report.kind, report.time), (Verdict.FREE, nsvcd_verify.Kind.FREE, 0))
+        self.assertGreater(made.visits, 0)
+        made, report = self.both("box", "box", line(-5, 0), scale_a=0.5)
+        self.assertEqual((made.verdict, report.kind), ("hit", "hit"))
+        self.assertGreaterEqual(report.time, 0.7)
+        self.assertLess(max(report.a, report.b), 12)
+        made, report = self.both("box", "box", REST, scale_a=0.1)
+        self.assertEqual((made.verdict, report.kind, report.time), ("hit", "inside", 0))
+        self.assertTrue(report.a < 8 and report.b == 0)
+        # the nearest that the boxes come is 1 m
+        self.assertEqual(self.both("box", "box", line(-5, -3), clearance=0.99)[1].kind, "free")
+        made, report = self.both("box", "box", line(-5, -3), clearance=1.01)
+        self.assertEqual((made.verdict, report.kind), ("hit", "near"))
+        self.assertGreaterEqual(report.time, 0.99)
+
+    def test_two_movers(self) -> None:
+        """With times and scales: a box waits until the other, of half its size, has passed its gate."""
+        gate = at(0, 3, 0) + at(0, 3, 0) + at(0, 0, 0)
+        for wait, verdict in ((0.7, "free"), (0.1, "hit")):
+            named = {"times_b": [0, wait, 1], "scale_a": 0.5}
+            made, report = self.both("box", "box", line(-9, 9), gate, **named)
+            self.assertEqual((made.verdict, report.kind), (verdict, verdict))
+            swapped = {"times_a": [0, wait, 1], "scale_b": 0.5}
+            self.assertEqual(self.both("box", "box", gate, line(-9, 9), **swapped)[0].verdict, verdict)
+        self.assertEqual(self.both("box", "box", None, [[3, 0, 0, 0, 0, 0, 1]] * 2, scale_a=1.9)[0].verdict, "free")
+
+    def test_as_sweep_says(self) -> None:
+        random = np.random.default_rng(5)
+        seen = set()
+        for _ in range(60):
+            path = np.array(LOW + HIGH, float)
+            path[:, :3] += random.normal(0, 0.2, (4, 3))
+            path[:, 3:] += random.normal(0, 0.3, (4, 4))
+            path[:, 3:] /= np.linalg.norm(path[:, 3:], axis=1)[:, None]
+            answer = nsvcd.sweep(MUG, RACK, path)
+            made = self.both("mug", "dish_rack", path, answer=answer)[0]
+            self.assertEqual(made.verdict, answer.verdict)
+            seen.add(made.verdict)
+        self.assertEqual(len(seen), 2)
+
+    def test_about_something_else(self) -> None:
+        proof = self.certify("mug", "dish_rack", HIGH).bytes
+        for reason, scene, named in (
+                ("it is about another mesh a", ("box", "dish_rack", HIGH), {}),
+                ("it is about another mesh b", ("mug", "box", HIGH), {}),
+                ("it is about another motion, scale or clearance", ("mug", "dish_rack", LOW), {}),
+                ("it is about another motion, scale or clearance", ("mug", "dish_rack", HIGH), {"scale_b": 1.1}),
+                ("it is about another motion, scale or clearance", ("mug", "dish_rack", HIGH), {"clearance": 0.1}),
+                ("a clearance is out of range", ("mug", "dish_rack", HIGH), {"clearance": np.nan})):
+            report = self.verify(proof, *scene, **named)
+            self.assertEqual((report.accepted, report.reason, report.kind, bool(report)), (False, reason, None, False))
+        for proof, reason in ((b"", "it is no certificate of version 1"), (proof + b"\0", "something follows its end"),
+                              (proof[:-1], "it ends early")):
+            report = self.verify(proof, "mug", "dish_rack", HIGH)
+            self.assertEqual((report.accepted, report.reason), (False, reason))
+
+    def test_flipped_bits(self) -> None:
+        """Of a free motion's certificate, with the head that one of a colliding motion has: never is that free."""
+        free, hit = ([[0, -0.4, 0.3, *np.array([1, 2, 3, 4]) / 30 ** 0.5], [0, 0, z, 0, 0, 0, 1]] for z in (0.09, 0.07))
+        proof = self.both("mug", "dish_rack", free)[0].bytes
+        made = self.both("mug", "dish_rack", hit)[0]
+        self.assertEqual(made.verdict, "hit")
+        self.assertGreater(len(proof), 60)
+        forged = bytes([made.bytes[0] & 0xfc]) + made.bytes[1:5] + proof[5:]
+        self.assertEqual(self.verify(forged, "mug", "dish_rack", hit).reason, "a plane does not part its nodes")
+        random = np.random.default_rng(7)
+        flips = [[k] for k in range(8 * len(proof))]
+        flips += [random.integers(40, 8 * len(proof), random.integers(2, 9)).tolist() for _ in range(2000)]
+        for given in (proof, forged):
+            for places in flips:
+                bits = bytearray(given)
+                for place in places:
+                    bits[place // 8] ^= 0x80 >> place % 8
+                self.assertNotEqual(self.verify(bits, "mug", "dish_rack", hit).kind, "free")
+                self.assertIn(self.verify(bits, "mug", "dish_rack", free).kind, (None, "free"))
+
+    def test_undecided(self) -> None:
+        made = self.certify("mug", "dish_rack", LOW, visits=1)
+        self.assertEqual((made.verdict, made.bytes, made.inside), ("undecided", b"", False))
+
+    def test_refused(self) -> None:
+        """As sweep refuses it; by nsvcd_verify it is a ValueError with its reason."""
+        box, checked = self.trees["box"], self.checked["box"]
+        half_turn = REST + [[0, 0, 0, 0, 0, 1, 0]]
+        for code, path, named in ((Code.POSE, [[np.nan, 0, 0, 0, 0, 0, 1]], {}), (Code.POSE, [[0, 0, 0, 0, 0, 0, 2]], {}),
+                                  (Code.POSE, half_turn, {}), (Code.POSE, line(0, 1), {"times_a": [0, 0.5]}),
+                                  (Code.SCALE, REST, {"scale_a": -1}), (Code.SCALE, REST, {"scale_b": 1e9})):
+            self.assertEqual(raised(nsvcd.certify, box, box, path, **named).code, code)
+            with self.assertRaisesRegex(ValueError, "^[ab]: (a|times) "):
+                nsvcd_verify.verify(b"", checked, checked, path, **named)
+        for clearance in (-1, np.nan, 1e9):
+            self.assertEqual(raised(nsvcd.certify, box, box, clearance=clearance).code, Code.TOLERANCE)
+        for path, named in ((LOW[0], {}), ([[1, 2]], {}), ([], {}), (np.zeros((0, 7)), {}), (REST, {"scale_b": 0}),
+                            (line(0, 1), {"times_a": [0, 0.5, 1]})):
+            for call in (nsvcd.certify, functools.partial(nsvcd_verify.verify, b"")):
+                mesh = box if call is nsvcd.certify else checked
+                with self.assertRaises(ValueError, msg=str(path)):
+                    call(mesh, mesh, path, **named)
+        for path, named in (("path", {}), ([["0"] * 7], {}), (REST, {"scale_a": "1"}), (REST, {"clearance": "1"})):
+            with self.assertRaises(TypeError):
+                nsvcd.certify(box, box, path, **named)
+            with self.assertRaises(TypeError):
+                nsvcd_verify.verify(b"", checked, checked, path, **named)
+        for a, b in ((BOX, box), (box, None), (self.meshes["box"], box)):
+            with self.assertRaises(TypeError):
+                nsvcd.certify(a, b)
+        for a, b in ((checked, box), (None, checked)):
+            with self.assertRaises(TypeError):
+                nsvcd_verify.verify(b"", a, b)
+        for proof in ("", 5, None):
+            with self.assertRaises(TypeError):
+                nsvcd_verify.verify(proof, checked, checked)
+        with self.assertRaises(ValueError):
+            nsvcd.certify(box, box, visits=-1)
+
+    def test_meshes_refused(self) -> None:
+        for code, vertices, faces in ((Code.EMPTY, CUBE, FACES[:0]), (Code.INDEX, CUBE, FACES + 1),
+                                      (Code.INDEX, CUBE, FACES - 1), (Code.INDEX, CUBE, FACES + 2**32),
+                                      (Code.NUMBER, np.where(CUBE < 0, np.nan, CUBE), FACES)):
+            self.assertEqual(raised(nsvcd.Tree, vertices, faces).code, code)
+            self.assertRaises(ValueError, nsvcd_verify.Mesh, vertices, faces)
+        for kind in (nsvcd.Tree, nsvcd_verify.Mesh):
+            self.assertRaises(ValueError, kind, CUBE[:, :2], FACES)
+            self.assertRaises(TypeError, kind, CUBE, FACES.astype(float))
+
+    def test_copies(self) -> None:
+        made = self.both("mug", "dish_rack", HIGH)[0]
+        for copied in (copy.copy, copy.deepcopy, lambda mesh: pickle.loads(pickle.dumps(mesh))):
+            mug, checked = copied(self.trees["mug"]), copied(self.checked["mug"])
+            gc.collect()
+            self.assertEqual(nsvcd.certify(mug, self.trees["dish_rack"], HIGH), made)
+            self.assertTrue(nsvcd_verify.verify(made.bytes, checked, self.checked["dish_rack"], HIGH))
+        self.assertEqual(pickle.loads(pickle.dumps(made)), made)
+
+    def test_threads(self) -> None:
+        """They share meshes, of which rays take notes."""
+        inside = self.certify("box", "box", REST, scale_a=0.1).bytes
+        around = self.certify("box", "dish_rack", REST, scale_a=0.01).bytes
+        scenes = [(inside, "box", "box", {"scale_a": 0.1}), (around, "box", "dish_rack", {"scale_a": 0.01})] * 500
+        def kind_of(scene) -> str:
+            proof, a, b, named = scene
+            return self.verify(proof, a, b, REST, **named).kind
+        expected = list(map(kind_of, scenes))
+        with ThreadPoolExecutor(8) as pool:
+            self.assertEqual(list(pool.map(kind_of, scenes)), expected)
+
+    def test_the_checker_shares_nothing(self) -> None:
+        run = "import sys, nsvcd_verify; sys.exit('neuralsvcd' in sys.modules)"
+        self.assertEqual(subprocess.run([sys.executable, "-B", "-c", run], cwd=HERE).returncode, 0)
+        for file in [HERE / "_nsvcd_verify.c", *(HERE.parent / "verify").glob("nsvcd_verify*.h")]:
+            for name in re.findall(r'#include "(.*)"', file.read_text()):
+                self.assertTrue(Path(name).name.startswith("nsvcd_verify"), name)
+
+
 class Layouts(unittest.TestCase):
     """The module as it stands, but for one mistake, does not load."""
 
@@ -1005,6 +1188,7 @@ class Layouts(unittest.TestCase):
                  "NSVCD_UNDECIDED"),
                 ('    TOO_NEAR = "too near"\n', "", "NSVCD_WHY_TOO_NEAR"),
                 ("_MAX_CONTACTS = 4", "_MAX_CONTACTS = 5", "NSVCD_MAX_CONTACTS"),
+                ("inside=c_int, time=c_double", "time=c_double, inside=c_int", "nsvcd_certificate.inside"),
                 ("    CANCELLED = 15\n", "", "NSVCD_ERROR_CANCELLED"),
                 ("_MAX_VIA_POINTS = 32", "_MAX_VIA_POINTS = 33", "NSVCD_MAX_VIA_POINTS")):
             with self.assertRaisesRegex(ImportError, f"another neuralsvcd.h.*{name}", msg=new):
@@ -1037,9 +1221,11 @@ class Wheel(unittest.TestCase):
             folder = Path(name)
             sources = folder / "checkout" / "examples" / "python"
             sources.mkdir(parents=True)
+            shutil.copytree(HERE.parent / "verify", folder / "checkout" / "examples" / "verify")
             for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
                 shutil.copy(ROOT / file, folder / "checkout")
-            for file in ("neuralsvcd.py", "_neuralsvcd.c", "setup.py", "pyproject.toml", "README.md"):
+            for file in ("neuralsvcd.py", "_neuralsvcd.c", "nsvcd_verify.py", "_nsvcd_verify.c", "setup.py",
+                         "pyproject.toml", "README.md"):
                 shutil.copy(HERE / file, sources)
 
             def run(*command: object, cwd: Path = folder, **variables: str) -> str:
@@ -1054,7 +1240,7 @@ class Wheel(unittest.TestCase):
             wheel, = folder.glob("*.whl")
             self.assertIn("-abi3-", wheel.name)
             names = zipfile.ZipFile(wheel).namelist()
-            for part in ("neuralsvcd.py", "_neuralsvcd.abi3.so"):
+            for part in ("neuralsvcd.py", "_neuralsvcd.abi3.so", "nsvcd_verify.py", "_nsvcd_verify.abi3.so"):
                 self.assertIn(part, names)
             self.assertTrue(any(part.endswith("LICENSE") for part in names))
             run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", "own")
@@ -1062,7 +1248,7 @@ class Wheel(unittest.TestCase):
             run(python, *pip, "install", "--no-deps", "--no-index", wheel)
             shutil.rmtree(folder / "checkout")
             shutil.copy(ASSETS / "mug.obj", folder)
-            printed = run(python, "-c", "import neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
+            printed = run(python, "-c", "import nsvcd_verify, neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
                           "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).verdict)")
             self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py hit\n$")
 

@@ -1,24 +1,32 @@
 // certificates.h - writes certificates of problems, which examples/verify checks. Include
-// neuralsvcd.h, problem_file.h, load.h and problem_summary.h first.
+// neuralsvcd.h, problem_file.h, load.h, problem_summary.h and robot_file.h first.
 #ifndef NSVCD_SCENERY_CERTIFICATES_H
 #define NSVCD_SCENERY_CERTIFICATES_H
 
-// A mesh of a problem file, and its tree.
+// A mesh, and its tree.
 typedef struct proof_mesh {
   nsvcd_mesh mesh;
   void *memory;
   const nsvcd_tree *tree;
 } proof_mesh;
 
-// Returns 0 after a complaint.
-static int load_tree(const problem_file *file, const mesh_entry *entry, proof_mesh *out) {
+// That a file names. Returns 0 after a complaint.
+static int load_tree(const char *file, const char *name, proof_mesh *out) {
   char path[4096];
-  path_of(file->path, entry->path, path, sizeof path);
+  path_of(file, name, path, sizeof path);
   if (!load_mesh("", path, &out->mesh)) return 0;
   const size_t size = nsvcd_tree_size(&out->mesh);
   out->memory = allocate(size);
   const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
   return result ? complain("%s: %s", path, reason_of(result)) : 1;
+}
+
+static void free_trees(proof_mesh *meshes, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    nsvcd_mesh_free(&meshes[i].mesh, NULL);
+    free(meshes[i].memory);
+  }
+  free(meshes);
 }
 
 // Makes a certificate; *bytes is to be freed. Returns 0 after a complaint.
@@ -72,7 +80,7 @@ static int write_certificates(const session *s, const char *folder, float cleara
   int good = 1;
   memset(meshes, 0, file->mesh_count * sizeof *meshes);
   for (size_t i = 0; i < file->mesh_count && good; i++)
-    good = load_tree(file, &file->meshes[i], &meshes[i]);
+    good = load_tree(file->path, file->meshes[i].path, &meshes[i]);
   for (size_t i = 0; i < file->problem_count && good; i++) {
     const problem *p = &file->problems[i];
     const nsvcd_answer *answer = &s->outcomes[i].answer;
@@ -95,11 +103,7 @@ static int write_certificates(const session *s, const char *folder, float cleara
     fprintf(stderr, "certificates: %zu, of %zu answers; %.0f bytes and %.0f us on average\n",
             made_count, answered, made_count ? (double)bytes / (double)made_count : 0,
             file->problem_count ? 1e6 * taken / (double)file->problem_count : 0);
-  for (size_t i = 0; i < file->mesh_count; i++) {
-    nsvcd_mesh_free(&meshes[i].mesh, NULL);
-    free(meshes[i].memory);
-  }
-  free(meshes);
+  free_trees(meshes, file->mesh_count);
   return good;
 }
 
@@ -113,6 +117,10 @@ static int write_problem(const char *path, const char *id, const char *const *me
   if (!out) return complain("%s: %s", path, strerror(errno));
   fprintf(out, "nsvcd-problems 1\n");
   for (int k = 0; k < 2; k++) {
+    if (path[0] == '/' && meshes[k][0] != '/') {
+      fclose(out);
+      return complain("%s: a path from the root; name %s so, too", path, meshes[k]);
+    }
     fprintf(out, "mesh %c ", k ? 'B' : 'A');
     for (const char *p = path; meshes[k][0] != '/' && p < file_name(path); p++)
       if (*p == '/') fprintf(out, "../");
@@ -149,6 +157,79 @@ static int write_proof(const char *path, const char *const *meshes, const float 
                    read_problems(problem_path, &s.file) &&
                    write_certificates(&s, folder, clearance);
   free_problems(&s.file);
+  return good;
+}
+
+// ---- of a robot's motion
+
+static void put_bytes(FILE *out, uint64_t value, size_t count) {
+  for (size_t k = 0; k < count; k++) putc((int)(value >> (8 * k) & 0xff), out);
+}
+static void put_double(FILE *out, double value) {
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  put_bytes(out, bits, 8);
+}
+
+// Writes FOLDER/ID.cert: the motion, and a certificate for each pair of the scene, as
+// examples/FORMATS.md has it. No file where one cannot be had. Returns 0 after a complaint.
+static int write_motion_proof(const robot_in_room *in, const char *folder, const char *id,
+                              const nsvcd_joint_motion *motion, float clearance) {
+  const robot_file *file = in->file;
+  const nsvcd_scene *scene = &in->scene;
+  const size_t numbers = (motion->pieces * motion->degree + 1) * scene->joint_count;
+  char path[4096];
+  size_t bytes_of_all = 0;
+  int is_proven = 1;
+  const double start = seconds();
+  proof_mesh *meshes = (proof_mesh *)allocate(file->mesh_count * sizeof *meshes);
+  memset(meshes, 0, file->mesh_count * sizeof *meshes);
+  snprintf(path, sizeof path, "%s/%s.cert", folder, id);
+  FILE *out = fopen(path, "wb");
+  int good = out ? 1 : complain("%s: %s", path, strerror(errno));
+  for (size_t i = 0; i < file->mesh_count && good; i++)
+    good = load_tree(file->path, file->meshes[i].path, &meshes[i]);
+  if (good) {
+    fputs("NSVM", out);
+    put_bytes(out, motion->pieces, 4);
+    put_bytes(out, motion->degree, 4);
+    put_bytes(out, scene->joint_count, 4);
+    for (size_t p = 0; p <= motion->pieces; p++)
+      put_double(out, motion->times ? motion->times[p] : (double)p);
+    for (size_t k = 0; k < numbers; k++) put_double(out, motion->points[k]);
+    put_bytes(out, scene->pair_count, 4);
+  }
+  for (size_t n = 0; n < scene->pair_count && good && is_proven; n++) {
+    const nsvcd_body_pair *pair = &scene->pairs[n];
+    const proof_mesh *a = &meshes[robot_thing_of(in, pair->a)->mesh];
+    const proof_mesh *b = &meshes[robot_thing_of(in, pair->b)->mesh];
+    nsvcd_certificate made;
+    const size_t size = nsvcd_certify_pair_workspace_size(motion, a->tree, b->tree);
+    const size_t room = (size_t)1 << 22;
+    void *workspace = allocate(size);
+    uint8_t *bytes = (uint8_t *)allocate(room);
+    const nsvcd_result result =
+        nsvcd_certify_pair(in->checker, motion, n, clearance, a->tree, b->tree, NULL, workspace,
+                           size, bytes, room, &made);
+    if (result) good = complain("%s: %s", id, reason_of(result));
+    is_proven = good && made.verdict == NSVCD_FREE && made.size <= room;
+    if (good && !is_proven)
+      complain("%s: no certificate for %s and %s: %s", id, robot_name(in, pair->a),
+               robot_name(in, pair->b), nsvcd_verdict_string(made.verdict));
+    if (is_proven) {
+      put_bytes(out, made.size, 4);
+      fwrite(bytes, 1, made.size, out);
+      bytes_of_all += made.size;
+    }
+    free(workspace);
+    free(bytes);
+  }
+  free_trees(meshes, file->mesh_count);
+  if (out) good = close_written(out, path) && good;
+  if (out && (!good || !is_proven)) remove(path);
+  if (good && is_proven)
+    fprintf(stderr, PROGRAM ": %s: certificates of %zu pairs, %zu bytes, in %.0f ms\n", path,
+            scene->pair_count, bytes_of_all, 1e3 * (seconds() - start));
   return good;
 }
 #endif  // NSVCD_SCENERY_CERTIFICATES_H

@@ -302,9 +302,12 @@ typedef struct robot_in_room {
   nsvcd_checker *checker;
 } robot_in_room;
 
-static const char *robot_name(const robot_in_room *in, size_t part) {
+static const robot_thing *robot_thing_of(const robot_in_room *in, size_t part) {
   const size_t bodies = in->file->body_count;
-  return in->file->things[part < bodies ? part : in->room->first + part - bodies].name;
+  return &in->file->things[part < bodies ? part : in->room->first + part - bodies];
+}
+static const char *robot_name(const robot_in_room *in, size_t part) {
+  return robot_thing_of(in, part)->name;
 }
 
 static void leave_room(robot_in_room *in) {

@@ -79,10 +79,11 @@ static int verify__parts(const verify__reader *r, const verify__visit *v, int ex
   const double length = sqrt(verify__dot(n, n));
   const double ra = verify__radius(r->a, &v->a);
   const double rb = verify__radius(r->b, &v->b);
+  const double reach = r->a->reach + r->b->reach;
   double last = HUGE_VAL;
   double stray = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
-    const double lengths = verify__lengths(ra + rb + r->clearance, &at->a, &at->b);
+    const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);

@@ -212,7 +212,7 @@ static verify__extent verify__extent_of(const nsvcd_verify_mover *of,
                             of_at->at[2] - by_at->at[2]};
   const double apart = sqrt(verify__dot(offset, offset));
   const double radii = verify__radius(of, &root) + verify__radius(by, &root);
-  const double places = verify__lengths(0, of_at, by_at);
+  const double places = verify__lengths(of->reach + by->reach, of_at, by_at);
   verify__extent out;
   out.lengths = (radii + apart) / by->scale;
   out.margin = VERIFY__MARGIN * out.lengths + 1e-3 * VERIFY__MARGIN * places / by->scale;

@@ -46,6 +46,7 @@ typedef struct nsvcd_verify_mover {
   double (*next)(const void *motion, double t);
   void (*stray)(const void *motion, double t0, double t1, double *stray);
   const void *motion;
+  double reach;     // what its places are reckoned from is no longer, beside the places
   uint32_t digest;  // of scale and motion
 } nsvcd_verify_mover;
 
@@ -292,27 +293,31 @@ static double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, d
   return 4 * atan2(sqrt(apart), sqrt(together));
 }
 
+// The rotation matrix of a quaternion of any length.
+static void verify__matrix(const double *q, double *m) {
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    m[4 * i] = 1 - 2 * (q[j] * q[j] + q[k] * q[k]) / square;
+    m[3 * i + j] = 2 * (q[i] * q[j] - q[k] * q[3]) / square;
+    m[3 * i + k] = 2 * (q[i] * q[k] + q[j] * q[3]) / square;
+  }
+}
+
 static void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, t);
   const double u = verify__share(p, k, p->count > 1 ? verify__knot(p, k) : 0, t);
   const float *a = p->poses + 7 * k;
   const float *b = p->count > 1 ? a + 7 : a;
-  double q[4], to[4], square = 0;
+  double q[4], to[4];
   const double half = 0.5 * verify__turn(p, k, q, to);
   const int turns = half > 1e-7;  // below, a line is as good
   for (int i = 0; i < 3; i++) out->at[i] = (1 - u) * (double)a[i] + u * (double)b[i];
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 4; i++)
     q[i] = turns ? sin((1 - u) * half) * q[i] + sin(u * half) * to[i] : (1 - u) * q[i] + u * to[i];
-    square += q[i] * q[i];
-  }
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3;
-    const int l = (i + 2) % 3;
-    out->turn[4 * i] = 1 - 2 * (q[j] * q[j] + q[l] * q[l]) / square;
-    out->turn[3 * i + j] = 2 * (q[i] * q[j] - q[l] * q[3]) / square;
-    out->turn[3 * i + l] = 2 * (q[i] * q[l] + q[j] * q[3]) / square;
-  }
+  verify__matrix(q, out->turn);
 }
 
 static double verify__path_next(const void *motion, double t) {
@@ -359,6 +364,7 @@ static const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, float s
   mover->next = verify__path_next;
   mover->stray = verify__path_stray;
   mover->motion = p;
+  mover->reach = 0;
   mover->digest = verify__hash((uint32_t)p->count, p->poses, 7 * p->count);
   mover->digest = verify__hash(mover->digest, &scale, 1);
   if (timed) mover->digest = verify__hash(mover->digest, p->times, p->count);

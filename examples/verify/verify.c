@@ -1,23 +1,24 @@
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
 // neuralsvcd.h: nsvcd_verify.h is what there is to be believed.
 //
-//   verify PROBLEMS.txt FOLDER [--clearance METRES]
+//   verify FILE.txt FOLDER [--clearance METRES]
 //
-// PROBLEMS.txt is a problem file (examples/FORMATS.md); FOLDER holds a certificate ID.cert for each
-// problem, as `svcd check --certificates FOLDER` writes them. A line a problem, separated by tabs:
+// FILE.txt is a problem file or a planning file (examples/FORMATS.md); FOLDER holds a certificate
+// ID.cert for each problem or plan, as `svcd check --certificates FOLDER` and `svcd plan
+// --certificates FOLDER` write them. A line each, separated by tabs:
 //   ID accepted|refused REASON BYTES MICROSECONDS
 // REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
 // MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 all are
 // accepted, 1 one is refused, 2 a file cannot be read, or usage.
 #include <time.h>
 
-#include "verify_files.h"
+#include "verify_plans.h"
 
 #define REPEAT 20  // checks, by a clock that may know no less than a microsecond
 
 typedef struct named {
   char *name;
-  nsvcd_verify_mesh mesh;
+  const nsvcd_verify_mesh *mesh;
 } named;
 
 typedef struct side {
@@ -31,17 +32,6 @@ static char **expect(const char *path, char **text, char **words, size_t least) 
   return words;
 }
 
-// A pose, of a quaternion of any length about 1, which is made unit in double.
-static void read_pose(const char *path, char *const *words, float *pose) {
-  double q[4], square = 0;
-  for (size_t k = 0; k < 3; k++) pose[k] = (float)number_of(path, words[k]);
-  for (size_t k = 0; k < 4; k++) {
-    q[k] = number_of(path, words[3 + k]);
-    square += q[k] * q[k];
-  }
-  for (size_t k = 0; k < 4; k++) pose[3 + k] = (float)(q[k] / sqrt(square));
-}
-
 static void read_poses(const char *path, char **text, size_t count, float *poses) {
   char *words[80];
   for (size_t k = 0; k < count; k++) read_pose(path, expect(path, text, words, 7), poses + 7 * k);
@@ -50,7 +40,7 @@ static void read_poses(const char *path, char **text, size_t count, float *poses
 static const nsvcd_verify_mesh *mesh_named(const char *path, const list *meshes, const char *name) {
   const named *all = (const named *)meshes->items;
   for (size_t i = 0; i < meshes->count; i++)
-    if (strcmp(all[i].name, name) == 0) return &all[i].mesh;
+    if (strcmp(all[i].name, name) == 0) return all[i].mesh;
   fail(path, "a problem names a mesh that is not above it");
   return NULL;
 }
@@ -111,12 +101,11 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
 int main(int argc, char **argv) {
   const int asked = argc == 5 && strcmp(argv[3], "--clearance") == 0;
   if (argc != 3 && !asked) {
-    fprintf(stderr, "verify PROBLEMS.txt FOLDER [--clearance METRES]\n");
+    fprintf(stderr, "verify FILE.txt FOLDER [--clearance METRES]\n");
     return 2;
   }
   const char *path = argv[1];
   const float clearance = asked ? (float)number_of("--clearance", argv[4]) : 0;
-  const char *slash = strrchr(path, '/');
   list meshes = {NULL, 0, 0};
   char *words[80];
   size_t size;
@@ -125,15 +114,13 @@ int main(int argc, char **argv) {
   if (!text) fail(path, strerror(errno));
   char *next = text;
   expect(path, &next, words, 2);
+  if (strcmp(words[0], "nsvcd-plans") == 0) return !check_plans(path, next, argv[2], clearance);
   if (strcmp(words[0], "nsvcd-problems") != 0) fail(path, "its first line is not nsvcd-problems 1");
   for (size_t n = next_words(&next, words, 80); n > 0; n = next_words(&next, words, 80)) {
     if (n == 3 && strcmp(words[0], "mesh") == 0) {
-      char file[4096];
       named *mesh = (named *)add(&meshes, sizeof *mesh);
-      const int folder = words[2][0] == '/' || !slash ? 0 : (int)(slash + 1 - path);
-      snprintf(file, sizeof file, "%.*s%s", folder, path, words[2]);
       mesh->name = words[1];
-      read_mesh(file, &mesh->mesh);
+      mesh->mesh = mesh_of_file(path, words[2]);
     } else if (n >= 16 && strcmp(words[0], "problem") == 0) {
       all &= check_problem(path, &next, words, n, &meshes, argv[2], clearance);
     } else {

@@ -85,6 +85,17 @@ static double number_of(const char *path, const char *word) {
   return x;
 }
 
+// A pose, of a quaternion of any length about 1, which is made unit in double.
+static void read_pose(const char *path, char *const *words, float *pose) {
+  double q[4], square = 0;
+  for (size_t k = 0; k < 3; k++) pose[k] = (float)number_of(path, words[k]);
+  for (size_t k = 0; k < 4; k++) {
+    q[k] = number_of(path, words[3 + k]);
+    square += q[k] * q[k];
+  }
+  for (size_t k = 0; k < 4; k++) pose[3 + k] = (float)(q[k] / sqrt(square));
+}
+
 // ---- OBJ
 
 typedef struct corner {
@@ -227,8 +238,7 @@ static void weld(list *positions, list *indices) {
     float at[3];
     for (int k = 0; k < 3; k++) at[k] = x[3 * i + (size_t)k] + 0.0f;  // no -0
     size_t slot = verify__hash(0, at, 3) % slots;
-    while (table[slot] != 0xffffffffu &&
-           memcmp(x + 3 * (size_t)table[slot], at, sizeof at) != 0)
+    while (table[slot] != 0xffffffffu && memcmp(x + 3 * (size_t)table[slot], at, sizeof at) != 0)
       slot = (slot + 1) % slots;
     if (table[slot] == 0xffffffffu) {
       memcpy(x + 3 * vertices, at, sizeof at);
@@ -287,5 +297,16 @@ static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
                              (const uint32_t *)indices.items, triangles, memory, mesh);
   if (why) fail(path, why);
   free(text);
+}
+
+// A mesh that a file names, by its path from that file's folder; kept until the program ends.
+static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name) {
+  char path[4096];
+  const char *slash = strrchr(file, '/');
+  const int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - file);
+  nsvcd_verify_mesh *mesh = (nsvcd_verify_mesh *)allocate(sizeof *mesh);
+  snprintf(path, sizeof path, "%.*s%s", folder, file, name);
+  read_mesh(path, mesh);
+  return mesh;
 }
 #endif  // NSVCD_VERIFY_FILES_H

@@ -350,17 +350,54 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
 
 // ---- nsvcd_certify
 
-// Lays the workspace out at base, or, where that is NULL, only counts.
-static uint64_t nsvcd__certifier_layout(const nsvcd_question *question, const nsvcd_tree *a,
+// Lays the workspace out at base, or, where that is NULL, only counts. instants: all knots.
+static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                         const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
   uint64_t used = 0;
   const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
                                                                       : b->mesh.vertex_count;
-  c->stretch.capacity = nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
-  void *instants = nsvcd__take(base, &used, c->stretch.capacity, sizeof(nsvcd__instant));
-  c->stretch.instants = (nsvcd__instant *)instants;
+  c->stretch.capacity = instants;
+  c->stretch.instants =
+      (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
   c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
   return used;
+}
+
+// Both riders are in c, and all else is 0.
+static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float clearance,
+                                   const nsvcd_certify_options *options, void *workspace,
+                                   size_t workspace_size, uint8_t *bytes, size_t capacity,
+                                   nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
+  nsvcd_certificate out;
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_TOLERANCE;
+  const uint64_t needed =
+      nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  c->stretch.a = &c->a;
+  c->stretch.b = &c->b;
+  c->stretch.clearance = (double)clearance;
+  c->bytes = bytes;
+  c->capacity = capacity;
+  c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
+  c->made = &out;
+  const int told = o->answer && nsvcd__meet_as_told(c, o->answer);
+  if (!told) {
+    out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
+  *made = out;
+  return NSVCD_OK;
+}
+
+static size_t nsvcd__knots_of(const nsvcd_question *question) {
+  return nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
 }
 
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
@@ -369,7 +406,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
   if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
       nsvcd__poses_check(&question->b))
     return 0;
-  const uint64_t size = nsvcd__certifier_layout(question, a, b, NULL, &counted);
+  const uint64_t size =
+      nsvcd__certifier_layout(nsvcd__knots_of(question), a, b, NULL, &counted);
   return size > SIZE_MAX ? 0 : (size_t)size;
 }
 
@@ -377,39 +415,15 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
                                     const nsvcd_tree *b, const nsvcd_certify_options *options,
                                     void *workspace, size_t workspace_size, uint8_t *bytes,
                                     size_t capacity, nsvcd_certificate *made) {
-  const nsvcd_certify_options defaults = {NULL, 0};
-  const nsvcd_certify_options *o = options ? options : &defaults;
   nsvcd_mover movers[2];
   nsvcd__certifier c;
-  nsvcd_certificate out;
   if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
-  const float clearance = question->clearance;
   memset(&c, 0, sizeof c);
-  memset(&out, 0, sizeof out);
   nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
   if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
   if (result) return result;
   if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
-    return NSVCD_ERROR_TOLERANCE;
-  const uint64_t needed = nsvcd__certifier_layout(question, a, b, (char *)workspace, &c);
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
-    return NSVCD_ERROR_WORKSPACE;
-  c.stretch.a = &c.a;
-  c.stretch.b = &c.b;
-  c.stretch.clearance = (double)clearance;
-  c.bytes = bytes;
-  c.capacity = capacity;
-  c.digest = nsvcd__digest(c.a.digest + 31 * c.b.digest, &clearance, 1);
-  c.made = &out;
-  const int told = o->answer && nsvcd__meet_as_told(&c, o->answer);
-  if (!told) {
-    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
-    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
-  }
-  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c.bits + 7) / 8;
-  *made = out;
-  return NSVCD_OK;
+  return nsvcd__certify(&c, nsvcd__knots_of(question), question->clearance, options, workspace,
+                        workspace_size, bytes, capacity, made);
 }
 #endif  // NSVCD_NO_CERTIFICATES

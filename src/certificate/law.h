@@ -28,6 +28,7 @@ typedef struct nsvcd__rider {
   double (*next)(const void *motion, double t);
   nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
   const void *motion;
+  double reach;     // metres: beside places, what these are reckoned from is no longer
   uint32_t digest;  // of the scale and the motion
 } nsvcd__rider;
 
@@ -147,6 +148,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   rider->next = nsvcd__mover_next;
   rider->off_chord = nsvcd__mover_off_chord;
   rider->motion = meant;
+  rider->reach = 0;
   rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   rider->digest = nsvcd__digest(rider->digest, &scale, 1);
   if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);

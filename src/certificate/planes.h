@@ -17,7 +17,7 @@
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
-  double lengths;  // of both places
+  double lengths;  // of both places, and what they are reckoned from
   nsvcd__off_chord off_a, off_b;
 } nsvcd__instant;
 
@@ -57,7 +57,7 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
   at.t = t;
   at.a = a->place(a->motion, t);
   at.b = b->place(b->motion, t);
-  at.lengths = nsvcd__lengths_at(&at.a, &at.b);
+  at.lengths = a->reach + b->reach + nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 

@@ -26,7 +26,7 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = 1e-3 * nsvcd__lengths_at(of_at, by_at);
+  const double places = 1e-3 * (of->reach + by->reach + nsvcd__lengths_at(of_at, by_at));
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->scale;
   out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);

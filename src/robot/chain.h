@@ -5,6 +5,7 @@
 //   steps       what the joints do between two times
 //   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
 //   path        is a motion of the joints free?
+//   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
 //   postures    one configuration: what is near, a way out; which pairs can meet
 //   ramps       from one state to another, within limits of speed and acceleration

@@ -511,6 +511,23 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
   return NSVCD_NONE;
 }
 
+// Is a motion, as it is meant, in order?
+static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+  const double most = (double)NSVCD_MAX_COORDINATE;
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE))
+    return NSVCD_ERROR_ARGUMENT;
+  if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
+    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_NUMBER;
+  }
+  for (size_t p = 0; p <= m->pieces && m->times; p++) {
+    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_NUMBER;
+    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
+  }
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
@@ -520,17 +537,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   const nsvcd_scene *scene = checker->scene;
   const size_t joints = scene->joint_count;
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
-  if (m.pieces && (m.degree < 1 || m.degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_ARGUMENT;
-  if (m.pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
-    return NSVCD_ERROR_ARGUMENT;
-  const double most = (double)NSVCD_MAX_COORDINATE;
-  for (size_t k = 0; k < (m.pieces * m.degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(m.points[k], most)) return NSVCD_ERROR_NUMBER;
-  }
-  for (size_t p = 0; p <= m.pieces && m.times; p++) {
-    if (!nsvcd__is_number(m.times[p], most)) return NSVCD_ERROR_NUMBER;
-    if (p > 0 && !(m.times[p] > m.times[p - 1])) return NSVCD_ERROR_ARGUMENT;
-  }
+  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__is_finite(o.clearance) || !nsvcd__is_finite(o.finest) || o.clearance < 0 ||
@@ -542,7 +550,6 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
     found.joint = nsvcd__joint_outside(scene, &m, p);
   found.verdict = NSVCD_UNDECIDED;
-  nsvcd_result result = NSVCD_OK;
   if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
   // from corner to corner
   for (size_t p = 0, next; p < m.pieces && !result; p = next) {

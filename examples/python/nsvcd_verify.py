@@ -1,0 +1,170 @@
+"""Checks certificates that bodies never meet, or that they do: examples/verify for Python, by ctypes.
+
+    report = verify(certificate, Mesh(vertices, triangles), rack, path)   # as given to neuralsvcd.certify
+    if report.kind == "free": ...
+
+Nothing here is shared with neuralsvcd.py or neuralsvcd.h, which make certificates. Poses, times and scales are as
+there, and copied as float32; what is proven is about these. Threads may share meshes. Wrong input is raised as
+ValueError and TypeError; a certificate may be any bytes.
+"""
+from __future__ import annotations
+
+import ctypes
+import enum
+from ctypes import c_char, c_char_p, c_double, c_float, c_size_t, c_void_p
+from pathlib import Path
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Kind", "Mesh", "Report", "verify"]
+
+
+class Kind(str, enum.Enum):
+    """What is proven: nsvcd_verify_kind. The statement is in nsvcd_verify.h.
+
+    FREE    the meshes never come within the clearance, and nothing is inside of anything
+    HIT     an edge of one passes through a triangle of the other
+    NEAR    points of two triangles are nearer than the clearance
+    INSIDE  a corner of one is inside of the other
+    """
+    FREE = "free"
+    HIT = "hit"
+    NEAR = "near"
+    INSIDE = "inside"
+    __str__ = str.__str__
+    __format__ = str.__format__
+
+
+_KINDS = tuple(Kind)
+_PROTOTYPES = {
+    "verifier_mesh_size": (c_size_t, c_size_t, c_size_t),
+    "verifier_mesh_init": (c_char_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "verifier_mover_size": (c_size_t, c_size_t),
+    "verifier_mover_init": (c_char_p, c_void_p, c_float, c_void_p, c_void_p, c_size_t, c_void_p),
+    "verifier_workspace_size": (c_size_t, c_void_p, c_void_p),
+    "verifier_verify": (c_char_p, c_void_p, c_void_p, c_float, c_char_p, c_size_t, c_void_p, c_void_p),
+}
+
+
+def _load_library() -> ctypes.CDLL:
+    """The library beside this file, as a wheel has it, or the one that `make python` has built."""
+    here = Path(__file__).resolve().parent
+    places = [here / "_nsvcd_verify.abi3.so", here.parent.parent / "build" / "_nsvcd_verify.so"]
+    path = next((place for place in places if place.exists()), None)
+    if path is None:
+        raise ImportError(f"nsvcd_verify: the library is not built: make python; looked for {places[0]}, {places[1]}")
+    library = ctypes.CDLL(str(path))
+    for name, (result, *arguments) in _PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    return library
+
+
+_library = _load_library()
+
+
+def _array(value: ArrayLike, columns: tuple[int, ...], name: str, kind: Any = np.float32) -> NDArray[Any]:
+    """A copy (n, columns) in C order, so that nothing changes it."""
+    array = np.asarray(value)
+    if array.dtype.kind not in ("iu" if kind is np.uint32 else "fiu"):
+        raise TypeError(f"{name}: an array of numbers is needed, not of {array.dtype}")
+    if array.ndim != 1 + len(columns) or array.shape[1:] != columns:
+        raise ValueError(f"{name}: an array {('n', *columns)} is needed, not {array.shape}")
+    if kind is np.uint32 and array.size and not (0 <= array.min() and array.max() <= 0xffffffff):
+        raise ValueError(f"{name}: an index is out of range")
+    return np.array(array, kind, order="C")
+
+
+def _address(array: Any) -> int:
+    return ctypes.addressof(c_char.from_buffer(array)) if array.size else int(array.ctypes.data)
+
+
+def _memory(size: int) -> NDArray[np.uint64]:
+    return np.empty(size // 8 + 1, np.uint64)
+
+
+def _check(reason: Optional[bytes], where: str = "") -> None:
+    if reason is not None:
+        raise ValueError(where + reason.decode())
+
+
+class Mesh:
+    """A mesh, prepared once. It does not change; it can be pickled and copied.
+
+    vertices   (n, 3) metres
+    triangles  (m, 3) integers, counter-clockwise seen from outside
+    """
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
+        self._kept = _array(vertices, (3,), "vertices"), _array(triangles, (3,), "triangles", np.uint32)
+        counts = tuple(map(len, self._kept))
+        self._memory = _memory(_library.verifier_mesh_size(*counts))
+        _check(_library.verifier_mesh_init(_address(self._kept[0]), counts[0], _address(self._kept[1]), counts[1],
+                                           _address(self._memory)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Mesh, self._kept
+
+
+class Report(NamedTuple):
+    """nsvcd_verify_report. As a condition it is kind == "free": also a proof that they meet is accepted.
+
+    accepted  the certificate proves what kind says of these meshes, motions, scales and this clearance
+    reason    why it is refused, else ""
+    position  of the byte that was read last
+    kind      what is proven; None: nothing is
+    time      of hit, near and inside, in [0, 1], else 0
+    a, b      of hit and near: triangles; of inside: a corner, and whose (0: a's, 1: b's); else 0
+    """
+    accepted: bool
+    reason: str
+    position: int
+    kind: Optional[Kind]
+    time: float
+    a: int
+    b: int
+
+    def __bool__(self) -> bool:
+        return self.kind is Kind.FREE
+
+
+def _mover(mesh: Mesh, poses: Optional[ArrayLike], times: Optional[ArrayLike], scale: float,
+           side: str) -> tuple[NDArray[np.uint64], ...]:
+    """A mover of C's, and what it points to."""
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"{side}: a Mesh is needed, not {type(mesh).__name__}")
+    kept_poses = _array([[0, 0, 0, 0, 0, 0, 1]] if poses is None else poses, (7,), f"poses_{side}")
+    kept_times = _array(np.empty(0) if times is None else times, (), f"times_{side}")
+    if times is not None and len(kept_times) != len(kept_poses):
+        raise ValueError(f"times_{side}: {len(kept_times)} of {len(kept_poses)} poses")
+    out = _memory(_library.verifier_mover_size(len(mesh._kept[0])))
+    _check(_library.verifier_mover_init(_address(mesh._memory), c_float(scale), _address(kept_poses),
+                                        None if times is None else _address(kept_times), len(kept_poses),
+                                        _address(out)), f"{side}: ")
+    return out, kept_poses, kept_times
+
+
+def verify(certificate: Any, a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = None,
+           poses_b: Optional[ArrayLike] = None, *, times_a: Optional[ArrayLike] = None,
+           times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, clearance: float = 0) -> Report:
+    """Does a certificate, bytes or another buffer, prove something of two meshes that move?
+
+    poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
+                      rests at the origin
+    times_a, times_b  (k) when a mesh is at each pose, from 0 to 1, rising; None: uniform
+    scale_a, scale_b  of the meshes, about their origins, 1e-6 to 1e6
+    clearance         metres: what is free is never as near as this
+    """
+    data = memoryview(certificate).tobytes()
+    movers = _mover(a, poses_a, times_a, scale_a, "a"), _mover(b, poses_b, times_b, scale_b, "b")
+    first, second = (_address(mover[0]) for mover in movers)
+    workspace = _memory(_library.verifier_workspace_size(first, second))
+    told = (c_double * 5)()
+    reason = _library.verifier_verify(first, second, c_float(clearance), data, len(data), _address(workspace), told)
+    kind, time, named_a, named_b, position = told
+    if reason is not None:
+        return Report(False, reason.decode(), int(position), None, 0, 0, 0)
+    return Report(True, "", int(position), _KINDS[int(kind)], time, int(named_a), int(named_b))

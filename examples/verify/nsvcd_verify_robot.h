@@ -1,0 +1,242 @@
+// nsvcd_verify_robot.h - of nsvcd_verify.h: the motion of what a robot's joints carry, for
+// certificates of nsvcd_certify_pair. What is proven is the joints' own motion, at all times.
+//
+// Joint i carries link i + 1; link 0 is the world. A corner x of a part is at
+//   T_1 T_2 ... T_m (s R x + p),   T_j y = O_j (turn about the axis by q_j) y,  or O_j (y + axis q_j)
+// over the joints from the base to its link; R, p is the part's pose. The joint values q are Bezier
+// curves in time, piece by piece. Both parts may be seen from a link that carries both: what is
+// between them stays the same.
+//
+// THE STRAY. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j bounds
+// of |q_j'| and |q_j''| by x, and L_j one of the distance of a point y of the part from joint j; of a
+// joint that slides, 1. Derivatives of y by q_j are no more than L_j, those by q_j and q_k than L of
+// the outer one if the inner one turns, and 0 if it slides; by q_j twice than L_j, if it turns. So
+//   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j),
+// the second term of joints that turn alone, and a chord is left by an eighth of it. L_j is the sum of
+// what stands between joint j and y: offsets of joints, slides, |p| and |s x|.
+#ifndef NSVCD_VERIFY_ROBOT_H
+#define NSVCD_VERIFY_ROBOT_H
+#include "nsvcd_verify.h"
+
+#define NSVCD_VERIFY_JOINTS 32
+#define NSVCD_VERIFY_DEGREE 5
+
+typedef struct nsvcd_verify_joint {
+  uint32_t slides;  // 0: it turns
+  uint32_t parent;  // the link that it is on, no more than its own number
+  float origin[7];  // x y z qx qy qz qw, in that link
+  float axis[3];    // in its frame, of any length but 0
+} nsvcd_verify_joint;
+
+typedef struct nsvcd_verify_motion {
+  const nsvcd_verify_joint *joints;
+  size_t joint_count, pieces, degree;
+  const double *points;  // (pieces degree + 1, joints): Bezier, each piece begins where one ends
+  const double *times;   // (pieces + 1) rising
+} nsvcd_verify_motion;
+
+// What is on a link.
+typedef struct nsvcd_verify_part {
+  const nsvcd_verify_motion *motion;
+  uint32_t link, base;  // base: the link from which it is seen, on the way to the world
+  float pose[7];        // in its link
+} nsvcd_verify_part;
+
+static double verify__piece_end(const nsvcd_verify_motion *m, size_t piece) {
+  return (m->times[piece] - m->times[0]) / (m->times[m->pieces] - m->times[0]);
+}
+
+static size_t verify__piece(const nsvcd_verify_motion *m, double t) {
+  size_t low = 0;
+  size_t high = m->pieces;
+  while (high > low + 1) {
+    const size_t middle = (low + high) / 2;
+    if (verify__piece_end(m, middle) > t)
+      high = middle;
+    else
+      low = middle;
+  }
+  return low;
+}
+
+// The points of a joint's curve from one time to another, both in a piece (de Casteljau).
+static void verify__curve(const nsvcd_verify_motion *m, size_t joint, size_t piece, double t0,
+                          double t1, double *p) {
+  const double start = verify__piece_end(m, piece);
+  const double whole = verify__piece_end(m, piece + 1) - start;
+  const double to = verify__min((t1 - start) / whole, 1);
+  const double from = to > 0 ? verify__max((t0 - start) / whole, 0) / to : 0;
+  for (size_t i = 0; i <= m->degree; i++)
+    p[i] = m->points[(piece * m->degree + i) * m->joint_count + joint];
+  for (size_t level = 1; level <= m->degree; level++)
+    for (size_t i = m->degree; i >= level; i--) p[i] = (1 - to) * p[i - 1] + to * p[i];
+  for (size_t level = 1; level <= m->degree; level++)
+    for (size_t i = 0; i + level <= m->degree; i++) p[i] = (1 - from) * p[i] + from * p[i + 1];
+}
+
+// place becomes what a frame does to it: m place + at.
+static void verify__lift_into(const double *m, const float *at, nsvcd_verify_place *place) {
+  const nsvcd_verify_place old = *place;
+  for (int i = 0; i < 3; i++) {
+    place->at[i] = verify__dot(m + 3 * i, old.at) + (at ? (double)at[i] : 0);
+    for (int k = 0; k < 3; k++)
+      place->turn[3 * i + k] =
+          m[3 * i] * old.turn[k] + m[3 * i + 1] * old.turn[3 + k] + m[3 * i + 2] * old.turn[6 + k];
+  }
+}
+
+static void verify__part_place(const void *motion, double t, nsvcd_verify_place *out) {
+  const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
+  const nsvcd_verify_motion *m = part->motion;
+  const size_t piece = verify__piece(m, t);
+  double matrix[9];
+  double q[4];
+  for (int i = 0; i < 4; i++) q[i] = (double)part->pose[3 + i];
+  verify__matrix(q, out->turn);
+  for (int i = 0; i < 3; i++) out->at[i] = (double)part->pose[i];
+  for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
+    double p[NSVCD_VERIFY_DEGREE + 1];
+    double axis[3];
+    for (int i = 0; i < 3; i++) axis[i] = (double)joint->axis[i];
+    const double length = sqrt(verify__dot(axis, axis));
+    verify__curve(m, link - 1, piece, t, t, p);
+    for (int i = 0; i < 3; i++) {
+      q[i] = axis[i] / length * sin(0.5 * p[0]);
+      if (joint->slides) out->at[i] += axis[i] / length * p[0];
+    }
+    q[3] = cos(0.5 * p[0]);
+    verify__matrix(q, matrix);
+    if (!joint->slides) verify__lift_into(matrix, NULL, out);
+    for (int i = 0; i < 4; i++) q[i] = (double)joint->origin[3 + i];
+    verify__matrix(q, matrix);
+    verify__lift_into(matrix, joint->origin, out);
+  }
+}
+
+static double verify__part_next(const void *motion, double t) {
+  const nsvcd_verify_motion *m = ((const nsvcd_verify_part *)motion)->motion;
+  return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;
+}
+
+static double verify__offset(const float *at) {
+  return sqrt((double)at[0] * (double)at[0] + (double)at[1] * (double)at[1] +
+              (double)at[2] * (double)at[2]);
+}
+
+// All in pairs: what does not depend on r, and what goes with it.
+static void verify__part_stray(const void *motion, double t0, double t1, double *stray) {
+  const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
+  const nsvcd_verify_motion *m = part->motion;
+  const size_t piece = verify__piece(m, 0.5 * (t0 + t1));
+  const double n = (double)m->degree;
+  double reach = verify__offset(part->pose);
+  double outer[2] = {0, 0};
+  stray[0] = stray[1] = 0;
+  for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
+    const double lever[2] = {joint->slides ? 1 : reach, joint->slides ? 0 : 1};
+    double p[NSVCD_VERIFY_DEGREE + 1];
+    double most = 0, speed = 0, bend = 0;
+    verify__curve(m, link - 1, piece, t0, t1, p);
+    for (size_t i = 0; i <= m->degree; i++) most = verify__max(most, fabs(p[i]));
+    for (size_t i = 0; i + 1 <= m->degree; i++)
+      speed = verify__max(speed, n * fabs(p[i + 1] - p[i]));
+    for (size_t i = 0; i + 2 <= m->degree; i++)
+      bend = verify__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
+    for (int k = 0; k < 2; k++) {
+      stray[k] += 0.1250001 * bend * lever[k];
+      if (!joint->slides) stray[k] += 0.1250001 * speed * (2 * outer[k] + speed * lever[k]);
+      outer[k] += speed * lever[k];
+    }
+    reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
+  }
+}
+
+// The deepest link that carries two others.
+static uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_t a, uint32_t b) {
+  while (a != b) {
+    if (a > b)
+      a = m->joints[a - 1].parent;
+    else
+      b = m->joints[b - 1].parent;
+  }
+  return a;
+}
+
+static int verify__is_pose(const float *pose) {
+  double square = 0;
+  for (int i = 0; i < 7; i++) {
+    if (!(fabsf(pose[i]) <= 1e6f)) return 0;
+    if (i > 2) square += (double)pose[i] * (double)pose[i];
+  }
+  return fabs(square - 1) < 2.1e-4;
+}
+
+// Checks joints and their motion. Returns why not, or NULL.
+static const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m) {
+  if (m->joint_count < 1 || m->joint_count > NSVCD_VERIFY_JOINTS) return "no joints, or too many";
+  if (m->pieces < 1 || m->pieces > 65536 || m->degree < 1 || m->degree > NSVCD_VERIFY_DEGREE)
+    return "a motion has no pieces, or too many, or of another degree";
+  for (size_t i = 0; i < m->joint_count; i++) {
+    const nsvcd_verify_joint *joint = &m->joints[i];
+    if (joint->parent > i) return "a joint is on a link that comes after it";
+    if (!verify__is_pose(joint->origin)) return "a joint is at no pose";
+    if (!(verify__offset(joint->axis) > 1e-12) || !(verify__offset(joint->axis) < 1e12))
+      return "an axis has no length";
+  }
+  for (size_t i = 0; i <= m->pieces; i++) {
+    if (!(fabs(m->times[i]) <= 1e9)) return "a time is out of range";
+    if (i > 0 && !(verify__piece_end(m, i) - verify__piece_end(m, i - 1) >= 1e-9))
+      return "times do not rise";
+  }
+  // sines lose digits of large angles, and a share of a short piece those of what goes fast
+  for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+    const size_t piece = i > 0 ? (i - 1) / m->degree : 0;
+    const double whole = verify__piece_end(m, piece + 1) - verify__piece_end(m, piece);
+    for (size_t k = 0; k < m->joint_count; k++) {
+      const double *value = &m->points[i * m->joint_count + k];
+      if (!(fabs(*value) <= (m->joints[k].slides ? 1e6 : 1e4))) return "a joint is out of range";
+      const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - m->joint_count)) : 0;
+      if (!(step <= 1e5 * whole)) return "a joint is too fast";
+    }
+  }
+  return NULL;
+}
+
+// Makes a mover of a mesh, a scale and a part of a motion that has been checked, all of which stay.
+// Returns why not, or NULL.
+static const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, float scale,
+                                          const nsvcd_verify_part *part,
+                                          nsvcd_verify_mover *mover) {
+  const nsvcd_verify_motion *m = part->motion;
+  if (!(scale >= 1e-6f && scale <= 1e6f)) return "a scale is out of range";
+  if (!verify__is_pose(part->pose)) return "a part is at no pose";
+  if (part->link > m->joint_count || part->base > part->link) return "a part is on no link";
+  mover->mesh = mesh;
+  mover->scale = (double)scale;
+  mover->place = verify__part_place;
+  mover->next = verify__part_next;
+  mover->stray = verify__part_stray;
+  mover->motion = part;
+  mover->reach = verify__offset(part->pose);
+  uint32_t d = verify__hash(part->base, part->pose, 7);
+  d = verify__hash(d, &scale, 1);
+  for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
+    if (link == 0) return "a part is seen from a link that does not carry it";
+    d = verify__hash(d + joint->slides, joint->origin, 7);
+    d = verify__hash(d + link, joint->axis, 3);
+    double most = 0;
+    for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+      const double *value = &m->points[i * m->joint_count + link - 1];
+      d = verify__hash(d, value, 2);
+      most = verify__max(most, fabs(*value));
+    }
+    mover->reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
+  }
+  d = verify__hash(d + (uint32_t)m->degree, m->times, 2 * (m->pieces + 1));
+  mover->digest = d;
+  return NULL;
+}
+#endif  // NSVCD_VERIFY_ROBOT_H

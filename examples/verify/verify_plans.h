@@ -1,0 +1,222 @@
+// verify_plans.h - of verify.c: planning files (examples/FORMATS.md), and the certificates of their
+// plans: a motion, and a proof for each pair of bodies that must not meet.
+#ifndef NSVCD_VERIFY_PLANS_H
+#define NSVCD_VERIFY_PLANS_H
+#include "nsvcd_verify_robot.h"
+#include "verify_files.h"
+
+typedef struct robot_body {
+  const char *name;
+  const nsvcd_verify_mesh *mesh;
+  uint32_t link;
+  float pose[7];
+} robot_body;
+
+typedef struct robot {
+  const char *path;
+  const char *names[NSVCD_VERIFY_JOINTS];
+  int continuous[NSVCD_VERIFY_JOINTS];
+  nsvcd_verify_joint joints[NSVCD_VERIFY_JOINTS];
+  size_t joint_count;
+  list bodies;  // of the robot, then obstacles of the scene, which is read last
+  size_t own;   // of the robot
+  list pairs;   // (2)
+} robot;
+
+static uint32_t link_named(const robot *r, const char *name) {
+  if (strcmp(name, "world") == 0) return 0;
+  for (uint32_t i = 0; i < r->joint_count; i++)
+    if (strcmp(r->names[i], name) == 0) return i + 1;
+  fail(r->path, "a joint is named that is not above");
+  return 0;
+}
+
+static uint32_t body_named(const robot *r, const char *name) {
+  const robot_body *bodies = (const robot_body *)r->bodies.items;
+  for (uint32_t i = 0; i < r->bodies.count; i++)
+    if (strcmp(bodies[i].name, name) == 0) return i;
+  fail(r->path, "a body is named that is not above");
+  return 0;
+}
+
+static void add_body(robot *r, const char *name, const char *mesh, uint32_t link,
+                     char *const *pose) {
+  robot_body *body = (robot_body *)add(&r->bodies, sizeof *body);
+  memset(body, 0, sizeof *body);
+  body->name = name;
+  body->link = link;
+  body->mesh = mesh_of_file(r->path, mesh);
+  body->pose[6] = 1;
+  if (pose) read_pose(r->path, pose, body->pose);
+}
+
+static void add_joint(robot *r, char *const *words) {
+  if (r->joint_count == NSVCD_VERIFY_JOINTS) fail(r->path, "too many joints");
+  nsvcd_verify_joint *joint = &r->joints[r->joint_count];
+  joint->parent = link_named(r, words[2]);
+  joint->slides = strcmp(words[13], "prismatic") == 0;
+  read_pose(r->path, words + 3, joint->origin);
+  for (size_t k = 0; k < 3; k++) joint->axis[k] = (float)number_of(r->path, words[10 + k]);
+  r->continuous[r->joint_count] = strcmp(words[13], "continuous") == 0;
+  r->names[r->joint_count++] = words[1];
+}
+
+// ---- the certificate
+
+static uint64_t take(const uint8_t *bytes, size_t size, size_t *at, size_t count) {
+  uint64_t value = 0;
+  for (size_t k = 0; k < count; k++, ++*at)
+    if (*at < size) value |= (uint64_t)bytes[*at] << (8 * k);
+  return value;
+}
+static double take_double(const uint8_t *bytes, size_t size, size_t *at) {
+  const uint64_t bits = take(bytes, size, at, 8);
+  double value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+// Does a motion begin at the start and end at the goal? Turns without limits may be whole ones off.
+static int goes(const robot *r, const nsvcd_verify_motion *m, char *const *words) {
+  const size_t last = m->pieces * m->degree * m->joint_count;
+  for (size_t j = 0; j < m->joint_count; j++) {
+    const double start = m->points[j] - number_of(r->path, words[3 + j]);
+    double goal = m->points[last + j] - number_of(r->path, words[3 + m->joint_count + j]);
+    const double turn = 6.283185307179586;
+    if (r->continuous[j]) goal -= turn * floor(goal / turn + 0.5);
+    if (!(fabs(start) < 1e-9) || !(fabs(goal) < 1e-9)) return 0;
+  }
+  return 1;
+}
+
+static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size_t pair,
+                              float clearance, const uint8_t *bytes, size_t size,
+                              nsvcd_verify_report *report) {
+  const uint32_t *who = (const uint32_t *)r->pairs.items + 2 * pair;
+  const robot_body *bodies[2] = {(const robot_body *)r->bodies.items + who[0],
+                                 (const robot_body *)r->bodies.items + who[1]};
+  nsvcd_verify_part parts[2];
+  nsvcd_verify_mover movers[2];
+  const size_t room = nsvcd_verify_workspace_size(m->pieces + 3);
+  const char *why = NULL;
+  for (int k = 0; k < 2 && !why; k++) {
+    parts[k].motion = m;
+    parts[k].link = bodies[k]->link;
+    parts[k].base = nsvcd_verify_common(m, bodies[0]->link, bodies[1]->link);
+    memcpy(parts[k].pose, bodies[k]->pose, sizeof parts[k].pose);
+    why = nsvcd_verify_part_init(bodies[k]->mesh, 1, &parts[k], &movers[k]);
+  }
+  if (why) return why;
+  void *workspace = allocate(room);
+  const int accepted =
+      nsvcd_verify(&movers[0], &movers[1], clearance, bytes, size, workspace, room, report);
+  free(workspace);
+  if (!accepted) return report->reason;
+  return report->kind == NSVCD_VERIFY_FREE ? NULL : "a pair is not proven free";
+}
+
+// NULL, or why it is refused. *at: the byte.
+static const char *check_motion(const robot *r, char *const *words, float clearance,
+                                const uint8_t *bytes, size_t size, size_t *at) {
+  nsvcd_verify_motion m;
+  memset(&m, 0, sizeof m);
+  *at = 4;
+  if (size < 16 || memcmp(bytes, "NSVM", 4) != 0) return "it is no certificate of a motion";
+  m.joints = r->joints;
+  m.pieces = (size_t)take(bytes, size, at, 4);
+  m.degree = (size_t)take(bytes, size, at, 4);
+  m.joint_count = (size_t)take(bytes, size, at, 4);
+  if (m.joint_count != r->joint_count) return "it is about another robot";
+  if (m.pieces < 1 || m.degree < 1 || m.degree > 5 || m.pieces > size || m.joint_count > 32)
+    return "it has no motion";
+  const size_t numbers = (m.pieces * m.degree + 1) * m.joint_count;
+  if (size / 8 < numbers + m.pieces + 1) return "it ends early";
+  double *motion = (double *)allocate((numbers + m.pieces + 1) * sizeof *motion);
+  for (size_t k = 0; k < numbers + m.pieces + 1; k++) motion[k] = take_double(bytes, size, at);
+  m.times = motion;
+  m.points = motion + m.pieces + 1;
+  const size_t pairs = r->pairs.count / 2;
+  const char *why = nsvcd_verify_motion_check(&m);
+  if (!why && !goes(r, &m, words)) why = "its motion has another start or goal";
+  if (!why && take(bytes, size, at, 4) != pairs) why = "it is about other pairs";
+  for (size_t pair = 0; pair < pairs && !why; pair++) {
+    const size_t length = (size_t)take(bytes, size, at, 4);
+    nsvcd_verify_report report;
+    memset(&report, 0, sizeof report);
+    if (*at > size || length > size - *at) {
+      why = "it ends early";
+      break;
+    }
+    why = check_pair(r, &m, pair, clearance, bytes + *at, length, &report);
+    *at += why ? report.position : length;
+  }
+  if (!why && *at != size) why = "something follows its end";
+  free(motion);
+  return why;
+}
+
+static int check_plan(const robot *r, char *const *words, const char *folder, float clearance) {
+  char path[4096];
+  size_t size;
+  size_t at = 0;
+  snprintf(path, sizeof path, "%s/%s.cert", folder, words[1]);
+  uint8_t *bytes = (uint8_t *)read_file(path, &size);
+  if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
+  const clock_t start = clock();
+  const char *why = check_motion(r, words, clearance, bytes, size, &at);
+  const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
+  if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
+  if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
+  free(bytes);
+  return !why;
+}
+
+// Each body that a joint moves, and each obstacle of the scene read last.
+static void pair_with_obstacles(robot *r) {
+  const robot_body *bodies = (const robot_body *)r->bodies.items;
+  for (uint32_t a = 0; a < r->own; a++) {
+    for (uint32_t b = (uint32_t)r->own; b < r->bodies.count && bodies[a].link > 0; b++) {
+      add_index(&r->pairs, a);
+      add_index(&r->pairs, b);
+    }
+  }
+}
+
+// All plans of a planning file. 1: all are accepted.
+static int check_plans(const char *path, char *text, const char *folder, float clearance) {
+  robot r;
+  char *words[80];
+  size_t own_pairs = 0;
+  int all = 1;
+  int in_scene = 0;
+  memset(&r, 0, sizeof r);
+  r.path = path;
+  for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
+    const char *word = words[0];
+    if (strcmp(word, "joint") == 0 && n >= 17) {
+      add_joint(&r, words);
+    } else if (strcmp(word, "body") == 0 && n == 4) {
+      add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL);
+      r.own = r.bodies.count;
+    } else if (strcmp(word, "pair") == 0 && n == 3) {
+      add_index(&r.pairs, body_named(&r, words[1]));
+      add_index(&r.pairs, body_named(&r, words[2]));
+      own_pairs = r.pairs.count;
+    } else if (strcmp(word, "scene") == 0) {
+      if (in_scene) fail(path, "a second scene: one a file");
+      in_scene = 1;
+    } else if (strcmp(word, "obstacle") == 0 && n == 10) {
+      add_body(&r, words[1], words[2], 0, words + 3);
+    } else if (strcmp(word, "path") == 0 && n == 4) {
+      for (size_t k = strtoul(words[3], NULL, 10); k > 0; k--) next_words(&text, words, 80);
+    } else if (strcmp(word, "plan") == 0 && n == 3 + 2 * r.joint_count) {
+      r.pairs.count = own_pairs;
+      pair_with_obstacles(&r);
+      all &= check_plan(&r, words, folder, clearance);
+    } else {
+      fail(path, "a line is not one of a planning file");
+    }
+  }
+  return all;
+}
+#endif  // NSVCD_VERIFY_PLANS_H
