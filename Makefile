@@ -68,7 +68,10 @@ build/verify: examples/verify/verify.c $(VERIFIER) | build
 # What the module of examples/python opens.
 build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
-python: build/_neuralsvcd.so  ## the library for examples/python/neuralsvcd.py
+# What nsvcd_verify.py opens: the checker alone.
+build/_nsvcd_verify.so: examples/python/_nsvcd_verify.c $(VERIFIER) | build
+	$(CC) $(ALL_CFLAGS) -Wno-unused-function -fPIC -shared -o $@ $< -lm
+python: build/_neuralsvcd.so build/_nsvcd_verify.so  ## the libraries for examples/python
 
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
 	@for demo in $(DEMOS); do echo $$demo; $$demo || exit 1; done
@@ -240,7 +243,7 @@ check-web: build/svcd
 check-python:
 	@for python in $(PYTHON) /usr/bin/python3; do \
 	  $$python -c 'import numpy' 2>/dev/null || continue; \
-	  $(MAKE) build/svcd build/_neuralsvcd.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
+	  $(MAKE) build/svcd build/_neuralsvcd.so build/_nsvcd_verify.so && cd examples/python && exec $$python -B -m unittest; exit 1; \
 	done; echo "check-python: no python3 with numpy: not tested"
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
 MINGW = x86_64-w64-mingw32-gcc

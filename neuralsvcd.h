@@ -1038,6 +1038,9 @@ typedef struct nsvcd_certify_options {
 typedef struct nsvcd_certificate {
   // FREE or HIT: the bytes prove it. UNDECIDED: there are none
   nsvcd_verdict verdict;
+  // of UNDECIDED: the visits were not enough, or surfaces touch, or come too near to tell, or
+  // of 64 rays none was clear
+  nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;
   // of a HIT, in [0,1]
@@ -1056,8 +1059,9 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 // Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
 // two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
 // anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
-// corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
-// lengths, stays UNDECIDED.
+// corner is inside, at a time that is told. What only touches, with no edge through a
+// triangle, or is nearer than 1e-10 of all lengths (of extents and of places in the world), stays
+// UNDECIDED.
 //   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
 //              at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
@@ -17407,7 +17411,7 @@ typedef struct nsvcd__nodes {
 typedef struct nsvcd__written_normal {
   nsvcd__d3 along;
   uint32_t x, y;
-  int bits;  // of each number: 8 or 16
+  int bits;  // of each number: 8, 16 or 24
 } nsvcd__written_normal;
 
 static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
@@ -17505,7 +17509,7 @@ static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *node
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
@@ -17563,19 +17567,6 @@ typedef struct nsvcd__best {
   double gap;
 } nsvcd__best;
 
-// Tries a direction, and the one back.
-static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                             const nsvcd__instant *at, nsvcd__d3 along, nsvcd__best *best) {
-  const double length = nsvcd__d3_length(along);
-  for (int k = 0; k < 2 && length > 0; k++) {
-    const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
-    const double gap = nsvcd__gap_along(s, nodes, at, way);
-    if (gap <= best->gap) continue;
-    best->along = way;
-    best->gap = gap;
-  }
-}
-
 // Gilbert's iteration towards the point of a - b that is nearest to the origin.
 static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
@@ -17592,7 +17583,7 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
       best.along = v;
       best.gap = gap;
     }
-    if (gap > enough * length) break;
+    if (gap - s->clearance > enough * (length - s->clearance)) break;
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;
@@ -17602,34 +17593,31 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
   return best;
 }
 
-// The edges of a leaf's triangle, in the world.
-static void nsvcd__leaf_edges(const nsvcd__rider *rider, const nsvcd__node *node,
-                              const nsvcd__posed *at, nsvcd__d3 *edges) {
-  const uint32_t triangle = rider->tree->order[node->first];
-  for (uint32_t k = 0; k < 3; k++) {
-    const nsvcd__d3 from = nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, k));
-    const nsvcd__d3 to =
-        nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, (k + 1) % 3));
-    edges[k] = nsvcd__turned_by(rider, at, nsvcd__d3_sub(to, from));
-  }
+// A leaf's triangle in the world, as seen from the origin of b.
+static void nsvcd__leaf_corners(const nsvcd__rider *rider, const nsvcd__node *node,
+                                const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
+  const float *x = rider->tree->corners + 9 * (size_t)node->first;
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_add(nsvcd__turned_by(rider, at, nsvcd__d3_row(x, k)), offset);
 }
 
 // Looks for a plane that parts two nodes all the while.
 static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
                               nsvcd__written_normal *normal) {
   const nsvcd__instant *at = nsvcd__stretch_middle(s);
-  nsvcd__best best = nsvcd__gilbert(s, nodes, at, last);
+  nsvcd__best best = {last, 0};
   if (nodes->a.count == 1 && nodes->b.count == 1) {
     nsvcd__d3 a[3], b[3];
-    nsvcd__leaf_edges(s->a, &nodes->a, &at->a, a);
-    nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
-    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
-    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
-    for (size_t i = 0; i < 9; i++)
-      nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
+    nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
+    nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+    best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    best.gap = sqrt(nearest.square);
+  } else {
+    best = nsvcd__gilbert(s, nodes, at, last);
   }
   if (!(best.gap > s->clearance)) return 0;
-  for (int bits = 8; bits <= 16; bits += 8) {
+  for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
     if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
   }
@@ -17772,7 +17760,7 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
 //             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
-//             zeros a new one: 0, two numbers of 8 bits; or 1, two of 16
+//             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
 #ifndef NSVCD_NO_CERTIFICATES
 #define NSVCD__WALK_STACK 128  // nodes that wait
@@ -17823,7 +17811,11 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
   nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
   if (!known) {
-    nsvcd__write_bits(c, normal->bits == 16, 1);
+    nsvcd__write_bits(c,
+                      normal->bits == 8    ? 0
+                      : normal->bits == 16 ? 2
+                                           : 3,
+                      normal->bits == 8 ? 1 : 2);
     nsvcd__write_bits(c, normal->x, normal->bits);
     nsvcd__write_bits(c, normal->y, normal->bits);
     k--;
@@ -17942,22 +17934,6 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   return 1;
 }
 
-// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
-static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
-  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
-  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
-                    told->triangle_b < c->b.tree->mesh.triangle_count;
-  if (answer->verdict != NSVCD_HIT || !named || !(told->time >= 0)) return 0;
-  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
-  for (double later = 1e-7; later < 1; later *= 2) {
-    for (int k = 0; k < 2; k++) {
-      const double when = (double)told->time + (k ? -later : later);
-      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
-    }
-  }
-  return 0;
-}
-
 // ---- the walk
 
 // The longest side of a node's box.
@@ -18016,6 +17992,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__WALK_STACK];
   size_t height = 1;
+  int in_doubt = 0;
   memset(stack, 0, sizeof *stack);
   stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
   stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
@@ -18027,7 +18004,11 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
     nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
     nsvcd__written_normal normal;
-    if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
+    if (c->made->visits == visits) {
+      c->made->why = NSVCD_WHY_WORK;
+      return NSVCD_UNDECIDED;
+    }
+    c->made->visits++;
     nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
@@ -18046,10 +18027,13 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       const uint32_t tb = c->b.tree->order[nodes->b.first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
-    if (height == NSVCD__WALK_STACK || !nsvcd__divide_visit(c, v)) return NSVCD_UNDECIDED;
-    height++;
+    if (height == NSVCD__WALK_STACK) return NSVCD_UNDECIDED;
+    // they touch, or nearly so: no proof that they are free, but others may still meet
+    const int goes_on = nsvcd__divide_visit(c, v);
+    height += goes_on ? 1 : (size_t)-1;
+    in_doubt |= !goes_on;
   }
-  return NSVCD_FREE;
+  return in_doubt ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
 // ---- what is inside
@@ -18099,12 +18083,34 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
         nsvcd__write_bits(c, v, 32);
         nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
         c->made->inside = 1;
+        c->made->verdict = NSVCD_HIT;
         return NSVCD_HIT;
       }
     }
     if (!shown) return NSVCD_UNDECIDED;
   }
   return NSVCD_FREE;
+}
+
+// ---- what was answered
+
+// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
+                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  if (answer->verdict != NSVCD_HIT) return 0;
+  for (int whose = 0; whose < 2 && answer->inside; whose++)
+    if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
+  if (!named || !(told->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  for (double later = 1e-7; later < 1; later *= 2) {
+    for (int k = 0; k < 2; k++) {
+      const double when = (double)told->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+    }
+  }
+  return 0;
 }
 
 // ---- nsvcd_certify
@@ -18144,13 +18150,13 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  const int told = o->answer && nsvcd__meet_as_told(c, o->answer);
-  if (!told) {
+  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
   }
   out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
+  if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
   *made = out;
   return NSVCD_OK;
 }
@@ -19184,10 +19190,10 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // In: a pair of parts, a motion of the joints, and their meshes' trees. Out: a certificate that the
 // two never meet, as the joints move them.
 //
-// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share of
-// a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j one of
-// the distance of a point y from joint j: the sum of what stands between them; of a joint that slides
-// 1. Then
+// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
+// of a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
+// one of the distance of a point y from joint j: the sum of what stands between them; of a joint
+// that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
 // bound of robot/stray is a better one, from where the links are; this one a checker can reckon again

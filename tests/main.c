@@ -8,6 +8,7 @@ void test_results(void);
 void test_round(void);
 void test_robot(void);
 void test_postures(void);
+void test_certificate(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -68,6 +69,7 @@ static const test_file files[] = {
     OF(round),
     OF(robot),
     OF(postures),
+    OF(certificate),
     OF(winding_number),
     OF(decoder),
     OF(query),

@@ -1,9 +1,11 @@
 # memory.awk - holds workspace and deepest stack together against what a build may take: of the program's measurements,
-# lines `# METHOD workspace|stack BYTES`. network, proof: bytes; network_stack: of the stack alone, for the smallest network.
+# lines `# METHOD workspace|stack BYTES`. network, proof, verify: bytes; network_stack: of the stack alone, for the
+# smallest network.
 /^# [a-z]* workspace / { workspace[FILENAME, $2] = $4 }
 /^# [a-z]* stack / {
   limit = $2 == "proof" ? proof : network
   if (FILENAME ~ /both/) limit = proof
+  if (FILENAME ~ /verify/) limit = verify
   all = workspace[FILENAME, $2] + $4
   checked++
   if (!(all > 0 && all <= limit)) {

@@ -20,9 +20,12 @@ END {
   }
   for (i = 1; i <= count; i++) {
     m = methods[i]
-    name = count > 1 ? build ", by " m : build
+    name = count > 1 ? build (build == "verify" ? ", " : ", by ") m : build
+    held = kilobytes(bodies)
+    if ((m, "certificates") in amount)
+      held = held ", of it certificates " kilobytes(amount[m, "certificates"])
     printf "| %s | %s %s | %s | %s | %s | %s | %s / %s |\n", name, board, level, kilobytes(flash),
-           kilobytes(bodies), kilobytes(amount[m, "workspace"]), kilobytes(amount[m, "stack"]),
+           held, kilobytes(amount[m, "workspace"]), kilobytes(amount[m, "stack"]),
            millions(amount[m, "mean"]), millions(amount[m, "worst"])
   }
 }

@@ -10,7 +10,7 @@ typedef struct verifier_mover {
 } verifier_mover;
 
 size_t verifier_mesh_size(size_t vertices, size_t triangles) {
-  return sizeof(nsvcd_verify_mesh) + nsvcd_verify_mesh_size(vertices, triangles);
+  return sizeof(nsvcd_verify_mesh) + NSVCD_VERIFY_MESH_BYTES(vertices, triangles);
 }
 
 const char *verifier_mesh_init(const float *positions, size_t vertices, const uint32_t *indices,
@@ -33,7 +33,7 @@ const char *verifier_mover_init(const nsvcd_verify_mesh *mesh, float scale, cons
 }
 
 size_t verifier_workspace_size(const verifier_mover *a, const verifier_mover *b) {
-  return nsvcd_verify_workspace_size(a->path.count + b->path.count + 2);
+  return NSVCD_VERIFY_WORKSPACE_BYTES(a->path.count + b->path.count + 2);
 }
 
 // Returns why a certificate is refused, or NULL; what it proves is in told: the kind, the time, what

@@ -37,7 +37,7 @@ class Kind(str, enum.Enum):
     __format__ = str.__format__
 
 
-_KINDS = tuple(Kind)
+_KINDS = tuple(Kind)  # from 1
 _PROTOTYPES = {
     "verifier_mesh_size": (c_size_t, c_size_t, c_size_t),
     "verifier_mesh_init": (c_char_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
@@ -167,4 +167,4 @@ def verify(certificate: Any, a: Mesh, b: Mesh, poses_a: Optional[ArrayLike] = No
     kind, time, named_a, named_b, position = told
     if reason is not None:
         return Report(False, reason.decode(), int(position), None, 0, 0, 0)
-    return Report(True, "", int(position), _KINDS[int(kind)], time, int(named_a), int(named_b))
+    return Report(True, "", int(position), _KINDS[int(kind) - 1], time, int(named_a), int(named_b))

@@ -178,9 +178,7 @@ static const char *verify__walk(verify__reader *r) {
 
 // Bytes of the workspace that nsvcd_verify takes, for motions of so many knots together, ends
 // included.
-static size_t nsvcd_verify_workspace_size(size_t knots) {
-  return knots * sizeof(verify__instant);
-}
+#define NSVCD_VERIFY_WORKSPACE_BYTES(knots) ((knots) * sizeof(verify__instant))
 
 // Eight or 16 bits of a digest.
 static uint32_t verify__fold(uint32_t digest, int bits) {
@@ -209,7 +207,7 @@ static int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b
   memset(report, 0, sizeof *report);
   const char *why = NULL;
   if (verify__read(r, 6) != 1) why = "it is no certificate of version 1";
-  report->kind = (nsvcd_verify_kind)verify__read(r, 2);
+  const nsvcd_verify_kind kind = (nsvcd_verify_kind)(1 + verify__read(r, 2));
   const int is_a = verify__read(r, 8) == verify__fold(a->mesh->digest, 8);
   const int is_b = verify__read(r, 8) == verify__fold(b->mesh->digest, 8);
   if (!why && !is_a) why = "it is about another mesh a";
@@ -217,16 +215,17 @@ static int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b
   const int is_motion = verify__read(r, 16) == verify__fold(motion, 16);
   if (!why && !is_motion) why = "it is about another motion, scale or clearance";
   if (!(clearance >= 0 && clearance <= 1e6f)) why = "a clearance is out of range";
-  if (!why && report->kind == NSVCD_VERIFY_FREE) {
+  if (!why && kind == NSVCD_VERIFY_FREE) {
     why = verify__walk(r);
     if (!why && !r->apart) why = verify__outside(r, a, b);
     if (!why && !r->apart) why = verify__outside(r, b, a);
   } else if (!why) {
-    why = verify__meeting(r, report);
+    why = verify__meeting(r, kind, report);
   }
   if (!why && r->at > r->bits) why = "it ends early";
   if (!why && r->bits - r->at >= 8) why = "something follows its end";
   report->reason = why;
+  report->kind = why ? NSVCD_VERIFY_NOTHING : kind;
   report->position = (r->at < r->bits ? r->at : r->bits) / 8;
   return !why;
 }

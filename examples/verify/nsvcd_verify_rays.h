@@ -7,6 +7,7 @@
 #define VERIFY__MARGIN 1e-10
 
 typedef enum nsvcd_verify_kind {
+  NSVCD_VERIFY_NOTHING,
   NSVCD_VERIFY_FREE,
   NSVCD_VERIFY_HIT,
   NSVCD_VERIFY_NEAR,
@@ -14,11 +15,11 @@ typedef enum nsvcd_verify_kind {
 } nsvcd_verify_kind;
 
 typedef struct nsvcd_verify_report {
-  const char *reason;  // why it is refused; NULL: it is not
-  size_t position;     // of the byte that was read last
-  nsvcd_verify_kind kind;
-  double time;    // of HIT, NEAR and INSIDE
-  uint32_t a, b;  // HIT, NEAR: triangles. INSIDE: a corner, and whose: 0 a's, 1 b's
+  const char *reason;      // why it is refused; NULL: it is not
+  size_t position;         // of the byte that was read last
+  nsvcd_verify_kind kind;  // what is proven; NOTHING: it is refused
+  double time;             // of HIT, NEAR and INSIDE
+  uint32_t a, b;           // HIT, NEAR: triangles. INSIDE: a corner, and whose: 0 a's, 1 b's
 } nsvcd_verify_report;
 
 typedef struct verify__instant {
@@ -51,15 +52,16 @@ static uint32_t verify__read(verify__reader *r, int count) {
 }
 
 // The next normal: k zeros and a 1: the one that was used k + 1 before the last; seven zeros: a new
-// one, 0 and two numbers of 8 bits, or 1 and two of 16. They are a point of the octahedron |x| + |y|
-// + |z| = half, seen from above, with its lower half folded outwards. It becomes the last.
+// one, 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
+// octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It becomes
+// the last.
 static void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
   while (k < 8 && !verify__read(r, 1)) k++;
   memcpy(n, r->normals[k % 8], sizeof n);
   if (k == 8) {
-    const int bits = verify__read(r, 1) ? 16 : 8;
+    const int bits = !verify__read(r, 1) ? 8 : !verify__read(r, 1) ? 16 : 24;
     const double half = (double)((1 << (bits - 1)) - 1);
     const double x = (double)verify__read(r, bits) - half;
     const double y = (double)verify__read(r, bits) - half;
@@ -76,12 +78,12 @@ static double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// No point of a node is farther from its body's origin.
+// No point of a node is farther from its body's origin. A root of a float is off by 1e-7.
 static double verify__radius(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
   for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
-  return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
+  return 1.000001 * mover->scale * (double)sqrtf((float)verify__dot(corner, corner));
 }
 
 static double verify__lengths(double radii, const nsvcd_verify_place *a,
@@ -321,10 +323,11 @@ static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
 }
 
 // HIT, NEAR and INSIDE: when, and what.
-static const char *verify__meeting(verify__reader *r, nsvcd_verify_report *out) {
+static const char *verify__meeting(verify__reader *r, nsvcd_verify_kind kind,
+                                   nsvcd_verify_report *out) {
   verify__pair p;
   out->time = (double)verify__read(r, 32) / 4294967295.0;
-  if (out->kind == NSVCD_VERIFY_INSIDE) return verify__inside(r, out);
+  if (kind == NSVCD_VERIFY_INSIDE) return verify__inside(r, out);
   out->a = p.triangle[0] = verify__read(r, 32);
   out->b = p.triangle[1] = verify__read(r, 32);
   p.mover[0] = r->a;
@@ -334,6 +337,6 @@ static const char *verify__meeting(verify__reader *r, nsvcd_verify_report *out) 
       return "it names a triangle that there is not";
     p.mover[k]->place(p.mover[k]->motion, out->time, &p.at[k]);
   }
-  return out->kind == NSVCD_VERIFY_HIT ? verify__pierced(r, &p) : verify__near(r, &p);
+  return kind == NSVCD_VERIFY_HIT ? verify__pierced(r, &p) : verify__near(r, &p);
 }
 #endif  // NSVCD_VERIFY_RAYS_H

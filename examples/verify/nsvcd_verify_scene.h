@@ -105,12 +105,15 @@ static void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
     double least = HUGE_VAL;
     double most = -HUGE_VAL;
     low[k] = high[k] = verify__corner(m, order[0], 0)[k];
-    for (uint32_t i = 0; i < 3 * node->count; i++) {
-      const float x = verify__corner(m, order[i / 3], i % 3)[k];
-      if (x < low[k]) low[k] = x;
-      if (x > high[k]) high[k] = x;
-      least = verify__min(least, verify__sum(m, order[i / 3], k));
-      most = verify__max(most, verify__sum(m, order[i / 3], k));
+    for (uint32_t i = 0; i < node->count; i++) {
+      const double sum = verify__sum(m, order[i], k);
+      for (uint32_t n = 0; n < 3; n++) {
+        const float x = verify__corner(m, order[i], n)[k];
+        if (x < low[k]) low[k] = x;
+        if (x > high[k]) high[k] = x;
+      }
+      least = verify__min(least, sum);
+      most = verify__max(most, sum);
     }
     if (most - least > widest) axis = k;
     widest = verify__max(widest, most - least);
@@ -206,9 +209,7 @@ static void verify__join(nsvcd_verify_mesh *m) {
 }
 
 // Bytes of the memory that nsvcd_verify_mesh_init takes.
-static size_t nsvcd_verify_mesh_size(size_t vertices, size_t triangles) {
-  return 52 * triangles + 8 * vertices;
-}
+#define NSVCD_VERIFY_MESH_BYTES(vertices, triangles) (52 * (triangles) + 8 * (vertices))
 
 // Checks a mesh and builds its tree, in memory aligned to 4 bytes that stays, as the arrays do.
 // Returns why not, or NULL. Takes its triangles times the logarithm of their number.
@@ -284,9 +285,11 @@ static double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, d
     square_a += (double)a[i] * (double)a[i];
     square_b += (double)b[i] * (double)b[i];
   }
+  const double length_a = sqrt(square_a);
+  const double length_b = dot < 0 ? -sqrt(square_b) : sqrt(square_b);
   for (int i = 0; i < 4; i++) {
-    from[i] = (double)a[i] / sqrt(square_a);
-    to[i] = (double)b[i] / (dot < 0 ? -sqrt(square_b) : sqrt(square_b));
+    from[i] = (double)a[i] / length_a;
+    to[i] = (double)b[i] / length_b;
     apart += (to[i] - from[i]) * (to[i] - from[i]);
     together += (to[i] + from[i]) * (to[i] + from[i]);
   }

@@ -48,14 +48,14 @@ static const nsvcd_verify_mesh *mesh_named(const char *path, const list *meshes,
 // Checks one certificate, and writes its line. 1: it is accepted.
 static int check(const char *folder, const char *id, const side *a, const side *b,
                  float clearance) {
-  static const char *const kinds[] = {"free", "hit", "near", "inside"};
+  static const char *const kinds[] = {"", "free", "hit", "near", "inside"};
   char path[4096];
   nsvcd_verify_report report;
   size_t size;
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", id), 0;
-  const size_t room = nsvcd_verify_workspace_size(a->path.count + b->path.count + 2);
+  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(a->path.count + b->path.count + 2);
   void *workspace = allocate(room);
   int accepted = 0;
   const clock_t start = clock();

@@ -291,7 +291,7 @@ static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
   if (!is_stl) read_obj(path, begin, &positions, &indices);
   const size_t vertices = positions.count / 3;
   const size_t triangles = indices.count / 3;
-  void *memory = allocate(nsvcd_verify_mesh_size(vertices, triangles));
+  void *memory = allocate(NSVCD_VERIFY_MESH_BYTES(vertices, triangles));
   const char *why =
       nsvcd_verify_mesh_init((const float *)positions.items, vertices,
                              (const uint32_t *)indices.items, triangles, memory, mesh);

@@ -97,7 +97,7 @@ static const char *check_pair(const robot *r, const nsvcd_verify_motion *m, size
                                  (const robot_body *)r->bodies.items + who[1]};
   nsvcd_verify_part parts[2];
   nsvcd_verify_mover movers[2];
-  const size_t room = nsvcd_verify_workspace_size(m->pieces + 3);
+  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(m->pieces + 3);
   const char *why = NULL;
   for (int k = 0; k < 2 && !why; k++) {
     parts[k].motion = m;

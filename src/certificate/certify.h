@@ -9,10 +9,9 @@
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
 //             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
-//             zeros a new one: 0, two numbers of 8 bits; or 1, two of 16
+//             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 #pragma once
 #include "../ground/random.h"
-#include "../proof/couples.h"
 #include "rays.h"
 
 #ifndef NSVCD_NO_CERTIFICATES
@@ -64,7 +63,11 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
   nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
   if (!known) {
-    nsvcd__write_bits(c, normal->bits == 16, 1);
+    nsvcd__write_bits(c,
+                      normal->bits == 8    ? 0
+                      : normal->bits == 16 ? 2
+                                           : 3,
+                      normal->bits == 8 ? 1 : 2);
     nsvcd__write_bits(c, normal->x, normal->bits);
     nsvcd__write_bits(c, normal->y, normal->bits);
     k--;
@@ -183,22 +186,6 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
   return 1;
 }
 
-// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
-static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
-  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
-  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
-                    told->triangle_b < c->b.tree->mesh.triangle_count;
-  if (answer->verdict != NSVCD_HIT || !named || !(told->time >= 0)) return 0;
-  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
-  for (double later = 1e-7; later < 1; later *= 2) {
-    for (int k = 0; k < 2; k++) {
-      const double when = (double)told->time + (k ? -later : later);
-      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
-    }
-  }
-  return 0;
-}
-
 // ---- the walk
 
 // The longest side of a node's box.
@@ -257,6 +244,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__WALK_STACK];
   size_t height = 1;
+  int in_doubt = 0;
   memset(stack, 0, sizeof *stack);
   stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
   stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
@@ -268,7 +256,11 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
     nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
     nsvcd__written_normal normal;
-    if (c->made->visits++ >= visits) return NSVCD_UNDECIDED;
+    if (c->made->visits == visits) {
+      c->made->why = NSVCD_WHY_WORK;
+      return NSVCD_UNDECIDED;
+    }
+    c->made->visits++;
     nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
@@ -287,10 +279,13 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       const uint32_t tb = c->b.tree->order[nodes->b.first];
       if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
     }
-    if (height == NSVCD__WALK_STACK || !nsvcd__divide_visit(c, v)) return NSVCD_UNDECIDED;
-    height++;
+    if (height == NSVCD__WALK_STACK) return NSVCD_UNDECIDED;
+    // they touch, or nearly so: no proof that they are free, but others may still meet
+    const int goes_on = nsvcd__divide_visit(c, v);
+    height += goes_on ? 1 : (size_t)-1;
+    in_doubt |= !goes_on;
   }
-  return NSVCD_FREE;
+  return in_doubt ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
 // ---- what is inside
@@ -340,12 +335,34 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
         nsvcd__write_bits(c, v, 32);
         nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
         c->made->inside = 1;
+        c->made->verdict = NSVCD_HIT;
         return NSVCD_HIT;
       }
     }
     if (!shown) return NSVCD_UNDECIDED;
   }
   return NSVCD_FREE;
+}
+
+// ---- what was answered
+
+// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
+                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  if (answer->verdict != NSVCD_HIT) return 0;
+  for (int whose = 0; whose < 2 && answer->inside; whose++)
+    if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
+  if (!named || !(told->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  for (double later = 1e-7; later < 1; later *= 2) {
+    for (int k = 0; k < 2; k++) {
+      const double when = (double)told->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+    }
+  }
+  return 0;
 }
 
 // ---- nsvcd_certify
@@ -385,13 +402,13 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  const int told = o->answer && nsvcd__meet_as_told(c, o->answer);
-  if (!told) {
+  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
   }
   out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
+  if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
   *made = out;
   return NSVCD_OK;
 }

@@ -1,6 +1,7 @@
 // In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
 // that takes a few bits; or none.
 #pragma once
+#include "../proof/couples.h"
 #include "law.h"
 
 #ifndef NSVCD_NO_CERTIFICATES
@@ -42,7 +43,7 @@ typedef struct nsvcd__nodes {
 typedef struct nsvcd__written_normal {
   nsvcd__d3 along;
   uint32_t x, y;
-  int bits;  // of each number: 8 or 16
+  int bits;  // of each number: 8, 16 or 24
 } nsvcd__written_normal;
 
 static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
@@ -140,7 +141,7 @@ static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *node
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000001 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
@@ -198,19 +199,6 @@ typedef struct nsvcd__best {
   double gap;
 } nsvcd__best;
 
-// Tries a direction, and the one back.
-static void nsvcd__try_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                             const nsvcd__instant *at, nsvcd__d3 along, nsvcd__best *best) {
-  const double length = nsvcd__d3_length(along);
-  for (int k = 0; k < 2 && length > 0; k++) {
-    const nsvcd__d3 way = nsvcd__d3_scale(along, k ? -1 / length : 1 / length);
-    const double gap = nsvcd__gap_along(s, nodes, at, way);
-    if (gap <= best->gap) continue;
-    best->along = way;
-    best->gap = gap;
-  }
-}
-
 // Gilbert's iteration towards the point of a - b that is nearest to the origin.
 static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                   const nsvcd__instant *at, nsvcd__d3 along) {
@@ -227,7 +215,7 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
       best.along = v;
       best.gap = gap;
     }
-    if (gap > enough * length) break;
+    if (gap - s->clearance > enough * (length - s->clearance)) break;
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;
@@ -237,34 +225,31 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
   return best;
 }
 
-// The edges of a leaf's triangle, in the world.
-static void nsvcd__leaf_edges(const nsvcd__rider *rider, const nsvcd__node *node,
-                              const nsvcd__posed *at, nsvcd__d3 *edges) {
-  const uint32_t triangle = rider->tree->order[node->first];
-  for (uint32_t k = 0; k < 3; k++) {
-    const nsvcd__d3 from = nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, k));
-    const nsvcd__d3 to =
-        nsvcd__d3_load(nsvcd__tree_corner(rider->tree, triangle, (k + 1) % 3));
-    edges[k] = nsvcd__turned_by(rider, at, nsvcd__d3_sub(to, from));
-  }
+// A leaf's triangle in the world, as seen from the origin of b.
+static void nsvcd__leaf_corners(const nsvcd__rider *rider, const nsvcd__node *node,
+                                const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
+  const float *x = rider->tree->corners + 9 * (size_t)node->first;
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_add(nsvcd__turned_by(rider, at, nsvcd__d3_row(x, k)), offset);
 }
 
 // Looks for a plane that parts two nodes all the while.
 static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
                               nsvcd__written_normal *normal) {
   const nsvcd__instant *at = nsvcd__stretch_middle(s);
-  nsvcd__best best = nsvcd__gilbert(s, nodes, at, last);
+  nsvcd__best best = {last, 0};
   if (nodes->a.count == 1 && nodes->b.count == 1) {
     nsvcd__d3 a[3], b[3];
-    nsvcd__leaf_edges(s->a, &nodes->a, &at->a, a);
-    nsvcd__leaf_edges(s->b, &nodes->b, &at->b, b);
-    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[0], a[1]), &best);
-    nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(b[0], b[1]), &best);
-    for (size_t i = 0; i < 9; i++)
-      nsvcd__try_along(s, nodes, at, nsvcd__d3_cross(a[i / 3], b[i % 3]), &best);
+    nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
+    nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+    best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    best.gap = sqrt(nearest.square);
+  } else {
+    best = nsvcd__gilbert(s, nodes, at, last);
   }
   if (!(best.gap > s->clearance)) return 0;
-  for (int bits = 8; bits <= 16; bits += 8) {
+  for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
     if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
   }

@@ -34,6 +34,9 @@ typedef struct nsvcd_certify_options {
 typedef struct nsvcd_certificate {
   // FREE or HIT: the bytes prove it. UNDECIDED: there are none
   nsvcd_verdict verdict;
+  // of UNDECIDED: the visits were not enough, or surfaces touch, or come too near to tell, or
+  // of 64 rays none was clear
+  nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;
   // of a HIT, in [0,1]
@@ -52,8 +55,9 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 // Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
 // two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
 // anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
-// corner is inside, at a time that is told. What only touches, or is nearer than 1e-10 of all
-// lengths, stays UNDECIDED.
+// corner is inside, at a time that is told. What only touches, with no edge through a
+// triangle, or is nearer than 1e-10 of all lengths (of extents and of places in the world), stays
+// UNDECIDED.
 //   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
 //              at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL

@@ -1,10 +1,10 @@
 // In: a pair of parts, a motion of the joints, and their meshes' trees. Out: a certificate that the
 // two never meet, as the joints move them.
 //
-// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share of
-// a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j one of
-// the distance of a point y from joint j: the sum of what stands between them; of a joint that slides
-// 1. Then
+// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
+// of a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
+// one of the distance of a point y from joint j: the sum of what stands between them; of a joint
+// that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
 // bound of robot/stray is a better one, from where the links are; this one a checker can reckon again

@@ -53,7 +53,7 @@ static int load(const problem_file *file, const mesh_entry *entry, scene_mesh *o
   t->trees += seconds() - before;
   before = seconds();
   const nsvcd_mesh *m = &out->mesh;
-  void *memory = allocate(nsvcd_verify_mesh_size(m->vertex_count, m->triangle_count));
+  void *memory = allocate(NSVCD_VERIFY_MESH_BYTES(m->vertex_count, m->triangle_count));
   const char *why = nsvcd_verify_mesh_init(m->positions, m->vertex_count, m->indices,
                                            m->triangle_count, memory, &out->checked);
   t->check_trees += seconds() - before;
@@ -125,7 +125,7 @@ static int one(const problem_file *file, const problem *p, const scene_mesh *mes
   nsvcd_verify_path path_a, path_b;
   nsvcd_verify_mover mover_a, mover_b;
   nsvcd_verify_report report;
-  const size_t room = nsvcd_verify_workspace_size(q.a.count + q.b.count + 2);
+  const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(q.a.count + q.b.count + 2);
   workspace = allocate(room);
   const char *why = mover_of(&q.a, a, &path_a, &mover_a);
   if (!why) why = mover_of(&q.b, b, &path_b, &mover_b);
