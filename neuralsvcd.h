@@ -1056,13 +1056,14 @@ typedef struct nsvcd_certificate {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
-// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
-// two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
-// anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
-// corner is inside, at a time that is told. What only touches, with no edge through a
-// triangle, or is nearer than 1e-10 of all lengths (of extents and of places in the world), stays
-// UNDECIDED.
-//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and
+// how two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces
+// never come within the clearance and nothing is inside of anything. HIT: an edge passes through a
+// triangle, or points are nearer than the clearance, or a corner is inside, at a time that is told.
+// What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
+// extents and of places in the world), stays UNDECIDED.
+//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
+//   looked
 //              at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
 //   options    NULL: the defaults
@@ -1237,8 +1238,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   nsvcd_check_answer *answer);
 
 #ifndef NSVCD_NO_CERTIFICATES
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of the
-// mesh that has more.
+// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);
 
@@ -17098,8 +17099,8 @@ static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
   return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
 }
 
-// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at the
-// first.
+// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at
+// the first.
 static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
                                  uint32_t *lowest) {
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
@@ -17224,8 +17225,8 @@ typedef struct nsvcd__posed {
   nsvcd__d3 at;
 } nsvcd__posed;
 
-// By how much a point at r metres from the body's origin leaves its chord, at most: base + per_metre
-// r.
+// By how much a point at r metres from the body's origin leaves its chord, at most: base +
+// per_metre r.
 typedef struct nsvcd__off_chord {
   double base, per_metre;
 } nsvcd__off_chord;
@@ -17722,8 +17723,8 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
   return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses. *open:
-// 1 if others have some too.
+// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
+// *open: 1 if others have some too.
 static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;
@@ -17757,9 +17758,11 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open
 //             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
 //             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
 //             b, at t = 0: 1 along the last normal, or 0, and a normal
-//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
+//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
+//   two
 //             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
-//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
+//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
+//   seven
 //             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
 #ifndef NSVCD_NO_CERTIFICATES
@@ -17803,8 +17806,8 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes the
-// last.
+// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes
+// the last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__written_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
@@ -17870,8 +17873,8 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed 
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: shares of the way from the first corner to the second, and
-// from there to the third. Returns the point that is read.
+// A point of a triangle as it is written: shares of the way from the first corner to the second,
+// and from there to the third. Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -18052,8 +18055,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   return nsvcd__normal_of(along, 8);
 }
 
-// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT: one
-// shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
+// one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__rider *of = whose ? &c->b : &c->a;
   const nsvcd__rider *by = whose ? &c->a : &c->b;
@@ -19196,8 +19199,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can reckon again
-// in a few lines.
+// bound of robot/stray is a better one, from where the links are; this one a checker can reckon
+// again in a few lines.
 // Source: this library.
 
 #if !defined(NSVCD_NO_CERTIFICATES) && !defined(NSVCD_NO_ROBOTS)

@@ -1,15 +1,16 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on. Prints a line for each, and exits with 1 if one
+# fail on it, or, where its name begins with `level:`, `asks:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
+# `verify:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c has to fail. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
-mkdir -p $work/tests/bench $work/examples/scenery
+mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -220,6 +221,62 @@ postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].p
 postures: never touching|pairs[always ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
 postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
+verify: nothing is needed|if (!(gap > least \&\& last > least)) return 0;|if (!(gap > -1e9)) return 0;
+verify: parted at the start alone|if (!(gap > least \&\& last > least)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
+verify: parted at the ends by one of them|if (!(gap > least \&\& last > least)) return 0;|if (!(gap > least)) return 0;
+verify: no strays|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;|(void)ra;
+verify: strays of a alone|+ at->stray_b[0] + at->stray_b[1] * rb;|;
+verify: strays of b alone|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0]|stray = at->stray_b[0]
+verify: strays at the origin|at->stray_a[1] * ra|at->stray_a[1] * 0 * ra
+verify: no clearance|length * (r->clearance + stray|length * (stray
+verify: margins that are taken away|stray + VERIFY__MARGIN * lengths);|stray - 1e4 * VERIFY__MARGIN * lengths);
+verify: half the stray|stray[1] = 0.1250001 * h * h;|stray[1] = 0.06 * h * h;
+verify: turns of half the angle|return 4 * atan2(|return 2 * atan2(
+verify: the first child alone|*node = child[1];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];|*node = child[0];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];
+verify: the second child alone|*node = child[1];|*node = child[1]; child[0] = child[1];
+verify: the first half alone|v[1].t1 = v->t0 = 0.5 * (t0 + t1);|v[1].t1 = v->t1 = 0.5 * (t0 + t1);
+verify: the second half alone|v[1].t1 = v->t0 = 0.5 * (t0 + t1);|v[1].t0 = v->t0 = 0.5 * (t0 + t1);
+verify: a walk that ends early|while (height > 0) {\n    verify__visit *v|while (height > 0 \&\& r->at < r->bits - 8) {\n    verify__visit *v
+verify: boxes of the left child|const nsvcd_verify_node right = {node->box + 2 * half,|const nsvcd_verify_node right = {node->box + 1,
+verify: the highest corner of a box only|low[way[i] > 0 ? i + 3 : i]|low[i + 3]
+verify: two corners of a triangle|for (uint32_t i = 0; i < 3 * node->count; i++) {\n    const float *x|for (uint32_t i = 0; i < 3 * node->count - 1; i++) {\n    const float *x
+verify: triangles by half|const double along = way[0] * (double)x[0]|const double along = 0.5 * way[0] * (double)x[0]
+verify: no scale|way[i] = mover->scale * (n[0]|way[i] = (n[0]
+verify: no rays|if (!why \&\& !r->apart) why = verify__outside(r, a, b);\n    if (!why \&\& !r->apart) why = verify__outside(r, b, a);|
+verify: rays from a alone|if (!why \&\& !r->apart) why = verify__outside(r, b, a);|
+verify: rays from b alone|if (!why \&\& !r->apart) why = verify__outside(r, a, b);|
+verify: apart whatever is parted|if (v->a.box == 0 \&\& v->b.box == 0) r->apart = 1;|r->apart = 1;
+verify: rays that cross once|if (verify__wound(by->mesh, \&open) != 0 \|\| open)|if (verify__wound(by->mesh, \&open) > 1e9)
+verify: rays through what is open|if (verify__wound(by->mesh, \&open) != 0 \|\| open)|if (verify__wound(by->mesh, \&open) != 0)
+verify: rays that are not clear|if (crossed == 2) return 0;|if (crossed == 2) continue;
+verify: what is inside whatever the ray|return verify__wound(m, \&open) != 0 ? NULL|return 1 ? NULL
+verify: sums of what is open|    *sum_of = 0;\n    *open = 1;|    *open = 1;
+verify: leaving is entering|return most > 0 ? 1 : -1;|return 1;
+verify: crossed behind|if ((volume > 0) != (most > 0)) return 0;|
+verify: points of other triangles|? NULL : "two points are not as near as that"|? NULL : r ? NULL : ""
+verify: near by the margin's other side|sqrt(verify__dot(apart, apart)) + verify__extent|sqrt(verify__dot(apart, apart)) - 1e7 * verify__extent
+verify: edges that end before|return clear \&\& second == -first ? NULL|return clear ? NULL
+verify: edges that pass by|return clear \&\& second == -first ? NULL|return second == -first ? NULL
+verify: another mesh|if (!why \&\& !is_a) why =|if (0) why =
+verify: another mesh b|if (!why \&\& !is_b) why =|if (0) why =
+verify: another motion|if (!why \&\& !is_motion) why =|if (0) why =
+verify: what follows|if (!why \&\& r->bits - r->at >= 8) why =|if (0) why =
+verify: it ends early|if (!why \&\& r->at > r->bits) why = "it ends early";|
+verify: no knots|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = t1;
+verify: knots of a alone|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = r->a->next(r->a->motion, t);
+verify: vertices at one place are two|if (vertex < *lowest) *lowest = vertex;|
+verify: quaternions of other sides|dot < 0 ? -sqrt(square_b) : sqrt(square_b)|sqrt(square_b)
+verify: joints without a bend|stray[k] += 0.1250001 * bend * lever[k];|
+verify: joints that do not turn each other|(2 * outer[k] + speed * lever[k])|(speed * lever[k])
+verify: joints without their own turn|(2 * outer[k] + speed * lever[k])|(2 * outer[k])
+verify: levers without offsets|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);|reach += joint->slides ? most : 0;
+verify: levers without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n}|reach += verify__offset(joint->origin);\n  }\n}
+verify: pieces as one|return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;|return 1;
+verify: other points of a motion|d = verify__hash(d, value, 2);|
+verify: coordinates that are none|if (!(fabsf(positions[i]) <= 1e6f)) return|if (0) return
+verify: indices out of range|if (indices[i] >= vertices) return|if (0) return
+verify: quaternions of any length|if (!(fabs(square - 1) < 2.1e-4)) return|if (0) return
+verify: times that fall|if (timed \&\& k > 0 \&\& !(|if (0 \&\& !(
 LIST
 
 survived=0
@@ -228,12 +285,27 @@ while IFS= read -r line; do
   case "$name" in *"${1:-}"*) ;; *) continue ;; esac
   number=$((${number:-0} + 1))
   test -z "${OF:-}" || test $((number % OF)) = "$PART" || continue
-  LINE="$line" python3 - <<'PYTHON' >$work/neuralsvcd.h || exit 1
+  cp examples/verify/*.h $work/examples/verify/
+  LINE="$line" WORK="$work" python3 - <<'PYTHON' >$work/neuralsvcd.h || exit 1
 import os, re, sys
 name, old, new = re.split(r'(?<!\\)\|', os.environ['LINE'], maxsplit=2)
 old, new = [part.replace('\\n', '\n').replace('\\&', '&').replace('\\|', '|') for part in (old, new)]
 new = new if name == 'none' or not new.endswith('|') else new.rstrip('|')
 text = open('neuralsvcd.h').read()
+if name.startswith('verify:'):
+    sys.stdout.write(text)
+    # in the one file of the checker that has it
+    pattern = r'\s+'.join(map(re.escape, old.split()))
+    folder = os.environ['WORK'] + '/examples/verify/'
+    files = [f for f in os.listdir(folder) if re.search(pattern, open(folder + f).read())]
+    if len(files) != 1:
+        sys.exit(f'{name}: found in {len(files)} files')
+    text = open(folder + files[0]).read()
+    found = re.findall(pattern, text)
+    if len(found) != 1:
+        sys.exit(f'{name}: found {len(found)} times')
+    open(folder + files[0], 'w').write(text.replace(found[0], new))
+    sys.exit()
 # however its lines are broken
 found = re.findall(r'\s+'.join(map(re.escape, old.split())), text) if old else []
 if old and len(found) != 1:
@@ -250,6 +322,7 @@ PYTHON
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
     postures:*) file=test_postures.c ;;
+    verify:*) file=test_certificate.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   timeout "${LIMIT:-400}" $work/test >$work/out.txt 2>&1

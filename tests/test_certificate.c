@@ -1,5 +1,5 @@
-// Certificates: what nsvcd_certify makes examples/verify accepts, and is what nsvcd_sweep says; what
-// is false it never accepts, whoever made it. The oracle is in double, at many times.
+// Certificates: what nsvcd_certify makes examples/verify accepts, and is what nsvcd_sweep says;
+// what is false it never accepts, whoever made it. The oracle is in double, at many times.
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
@@ -641,8 +641,9 @@ static cert_body *cert_robot_shapes(void) {
   return made;
 }
 
-// A robot that is open, a motion of it, and its pairs, certified and checked: what is certified free
-// is so at many times, as the oracle places links; and a certificate of another motion is refused.
+// A robot that is open, a motion of it, and its pairs, certified and checked: what is certified
+// free is so at many times, as the oracle places links; and a certificate of another motion is
+// refused.
 static void certificates_of_robots(void) {
   static robot r;
   static uint8_t bytes[CERT_ROOM];

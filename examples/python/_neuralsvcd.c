@@ -154,7 +154,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(route_answer, unhindered), FIELD(route_answer, check), FIELD(route_answer, nodes),
     FIELD(route_answer, checks), FIELD(route_answer, proven),
     STRUCT(certify_options), FIELD(certify_options, answer), FIELD(certify_options, visits),
-    STRUCT(certificate), FIELD(certificate, verdict), FIELD(certificate, inside),
+    STRUCT(certificate), FIELD(certificate, verdict), FIELD(certificate, why), FIELD(certificate, inside),
     FIELD(certificate, time), FIELD(certificate, size), FIELD(certificate, visits),
     CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
     CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),

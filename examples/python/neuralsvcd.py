@@ -242,7 +242,7 @@ _RouteAnswer = _struct(
     unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
 _CertifyOptions = _struct("nsvcd_certify_options", answer=c_void_p, visits=c_size_t)
 _Certificate = _struct(
-    "nsvcd_certificate", verdict=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
+    "nsvcd_certificate", verdict=c_int, why=c_int, inside=c_int, time=c_double, size=c_size_t, visits=c_size_t)
 _STRUCTS = (_CertifyOptions, _Certificate, _Joint, _Part, _Scene, _JointMotion, _CheckOptions, _CheckAnswer, _Gap, _GapOptions, _EscapeOptions,
             _PairCounts, _RouteProblem, _RouteOptions, _RouteAnswer, _Mesh, _EncodeOptions, _BodyFacts, _Pose, _NetworkOptions, _Mover, _Question, _Range, _Contact,
             _SafePlace, _Opinion, _Answer, _BodyPair, _PlanProgress, _PlanProblem, _PlanStage, _PlanOptions, _PlanAnswer)
@@ -961,12 +961,14 @@ class Certificate(NamedTuple):
     """What was proven: nsvcd_certificate.
 
     verdict  free or hit: the bytes prove it; undecided: there are none
+    why      ... since the visits were spent, or they come too near to tell
     inside   a hit, for a corner of one is inside of the other
     time     in [0, 1], of a hit
     bytes    the proof, for nsvcd_verify.py and examples/verify
     visits   steps that were taken
     """
     verdict: Verdict
+    why: Why
     inside: bool
     time: float
     bytes: bytes
@@ -987,7 +989,7 @@ def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Opti
     if answer is not None:
         named = answer.nearest
         triangles = (NO_TRIANGLE if k is None else k for k in (named.triangle_a, named.triangle_b))
-        told = _Answer(verdict=_number_of(answer.verdict))
+        told = _Answer(verdict=_number_of(answer.verdict), inside=answer.inside)
         told.nearest.time, (told.nearest.triangle_a, told.nearest.triangle_b) = named.time, triangles
         options.answer = ctypes.addressof(told)
     size = _library.nsvcd_certify_workspace_size(byref(question), a._address, b._address)
@@ -999,7 +1001,8 @@ def certify(a: Tree, b: Tree, poses_a: Optional[ArrayLike] = None, poses_b: Opti
         data = _memory(room)
         _check(_library.nsvcd_certify(byref(question), a._address, b._address, byref(options), _address(workspace),
                                       size, _address(data), room, byref(made)))
-    return Certificate(_VERDICTS[made.verdict], bool(made.inside), made.time, data[:made.size].tobytes(), made.visits)
+    return Certificate(_VERDICTS[made.verdict], _WHYS[made.why], bool(made.inside), made.time,
+                       data[:made.size].tobytes(), made.visits)
 
 
 # -------------------------------------------------------------------------------------------------------- many motions

@@ -50,8 +50,8 @@ static int make_certificate(const nsvcd_question *question, const proof_mesh *a,
   return result ? complain("the certificate: %s", reason_of(result)) : 1;
 }
 
-// Makes and writes one, FOLDER/ID.cert. Where there can be none a file that is there goes. Returns 0
-// after a complaint.
+// Makes and writes one, FOLDER/ID.cert. Where there can be none a file that is there goes. Returns
+// 0 after a complaint.
 static int write_certificate(const char *folder, const char *id, const nsvcd_question *question,
                              const proof_mesh *a, const proof_mesh *b, const nsvcd_answer *answer,
                              nsvcd_certificate *made) {

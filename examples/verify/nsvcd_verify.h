@@ -1,8 +1,8 @@
 // nsvcd_verify.h - checks a certificate that two moving bodies never meet, or that they do. It
 // shares no line with neuralsvcd.h, which makes certificates (nsvcd_certify): who doubts that one
 // reads this one, with nsvcd_verify_scene.h (meshes, motions) and nsvcd_verify_rays.h (what is
-// inside, what meets). C99 or C++11, libc and libm; nothing global, no allocation, no recursion. MIT
-// licence (LICENSE).
+// inside, what meets). C99 or C++11, libc and libm; nothing global, no allocation, no recursion.
+// MIT licence (LICENSE).
 //
 // STATEMENT. Two movers, a and b, each have a mesh (triangles, corners x in float), a scale s and a
 // motion: at a time t in [0,1] x is at s R(t) x + p(t). What nsvcd_verify accepts as
@@ -28,9 +28,9 @@
 // triangles it is most and least at corners.
 //   Surfaces that never meet do not get inside of each other later on. If somewhere the roots are
 // parted, nothing is inside then. Else a ray follows for each component of a, from a corner of it
-// at t = 0, then for each of b. Of each component of the other that is not closed it crosses as many
-// triangles inwards as outwards, and so it does of all closed ones together. So these do not wind
-// about that corner, nor about the rest of its component, which does not cross them.
+// at t = 0, then for each of b. Of each component of the other that is not closed it crosses as
+// many triangles inwards as outwards, and so it does of all closed ones together. So these do not
+// wind about that corner, nor about the rest of its component, which does not cross them.
 //
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it: sums of some ten products, roots, and libm's sin and atan2 are good to units

@@ -1,5 +1,5 @@
-// nsvcd_verify_rays.h - of nsvcd_verify.h: how a certificate is read, and what it shows of one time:
-// rays, by which something is inside of something or not, and triangles that meet.
+// nsvcd_verify_rays.h - of nsvcd_verify.h: how a certificate is read, and what it shows of one
+// time: rays, by which something is inside of something or not, and triangles that meet.
 #ifndef NSVCD_VERIFY_RAYS_H
 #define NSVCD_VERIFY_RAYS_H
 #include "nsvcd_verify_scene.h"
@@ -53,8 +53,8 @@ static uint32_t verify__read(verify__reader *r, int count) {
 
 // The next normal: k zeros and a 1: the one that was used k + 1 before the last; seven zeros: a new
 // one, 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
-// octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It becomes
-// the last.
+// octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It
+// becomes the last.
 static void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
@@ -112,8 +112,8 @@ static void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place 
   }
 }
 
-// In the frame of one mover, in units of its scale: no length is more, and no point is off by as much
-// as the margin.
+// In the frame of one mover, in units of its scale: no length is more, and no point is off by as
+// much as the margin.
 typedef struct verify__extent {
   double lengths, margin;
 } verify__extent;

@@ -2,18 +2,20 @@
 // certificates of nsvcd_certify_pair. What is proven is the joints' own motion, at all times.
 //
 // Joint i carries link i + 1; link 0 is the world. A corner x of a part is at
-//   T_1 T_2 ... T_m (s R x + p),   T_j y = O_j (turn about the axis by q_j) y,  or O_j (y + axis q_j)
+//   T_1 T_2 ... T_m (s R x + p),   T_j y = O_j (turn about the axis by q_j) y,  or O_j (y + axis
+//   q_j)
 // over the joints from the base to its link; R, p is the part's pose. The joint values q are Bezier
 // curves in time, piece by piece. Both parts may be seen from a link that carries both: what is
 // between them stays the same.
 //
-// THE STRAY. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j bounds
-// of |q_j'| and |q_j''| by x, and L_j one of the distance of a point y of the part from joint j; of a
-// joint that slides, 1. Derivatives of y by q_j are no more than L_j, those by q_j and q_k than L of
-// the outer one if the inner one turns, and 0 if it slides; by q_j twice than L_j, if it turns. So
+// THE STRAY. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j
+// bounds of |q_j'| and |q_j''| by x, and L_j one of the distance of a point y of the part from
+// joint j; of a joint that slides, 1. Derivatives of y by q_j are no more than L_j, those by q_j
+// and q_k than L of the outer one if the inner one turns, and 0 if it slides; by q_j twice than
+// L_j, if it turns. So
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j),
-// the second term of joints that turn alone, and a chord is left by an eighth of it. L_j is the sum of
-// what stands between joint j and y: offsets of joints, slides, |p| and |s x|.
+// the second term of joints that turn alone, and a chord is left by an eighth of it. L_j is the sum
+// of what stands between joint j and y: offsets of joints, slides, |p| and |s x|.
 #ifndef NSVCD_VERIFY_ROBOT_H
 #define NSVCD_VERIFY_ROBOT_H
 #include "nsvcd_verify.h"

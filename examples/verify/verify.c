@@ -8,8 +8,8 @@
 // --certificates FOLDER` write them. A line each, separated by tabs:
 //   ID accepted|refused REASON BYTES MICROSECONDS
 // REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
-// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 all are
-// accepted, 1 one is refused, 2 a file cannot be read, or usage.
+// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 all
+// are accepted, 1 one is refused, 2 a file cannot be read, or usage.
 #include <time.h>
 
 #include "verify_plans.h"

@@ -6,9 +6,11 @@
 //             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
 //             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
 //             b, at t = 0: 1 along the last normal, or 0, and a normal
-//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR: two
+//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
+//   two
 //             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
-//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last; seven
+//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
+//   seven
 //             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 #pragma once
 #include "../ground/random.h"
@@ -55,8 +57,8 @@ static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
   }
 }
 
-// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes the
-// last.
+// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes
+// the last.
 static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__written_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
@@ -122,8 +124,8 @@ static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed 
   return NSVCD__NO_EDGE;
 }
 
-// A point of a triangle as it is written: shares of the way from the first corner to the second, and
-// from there to the third. Returns the point that is read.
+// A point of a triangle as it is written: shares of the way from the first corner to the second,
+// and from there to the third. Returns the point that is read.
 static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
@@ -304,8 +306,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
   return nsvcd__normal_of(along, 8);
 }
 
-// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT: one
-// shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
+// one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__rider *of = whose ? &c->b : &c->a;
   const nsvcd__rider *by = whose ? &c->a : &c->b;

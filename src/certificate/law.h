@@ -12,8 +12,8 @@ typedef struct nsvcd__posed {
   nsvcd__d3 at;
 } nsvcd__posed;
 
-// By how much a point at r metres from the body's origin leaves its chord, at most: base + per_metre
-// r.
+// By how much a point at r metres from the body's origin leaves its chord, at most: base +
+// per_metre r.
 typedef struct nsvcd__off_chord {
   double base, per_metre;
 } nsvcd__off_chord;

@@ -96,8 +96,8 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
   return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses. *open:
-// 1 if others have some too.
+// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
+// *open: 1 if others have some too.
 static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;

@@ -127,8 +127,8 @@ static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
   return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
 }
 
-// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at the
-// first.
+// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at
+// the first.
 static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
                                  uint32_t *lowest) {
   nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};

@@ -52,13 +52,14 @@ typedef struct nsvcd_certificate {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b);
 
-// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and how
-// two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces never come within the clearance and nothing is inside of
-// anything. HIT: an edge passes through a triangle, or points are nearer than the clearance, or a
-// corner is inside, at a time that is told. What only touches, with no edge through a
-// triangle, or is nearer than 1e-10 of all lengths (of extents and of places in the world), stays
-// UNDECIDED.
-//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not looked
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and
+// how two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces
+// never come within the clearance and nothing is inside of anything. HIT: an edge passes through a
+// triangle, or points are nearer than the clearance, or a corner is inside, at a time that is told.
+// What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
+// extents and of places in the world), stays UNDECIDED.
+//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
+//   looked
 //              at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
 //   options    NULL: the defaults

@@ -154,8 +154,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   nsvcd_check_answer *answer);
 
 #ifndef NSVCD_NO_CERTIFICATES
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of the
-// mesh that has more.
+// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b);
 

@@ -7,8 +7,8 @@
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can reckon again
-// in a few lines.
+// bound of robot/stray is a better one, from where the links are; this one a checker can reckon
+// again in a few lines.
 // Source: this library.
 #pragma once
 #include "../certificate/certify.h"
