@@ -269,7 +269,7 @@ verify: quaternions of other sides|dot < 0 ? -sqrt(square_b) : sqrt(square_b)|sq
 verify: joints without a bend|stray[k] += 0.1250001 * bend * lever[k];|
 verify: joints that do not turn each other|(2 * outer[k] + speed * lever[k])|(speed * lever[k])
 verify: joints without their own turn|(2 * outer[k] + speed * lever[k])|(2 * outer[k])
-verify: levers without offsets|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);|reach += joint->slides ? most : 0;
+verify: levers without offsets|outer[k] += speed * lever[k];\n    }\n    reach += verify__offset(joint->origin) +|outer[k] += speed * lever[k];\n    }\n    reach +=
 verify: levers without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n}|reach += verify__offset(joint->origin);\n  }\n}
 verify: pieces as one|return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;|return 1;
 verify: other points of a motion|d = verify__hash(d, value, 2);|
