@@ -17724,12 +17724,10 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
 }
 
 // Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-// *open: 1 if others have some too.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;
   int any = 0;
-  *open = 0;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
   if (!any) return 0;
   for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
@@ -17742,7 +17740,6 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open
         nsvcd__edges_between(tree, to, from, NULL))
       continue;
     *crossed = 0;
-    *open = 1;
   }
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
   return sum;
@@ -18073,9 +18070,8 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
       if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
-      int open;
-      const int sum = nsvcd__sum_of_closed(by->tree, c->sums, &open);
-      shown = sum == 0 && !open;
+      const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
+      shown = sum == 0;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);

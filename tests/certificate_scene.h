@@ -93,6 +93,8 @@ static void cert_random_poses(shapes_rng *rng, nsvcd_pose *poses, float *times, 
     memcpy(q, next, sizeof q);
     memcpy(pose.rotation, q, sizeof q);
     for (int i = 0; i < 3; i++) pose.position[i] = shapes_uniform(rng, -reach, reach);
+    // the same turn, on either side
+    for (int i = 0; i < 4 && k % 2; i++) pose.rotation[i] = -q[i];
     poses[k] = pose_rounded(&pose);
     times[k] =
         count > 1

@@ -246,11 +246,10 @@ verify: no rays|if (!why \&\& !r->apart) why = verify__outside(r, a, b);\n    if
 verify: rays from a alone|if (!why \&\& !r->apart) why = verify__outside(r, b, a);|
 verify: rays from b alone|if (!why \&\& !r->apart) why = verify__outside(r, a, b);|
 verify: apart whatever is parted|if (v->a.box == 0 \&\& v->b.box == 0) r->apart = 1;|r->apart = 1;
-verify: rays that cross once|if (verify__wound(by->mesh, \&open) != 0 \|\| open)|if (verify__wound(by->mesh, \&open) > 1e9)
-verify: rays through what is open|if (verify__wound(by->mesh, \&open) != 0 \|\| open)|if (verify__wound(by->mesh, \&open) != 0)
+verify: rays that cross once|if (verify__wound(by->mesh) != 0)|if (verify__wound(by->mesh) > 1e9)
 verify: rays that are not clear|if (crossed == 2) return 0;|if (crossed == 2) continue;
-verify: what is inside whatever the ray|return verify__wound(m, \&open) != 0 ? NULL|return 1 ? NULL
-verify: sums of what is open|    *sum_of = 0;\n    *open = 1;|    *open = 1;
+verify: what is inside whatever the ray|return verify__wound(m) != 0 ? NULL|return 1 ? NULL
+verify: sums of what is open|continue;\n    *sum_of = 0;|continue;
 verify: leaving is entering|return most > 0 ? 1 : -1;|return 1;
 verify: crossed behind|if ((volume > 0) != (most > 0)) return 0;|
 verify: points of other triangles|? NULL : "two points are not as near as that"|? NULL : r ? NULL : ""

@@ -234,6 +234,184 @@ static void certificates_at_a_hair(void) {
   }
 }
 
+// One plane, all the while.
+static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
+                             uint8_t *out) {
+  nsvcd__certifier c;
+  const nsvcd__written_normal normal = nsvcd__normal_of(along, 8);
+  memset(&c, 0, sizeof c);
+  c.a.tree = s->a->tree;
+  c.b.tree = s->b->tree;
+  c.bytes = out;
+  c.capacity = 64;
+  nsvcd__write_head(&c, NSVCD__PROVES_FREE);
+  nsvcd__write_bits(&c, 5, 3);
+  nsvcd__write_normal(&c, NSVCD__REMEMBERED, &normal);
+  cert_forge(out, head);
+  return (c.bits + 7) / 8;
+}
+
+// A box turns by a quarter over another one, and is lifted, or let down: both ends are above it, the
+// corners in between are not. Then the one below turns, as seen from the one above.
+static void certificates_see_a_swing(void) {
+  for (int n = 0; n < 4; n++) {
+    const int back = n % 2;
+    const int below = n / 2;
+    cert_scene s;
+    cert_view view;
+    nsvcd_certificate made;
+    nsvcd_verify_report report;
+    uint8_t head[CERT_ROOM], bytes[64];
+    memset(&s, 0, sizeof s);
+    s.a = s.b = &cert_bodies()[0];
+    nsvcd_mover *turns = below ? &s.question.b : &s.question.a;
+    s.question.a.poses = s.poses[0];
+    s.question.b.poses = s.poses[1];
+    s.question.a.count = s.question.b.count = 1;
+    turns->count = 2;
+    const float half = 0.70710678f;
+    for (int k = 0; k < 2; k++) {
+      nsvcd_pose *pose = &s.poses[below][k];
+      const int turned = k != back;
+      pose->rotation[1] = turned ? half : 0;
+      pose->rotation[3] = turned ? half : 1;
+      pose->position[2] = (below ? -1.0f : 1.0f) * (turned ? 0.27f : 0.205f);
+    }
+    s.poses[!below][0].rotation[3] = 1;
+    CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
+    CHECK_EQ(made.verdict, NSVCD_HIT);
+    cert_look(&s, &view);
+    const size_t size = cert_one_plane(&s, head, nsvcd__d3_of(0, 0, 1), bytes);
+    CHECK(!cert_check(&view, 0, bytes, size, &report));
+    CHECK_EQ(report.kind, NSVCD_VERIFY_NOTHING);
+    // without the turn it is what it says
+    for (int k = 0; k < 2; k++) {
+      s.poses[below][k].rotation[1] = 0;
+      s.poses[below][k].rotation[3] = 1;
+    }
+    CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
+    cert_look(&s, &view);
+    cert_forge(bytes, head);
+    CHECK(cert_check(&view, 0, bytes, size, &report));
+    // but not to a clearance that there is not: 5 mm
+    s.question.clearance = 0.0051f;
+    CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
+    CHECK_EQ(made.verdict, NSVCD_HIT);
+    cert_look(&s, &view);
+    cert_forge(bytes, head);
+    CHECK(!cert_check(&view, s.question.clearance, bytes, size, &report));
+  }
+}
+
+// Lone triangles, of which each corner in turn sticks into a box.
+static void certificates_of_each_corner(void) {
+  cert_body *bodies = cert_bodies();
+  for (int corner = 0; corner < 3; corner++) {
+    shapes_mesh shape;
+    cert_body lone;
+    cert_scene s;
+    cert_view view;
+    nsvcd_certificate made;
+    nsvcd_verify_report report;
+    uint8_t head[CERT_ROOM], bytes[64];
+    memset(&shape, 0, sizeof shape);
+    for (int k = 0; k < 3; k++)
+      shapes_vertex(&shape, k == 1 ? 0.02 : 0, k == 2 ? 0.02 : 0, k == corner ? -0.03 : 0);
+    shapes_triangle(&shape, 0, 1, 2);
+    cert_make(&shape, 0, &lone);
+    memset(&s, 0, sizeof s);
+    s.a = &lone;
+    s.b = &bodies[0];
+    s.question.a.poses = s.poses[0];
+    s.question.b.poses = s.poses[1];
+    s.question.a.count = s.question.b.count = 1;
+    s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
+    s.poses[0][0].position[2] = 0.12f;
+    CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
+    CHECK_EQ(made.verdict, NSVCD_HIT);
+    cert_look(&s, &view);
+    const size_t size = cert_one_plane(&s, head, nsvcd__d3_of(0, 0, 1), bytes);
+    CHECK(!cert_check(&view, 0, bytes, size, &report));
+    nsvcd_body_free(lone.body, NULL);
+  }
+}
+
+// Of what is free, at clearances a little less than it keeps, nobody can show that it meets, comes
+// near or is inside: whatever triangles, times, edges, points, corners and rays are named. And what
+// does is not shown by a certificate that is cut short.
+static void certificates_of_hits_cannot_be_forged(void) {
+  static uint8_t bytes[CERT_ROOM], honest[CERT_ROOM];
+  shapes_rng rng = {11};
+  size_t scenes = 0;
+  size_t cut = 0;
+  for (int trial = 0; trial < 2000 && scenes < 100; trial++) {
+    cert_scene s;
+    cert_view view;
+    nsvcd_certificate made;
+    nsvcd_verify_report report;
+    int inside;
+    cert_random(&s, &rng);
+    // a small box in an open one, some times
+    if (trial % 8 == 0) {
+      s.a = &cert_bodies()[9];
+      s.b = &cert_bodies()[CERT_SHAPES - 1];
+      for (int k = 0; k < CERT_POSES; k++)
+        for (int i = 0; i < 3; i++) s.poses[0][k].position[i] = s.poses[1][k].position[i] = 0;
+      s.question.a.scale = 0.3f;
+      s.question.b.scale = s.question.clearance = 0;
+    }
+    CHECK_EQ(cert_certify(&s, NULL, honest, sizeof honest, &made), NSVCD_OK);
+    cert_look(&s, &view);
+    if (made.verdict == NSVCD_HIT && cut < 60) {
+      cut++;
+      for (size_t size = 0; size < made.size; size++)
+        CHECK(!cert_check(&view, s.question.clearance, honest, size, &report));
+      memcpy(bytes, honest, made.size);
+      bytes[made.size] = 0;
+      CHECK(!cert_check(&view, s.question.clearance, bytes, made.size + 1, &report));
+    }
+    if (made.verdict != NSVCD_FREE) continue;
+    const double least = cert_least(&s, 1, &inside);
+    if (least > 0.1) continue;
+    scenes++;
+    // as much as the oracle's times can tell, and more than nothing
+    s.question.clearance = (float)fmax((double)s.question.clearance, 0.98 * least - 0.001);
+    cert_look(&s, &view);
+    if (cert_certify(&s, NULL, honest, sizeof honest, &made) || made.verdict != NSVCD_FREE)
+      continue;
+    for (int n = 0; n < 3000; n++) {
+      nsvcd__certifier c;
+      memset(&c, 0, sizeof c);
+      c.a.tree = s.a->tree;
+      c.b.tree = s.b->tree;
+      c.bytes = bytes;
+      c.capacity = sizeof bytes;
+      const int kind = NSVCD__PROVES_HIT + n % 3;
+      nsvcd__write_head(&c, (uint32_t)kind);
+      nsvcd__write_bits(&c, (uint32_t)(shapes_uniform(&rng, 0, 1) * 4294967295.0), 32);
+      if (kind == NSVCD__PROVES_INSIDE) {
+        const int of_b = shapes_pick(&rng, 2);
+        const cert_body *of = of_b ? s.b : s.a;
+        nsvcd__write_bits(&c, (uint32_t)of_b, 1);
+        nsvcd__write_bits(&c, (uint32_t)shapes_pick(&rng, (int)of->mesh.vertex_count), 32);
+        nsvcd__write_bits(&c, 0, 8);
+      } else {
+        nsvcd__write_bits(&c, (uint32_t)shapes_pick(&rng, (int)s.a->mesh.triangle_count), 32);
+        nsvcd__write_bits(&c, (uint32_t)shapes_pick(&rng, (int)s.b->mesh.triangle_count), 32);
+      }
+      for (int k = 0; k < 4; k++) nsvcd__write_bits(&c, (uint32_t)shapes_pick(&rng, 65536), 16);
+      size_t size = 14;
+      if (kind == NSVCD__PROVES_NEAR) size = 25;
+      if (kind == NSVCD__PROVES_INSIDE) size = 16;
+      if (kind == NSVCD__PROVES_HIT) size = 18;
+      cert_forge(bytes, honest);
+      CHECK(!cert_check(&view, s.question.clearance, bytes, size, &report));
+    }
+  }
+  CHECK_GE(scenes, 100);
+  CHECK_GE(cut, 60);
+}
+
 // Small bodies in a solid, in a shell's cavity, in its wall, in one of a body's two parts.
 static void certificates_of_what_is_inside(void) {
   cert_body *bodies = cert_bodies();
@@ -776,6 +954,9 @@ void test_certificate(void) {
   RUN(certificates_are_true);
   RUN(certificates_cannot_be_forged);
   RUN(certificates_at_a_hair);
+  RUN(certificates_see_a_swing);
+  RUN(certificates_of_each_corner);
+  RUN(certificates_of_hits_cannot_be_forged);
   RUN(certificates_of_what_is_inside);
   RUN(certificates_need_rays);
   RUN(certificates_of_other_scenes);

@@ -186,20 +186,17 @@ static int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, con
   return 1;
 }
 
-// The sum over closed components: those of which each edge has as many reverses. *open: 1 if others
-// have sums as well.
-static int64_t verify__wound(const nsvcd_verify_mesh *m, int *open) {
+// The sum over closed components: those of which each edge has as many reverses.
+static int64_t verify__wound(const nsvcd_verify_mesh *m) {
   int64_t sum = 0;
   int any = 0;
-  *open = 0;
   for (size_t v = 0; v < m->vertices; v++) any |= m->sums[v];
   for (size_t i = 0; any && i < 3 * m->triangles; i++) {
-    const float *from = verify__corner(m, (uint32_t)(i / 3), i % 3);
-    const float *to = verify__corner(m, (uint32_t)(i / 3), (i + 1) % 3);
+    const float *from = verify__corner(m, i / 3, i % 3);
+    const float *to = verify__corner(m, i / 3, (i + 1) % 3);
     int32_t *sum_of = &m->sums[m->part[m->indices[i]]];
     if (*sum_of == 0 || verify__edges(m, from, to) == verify__edges(m, to, from)) continue;
     *sum_of = 0;
-    *open = 1;
   }
   for (size_t v = 0; v < m->vertices; v++) sum += m->sums[v];
   return sum;
@@ -230,14 +227,12 @@ static const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *
   const verify__extent e = verify__extent_of(of, &of_at, by, &by_at);
   for (uint32_t v = 0; v < of->mesh->vertices; v++) {
     double y[3];
-    int open;
     if (of->mesh->part[v] != v) continue;
     if (!verify__read(r, 1)) verify__read_normal(r);
     if (r->at > r->bits) return "it ends early";
     verify__seen(of, &of_at, by, &by_at, v, y);
     if (!verify__cast(r, by->mesh, y, &e)) return "a ray passes too near to an edge";
-    if (verify__wound(by->mesh, &open) != 0 || open)
-      return "a ray does not show that a component is outside";
+    if (verify__wound(by->mesh) != 0) return "a ray does not show that a component is outside";
   }
   return NULL;
 }
@@ -311,7 +306,6 @@ static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
   const nsvcd_verify_mesh *m = by->mesh;
   nsvcd_verify_place of_at, by_at;
   double y[3];
-  int open;
   if (out->a >= of->mesh->vertices || of->mesh->part[out->a] == NSVCD_VERIFY_NONE)
     return "it names a corner that there is not";
   of->place(of->motion, out->time, &of_at);
@@ -319,7 +313,7 @@ static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
   verify__seen(of, &of_at, by, &by_at, out->a, y);
   const verify__extent e = verify__extent_of(of, &of_at, by, &by_at);
   if (!verify__cast(r, m, y, &e)) return "a ray passes too near to an edge";
-  return verify__wound(m, &open) != 0 ? NULL : "a ray does not show that a corner is inside";
+  return verify__wound(m) != 0 ? NULL : "a ray does not show that a corner is inside";
 }
 
 // HIT, NEAR and INSIDE: when, and what.

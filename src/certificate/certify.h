@@ -324,9 +324,8 @@ static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
       const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
       const nsvcd__d3 along = same ? c->normals[0] : ray.along;
       if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
-      int open;
-      const int sum = nsvcd__sum_of_closed(by->tree, c->sums, &open);
-      shown = sum == 0 && !open;
+      const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
+      shown = sum == 0;
       if (shown) {
         nsvcd__write_bits(c, (uint32_t)same, 1);
         if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);

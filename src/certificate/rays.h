@@ -97,12 +97,10 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
 }
 
 // Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-// *open: 1 if others have some too.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open) {
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
   const uint32_t *indices = tree->mesh.indices;
   int sum = 0;
   int any = 0;
-  *open = 0;
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
   if (!any) return 0;
   for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
@@ -115,7 +113,6 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums, int *open
         nsvcd__edges_between(tree, to, from, NULL))
       continue;
     *crossed = 0;
-    *open = 1;
   }
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
   return sum;
