@@ -192,6 +192,23 @@ static void certificates_cannot_be_forged(void) {
   CHECK_GE(accepted, tried / 1000);  // some change nothing
 }
 
+// One plane, all the while.
+static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
+                             uint8_t *out) {
+  nsvcd__certifier c;
+  const nsvcd__written_normal normal = nsvcd__normal_of(along, 8);
+  memset(&c, 0, sizeof c);
+  c.a.tree = s->a->tree;
+  c.b.tree = s->b->tree;
+  c.bytes = out;
+  c.capacity = 64;
+  nsvcd__write_head(&c, NSVCD__PROVES_FREE);
+  nsvcd__write_bits(&c, 5, 3);
+  nsvcd__write_normal(&c, NSVCD__REMEMBERED, &normal);
+  cert_forge(out, head);
+  return (c.bits + 7) / 8;
+}
+
 // Faces on faces: a rounding of float apart they are proven free, and nearer never.
 static void certificates_at_a_hair(void) {
   cert_body *box = &cert_bodies()[0];
@@ -219,6 +236,9 @@ static void certificates_at_a_hair(void) {
     CHECK_EQ(made.verdict == NSVCD_FREE, n > 0);
     cert_look(&s, &view);
     if (n > 0) CHECK(cert_check(&view, 0, bytes, made.size, &report));
+    uint8_t plane[64];
+    const size_t of_plane = cert_one_plane(&s, bytes, nsvcd__d3_of(0, 0, 1), plane);
+    CHECK_EQ(cert_check(&view, 0, plane, of_plane, &report), n > 0);
     if (n > 0) continue;
     // what proves the free one proves nothing here
     cert_scene apart = s;
@@ -232,23 +252,6 @@ static void certificates_at_a_hair(void) {
     cert_forge(head, (const uint8_t *)bytes);
     CHECK(!cert_check(&view, 0, head, of_apart.size, &report));
   }
-}
-
-// One plane, all the while.
-static size_t cert_one_plane(const cert_scene *s, const uint8_t *head, nsvcd__d3 along,
-                             uint8_t *out) {
-  nsvcd__certifier c;
-  const nsvcd__written_normal normal = nsvcd__normal_of(along, 8);
-  memset(&c, 0, sizeof c);
-  c.a.tree = s->a->tree;
-  c.b.tree = s->b->tree;
-  c.bytes = out;
-  c.capacity = 64;
-  nsvcd__write_head(&c, NSVCD__PROVES_FREE);
-  nsvcd__write_bits(&c, 5, 3);
-  nsvcd__write_normal(&c, NSVCD__REMEMBERED, &normal);
-  cert_forge(out, head);
-  return (c.bits + 7) / 8;
 }
 
 // A box turns by a quarter over another one, and is lifted, or let down: both ends are above it, the
