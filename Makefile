@@ -63,14 +63,14 @@ $(EXAMPLES): build/%: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY
 build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_file.h
 
 build/verify: examples/verify/verify.c $(VERIFIER) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -o $@ $< -lm
+	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 
 # What the module of examples/python opens.
 build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
 	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
 # What nsvcd_verify.py opens: the checker alone.
 build/_nsvcd_verify.so: examples/python/_nsvcd_verify.c $(VERIFIER) | build
-	$(CC) $(ALL_CFLAGS) -Wno-unused-function -fPIC -shared -o $@ $< -lm
+	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
 python: build/_neuralsvcd.so build/_nsvcd_verify.so  ## the libraries for examples/python
 
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
@@ -176,7 +176,7 @@ check-examples: all build/make_assets  # they run, and they say no as examples/F
 	tests/examples.sh
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
 	+CC="$(CC)" tests/packages.sh
-check-problems: build/problems build/svcd  # every set that the generator can make
+check-problems: build/problems build/svcd build/verify  # every set that the generator can make
 	tests/bench/problems.sh
 
 # The gradient, with each of these switches.

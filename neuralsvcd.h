@@ -64,6 +64,7 @@
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_ROBOTS   no joints: nsvcd_check and its kin go
+//   NSVCD_NO_CERTIFICATES  no nsvcd_certify and its kin; without triangles there are none either
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
@@ -286,6 +287,8 @@
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   tree, node        boxes over a mesh's triangles, for certificates; a run of these
+//   certificate       bytes that prove an answer; a walk over two trees and time, and rays
 //   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -1073,8 +1076,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
 //   made       not NULL
 //   allocates  nothing
-//   errors     ARGUMENT (also if there is a skin), SCALE, POSE (also a turn by 180 degrees, which
-//              could go either way), TOLERANCE, WORKSPACE
+//   errors     ARGUMENT (also if there is a skin), SCALE, POSE, TOLERANCE, WORKSPACE
 //   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
@@ -17350,11 +17352,6 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
     meant->count = 1;
   }
   if (meant->count == 1) meant->times = NULL;
-  for (size_t k = 1; k < meant->count; k++) {
-    const nsvcd__dquat from = nsvcd__pose_rotation(&meant->poses[k - 1]);
-    const double dot = nsvcd__dquat_dot(from, nsvcd__pose_rotation(&meant->poses[k]));
-    if (fabs(dot) < 1.001e-6) return NSVCD_ERROR_POSE;
-  }
   rider->tree = tree;
   rider->scale = (double)scale;
   rider->place = nsvcd__mover_place;
@@ -17809,7 +17806,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__written_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
-  nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
+  nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
   if (!known) {
     nsvcd__write_bits(c,
                       normal->bits == 8    ? 0
@@ -19281,7 +19278,7 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
     const int slides = nsvcd__slides(c->checker, link - 1);
-    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0 : 1};
+    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0.0 : 1.0};
     double p[NSVCD_MAX_DEGREE + 1];
     double most = 0;
     double speed = 0;

@@ -64,6 +64,7 @@
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
 //   NSVCD_NO_ROBOTS   no joints: nsvcd_check and its kin go
+//   NSVCD_NO_CERTIFICATES  no nsvcd_certify and its kin; without triangles there are none either
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
@@ -171,6 +172,8 @@
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   tree, node        boxes over a mesh's triangles, for certificates; a run of these
+//   certificate       bytes that prove an answer; a walk over two trees and time, and rays
 //   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H

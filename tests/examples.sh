@@ -494,6 +494,55 @@ printf 'solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nen
 expect 0 '' build/svcd info "$dir/one.STL"
 grep -q 'an STL: 1 triangle, 3 vertices' "$dir/out" || fail "svcd info of an STL: $(cat "$dir/out")"
 
+# The certificates that svcd writes, verify accepts, which reads the files and meshes by itself: free, hit, inside,
+# near; faces of many corners, STL; a sweep; plans of a robot. And what it refuses, it names.
+mkdir "$dir/certs"
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv .5 .2 0\nv 0 1 0\nv 0 0 .1\nv 1 0 .1\nv 1 1 .1\nv .5 .2 .1\nv 0 1 .1\nf 5 4 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf -8 -7 -2 -3\nf -7 -6 -1 -2\nf 5 1 6 10\n' >"$dir/arrow.obj"
+{ echo 'nsvcd-problems 1'; for mesh in mug dish_rack; do echo "mesh $mesh $PWD/examples/assets/$mesh.obj"; done
+  echo "mesh arrow arrow.obj"; echo "mesh one one.STL"
+  echo "problem high mug 1 dish_rack 1  0 0 0 0 0 0 1  0 nan 2"; echo "0 -0.4 0.3 0 0 0 1"; echo "0 0.4 0.3 0 0 0.6 0.8"
+  echo "problem low mug 1 dish_rack 1  0 0 0 0 0 0 1  1 nan 2"; echo "0 -0.4 0.3 0 0 0 1"; echo "0 0 0 0 0 0 1"
+  echo "problem within mug 0.05 arrow 1  0 0 0 0 0 0 1  1 nan 1"; echo "0.2 0.1 0.05 0 0 0 1"
+  echo "problem notch one 0.1 arrow 1  0 0 0 0 0 0 1  0 nan 2 2"; echo "0.45 0.5 0.05 0 0 0 1"; echo "0.45 0.6 0.05 0 0 1 0"
+  echo "0 0 0 0 0 0 1"; echo "0 0.1 0 0 0 0 1"
+} >"$dir/proofs.txt"
+expect 0 'certificates: 4, of 4 answers' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs"
+expect 0 '' build/verify "$dir/proofs.txt" "$dir/certs"
+for line in 'high free' 'low hit' 'within inside' 'notch free'; do
+  awk -F '\t' -v id="${line% *}" -v kind="${line#* }" '$1 == id && $2 == "accepted" && $3 == kind && $4 > 5 && NF == 5 { found++ }
+    END { exit found != 1 }' "$dir/out" || fail "verify of $line says: $(cat "$dir/out")"
+done
+expect 1 '' build/verify "$dir/proofs.txt" "$dir/certs" --clearance 0.001
+test "$(grep -c '	refused	it is about another motion, scale or clearance, at byte 5	' "$dir/out")" = 4 || fail "another clearance: $(cat "$dir/out")"
+sed 's/0 -0.4 0.3 0/0 -0.4 0.31 0/' "$dir/proofs.txt" >"$dir/moved.txt"
+expect 1 '' build/verify "$dir/moved.txt" "$dir/certs"
+test "$(grep -c '	refused	it is about another motion' "$dir/out")" = 2 || fail "another motion: $(cat "$dir/out")"
+cp "$dir/certs/high.cert" "$dir/certs/low.cert"
+expect 1 '' build/verify "$dir/proofs.txt" "$dir/certs"
+rm "$dir/certs/low.cert"
+expect 1 '' build/verify "$dir/proofs.txt" "$dir/certs"
+grep -q '^low	refused	there is no certificate	' "$dir/out" || fail "no certificate: $(cat "$dir/out")"
+expect 0 '' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --clearance 0.02
+expect 0 '' build/verify "$dir/proofs.txt" "$dir/certs" --clearance 0.02
+expect 0 '' build/svcd sweep "$PWD/examples/assets/mug.obj" "$PWD/examples/assets/dish_rack.obj" --rotate z,100 --certificate "$dir/sweep.cert"
+expect 0 '' build/verify "$dir/sweep.txt" "$dir"
+grep -q '^sweep	accepted	hit	' "$dir/out" || fail "a sweep's certificate: $(cat "$dir/out")"
+expect 2 'ends in .cert' build/svcd sweep a.obj b.obj --certificate x.txt
+expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
+expect 1 'No such file' build/svcd check "$dir/proofs.txt" --certificates "$dir/no folder"
+expect 2 'FILE.txt FOLDER' build/verify
+printf 'nsvcd-problems 1\nmesh m bad_index.obj\n' >"$dir/bad_index.txt"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$dir/bad_index.obj"
+expect 2 'none.txt: No such file' build/verify "$dir/none.txt" "$dir"
+expect 2 'index out of range\|index is out of range' build/verify "$dir/bad_index.txt" "$dir"
+expect 0 '' build/svcd plan "$dir/robot.txt" --only up,turned --certificates "$dir/certs"
+expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
+test "$(grep -c '	accepted	free	' "$dir/out")" = 2 || fail "plans: $(cat "$dir/out")"
+grep -q '^stuck	refused	there is no certificate	' "$dir/out" || fail "a plan without one: $(cat "$dir/out")"
+mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
+expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
+grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"
+
 # Usage.
 expect 2 'svcd check' build/svcd
 expect 2 "no command 'frobnicate'" build/svcd frobnicate

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The header alone: every standard and compiler at hand with strict warnings, included twice; then what it leaves in the
+# The header alone, and the checker of certificates: every standard and compiler at hand with strict warnings, included twice; then what it leaves in the
 # namespace (functions, macros) and whether it has mutable data. Ends with 1 at the first thing that is wrong.
 set -eu
 strict="-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wcast-qual -Wdouble-promotion -Werror"
@@ -14,6 +14,8 @@ cat >"$dir/twice.c" <<END
 #include "$here/neuralsvcd.h"
 #include "$here/neuralsvcd.h"
 END
+printf '#include "%s/examples/verify/nsvcd_verify_robot.h"\n' "$here" "$here" >"$dir/checker.c"
+cp "$dir/checker.c" "$dir/checker.cc"
 printf '#include "%s/neuralsvcd.h"\n' "$here" >"$dir/user.c"  # declarations only, in a second file
 cp "$dir/twice.c" "$dir/twice.cc"
 cp "$dir/user.c" "$dir/user.cc"
@@ -25,6 +27,7 @@ fail() {
 compile() {  # compiler, suffix, standard, further flags
   "$1" "-std=$3" $strict $4 -c "$dir/twice.$2" -o "$dir/twice.o" || fail "$1 -std=$3 $4"
   "$1" "-std=$3" $strict -fsyntax-only "$dir/user.$2" || fail "$1 -std=$3, declarations"
+  "$1" "-std=$3" $strict $4 -c "$dir/checker.$2" -o "$dir/checker.o" || fail "$1 -std=$3 $4, the checker"
   echo "header: $1 -std=$3 $4"
 }
 
@@ -67,6 +70,8 @@ else
   echo "header: no clang 14: -Weverything not tested"
 fi
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_STDIO -O0"
+compile "${CC:-cc}" c c99 "-DNSVCD_NO_CERTIFICATES -O0"
+compile "${CC:-cc}" c c99 "-DNSVCD_NO_PROOF -O0"
 compile "${CC:-cc}" c c99 "-DNSVCD_NO_ENCODER -DNSVCD_NO_OBJ -O2"
 ! nm "$dir/twice.o" | grep -E ' U .*(alloc|free|brk|mmap)' >&2 || fail "a query can allocate"
 compile "${CC:-cc}" c c99 "-Dnear= -Dfar= -O0"  # as windows.h does

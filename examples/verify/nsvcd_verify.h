@@ -53,8 +53,8 @@ typedef struct verify__visit {
 // ---- planes
 
 // The most of n.(s R x) over a node.
-static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
-                           const double *turn, const double *n, int exact) {
+static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
+                                  const double *turn, const double *n, int exact) {
   const nsvcd_verify_mesh *m = mover->mesh;
   const float *low = m->boxes + 6 * (size_t)node->box;
   double way[3], most = 0;
@@ -73,7 +73,7 @@ static double verify__most(const nsvcd_verify_mover *mover, const nsvcd_verify_n
 }
 
 // Does the plane of the last normal part two nodes at all instants and between them?
-static int verify__parts(const verify__reader *r, const verify__visit *v, int exact) {
+static inline int verify__parts(const verify__reader *r, const verify__visit *v, int exact) {
   const double *n = r->normals[0];
   const double back[3] = {-n[0], -n[1], -n[2]};
   const double length = sqrt(verify__dot(n, n));
@@ -98,7 +98,7 @@ static int verify__parts(const verify__reader *r, const verify__visit *v, int ex
 // ---- the walk
 
 // Places both bodies at t0, at t1, and at all knots between. 0: there is no room.
-static int verify__place(verify__reader *r, double t0, double t1) {
+static inline int verify__place(verify__reader *r, double t0, double t1) {
   double t = t0;
   for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
     verify__instant *at = &r->instants[r->count++];
@@ -114,7 +114,7 @@ static int verify__place(verify__reader *r, double t0, double t1) {
 }
 
 // The longest side of a node's box.
-static double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
+static inline double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double most = 0;
   for (int i = 0; i < 3; i++) most = verify__max(most, (double)low[i + 3] - (double)low[i]);
@@ -122,7 +122,7 @@ static double verify__side(const nsvcd_verify_mover *mover, const nsvcd_verify_n
 }
 
 // Puts two visits in place of one: v, and the one after it on the stack, which comes first.
-static int verify__open(const verify__reader *r, verify__visit *v) {
+static inline int verify__open(const verify__reader *r, verify__visit *v) {
   const int longer = verify__side(r->a, &v->a) >= verify__side(r->b, &v->b);
   const int opens_a = v->b.count == 1 || (v->a.count > 1 && longer);
   nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
@@ -135,7 +135,7 @@ static int verify__open(const verify__reader *r, verify__visit *v) {
   return 1;
 }
 
-static const char *verify__walk(verify__reader *r) {
+static inline const char *verify__walk(verify__reader *r) {
   verify__visit stack[VERIFY__STACK];
   size_t height = 1;
   memset(stack, 0, sizeof *stack);
@@ -181,7 +181,7 @@ static const char *verify__walk(verify__reader *r) {
 #define NSVCD_VERIFY_WORKSPACE_BYTES(knots) ((knots) * sizeof(verify__instant))
 
 // Eight or 16 bits of a digest.
-static uint32_t verify__fold(uint32_t digest, int bits) {
+static inline uint32_t verify__fold(uint32_t digest, int bits) {
   digest ^= digest >> 16;
   return bits == 16 ? digest & 0xffff : (digest ^ digest >> 8) & 0xff;
 }
@@ -190,9 +190,9 @@ static uint32_t verify__fold(uint32_t digest, int bits) {
 // metres? 1: what report->kind says. 0: report->reason says why not. The workspace is aligned to 8
 // bytes; threads that share a mesh take turns, for rays write to it. Takes the certificate's length
 // times the knots, and for each ray the triangles.
-static int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b, float clearance,
-                        const uint8_t *bytes, size_t size, void *workspace, size_t workspace_size,
-                        nsvcd_verify_report *report) {
+static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b,
+                               float clearance, const uint8_t *bytes, size_t size, void *workspace,
+                               size_t workspace_size, nsvcd_verify_report *report) {
   const uint32_t motion = verify__hash(a->digest + 31 * b->digest, &clearance, 1);
   verify__reader reader;
   verify__reader *r = &reader;

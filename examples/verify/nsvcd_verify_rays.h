@@ -42,7 +42,7 @@ typedef struct verify__reader {
 // ---- reading
 
 // The next bits, the highest of a byte first. Past the end they are 0, and r->at exceeds r->bits.
-static uint32_t verify__read(verify__reader *r, int count) {
+static inline uint32_t verify__read(verify__reader *r, int count) {
   uint32_t out = 0;
   for (; count > 0; count--, r->at++) {
     const int more = r->at < r->bits;
@@ -55,7 +55,7 @@ static uint32_t verify__read(verify__reader *r, int count) {
 // one, 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
 // octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It
 // becomes the last.
-static void verify__read_normal(verify__reader *r) {
+static inline void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
   while (k < 8 && !verify__read(r, 1)) k++;
@@ -74,20 +74,21 @@ static void verify__read_normal(verify__reader *r) {
   memcpy(r->normals[0], n, sizeof n);
 }
 
-static double verify__dot(const double *a, const double *b) {
+static inline double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // No point of a node is farther from its body's origin. A root of a float is off by 1e-7.
-static double verify__radius(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node) {
+static inline double verify__radius(const nsvcd_verify_mover *mover,
+                                    const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
   for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
   return 1.000001 * mover->scale * (double)sqrtf((float)verify__dot(corner, corner));
 }
 
-static double verify__lengths(double radii, const nsvcd_verify_place *a,
-                              const nsvcd_verify_place *b) {
+static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
+                                     const nsvcd_verify_place *b) {
   for (int i = 0; i < 3; i++) radii += fabs(a->at[i]) + fabs(b->at[i]);
   return radii;
 }
@@ -95,9 +96,9 @@ static double verify__lengths(double radii, const nsvcd_verify_place *a,
 // ---- rays
 
 // A vertex of one mover in the frame of another, in units of its scale.
-static void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
-                         const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at,
-                         uint32_t vertex, double *out) {
+static inline void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify_place *of_at,
+                                const nsvcd_verify_mover *by, const nsvcd_verify_place *by_at,
+                                uint32_t vertex, double *out) {
   const float *x = of->mesh->positions + 3 * (size_t)vertex;
   double world[3];
   for (int i = 0; i < 3; i++) {
@@ -120,8 +121,8 @@ typedef struct verify__extent {
 
 // Does a ray from y along d leave (1) or enter (-1) through a triangle, or miss it (0)? 2: that is
 // not clear, by the margin.
-static int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
-                           const double *d, const verify__extent *e) {
+static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
+                                  const double *d, const verify__extent *e) {
   const double along = e->margin * sqrt(verify__dot(d, d));
   double p[3][3], cross[3], ahead = -HUGE_VAL, least = HUGE_VAL, most = -HUGE_VAL;
   for (uint32_t k = 0; k < 3; k++) {
@@ -147,7 +148,8 @@ static int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const 
 }
 
 // Does the line of a ray miss a box by a margin? If something across both of them parts them.
-static int verify__misses(const float *box, const double *y, const double *d, double margin) {
+static inline int verify__misses(const float *box, const double *y, const double *d,
+                                 double margin) {
   const double most = margin * sqrt(verify__dot(d, d));
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
@@ -163,8 +165,8 @@ static int verify__misses(const float *box, const double *y, const double *d, do
 }
 
 // Sums what a ray of the last normal crosses of a mesh, by components. 0: it is not clear.
-static int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, const double *y,
-                        const verify__extent *e) {
+static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, const double *y,
+                               const verify__extent *e) {
   const double *d = r->normals[0];
   nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
   size_t height = 1;
@@ -187,7 +189,7 @@ static int verify__cast(const verify__reader *r, const nsvcd_verify_mesh *m, con
 }
 
 // The sum over closed components: those of which each edge has as many reverses.
-static int64_t verify__wound(const nsvcd_verify_mesh *m) {
+static inline int64_t verify__wound(const nsvcd_verify_mesh *m) {
   int64_t sum = 0;
   int any = 0;
   for (size_t v = 0; v < m->vertices; v++) any |= m->sums[v];
@@ -202,10 +204,10 @@ static int64_t verify__wound(const nsvcd_verify_mesh *m) {
   return sum;
 }
 
-static verify__extent verify__extent_of(const nsvcd_verify_mover *of,
-                                        const nsvcd_verify_place *of_at,
-                                        const nsvcd_verify_mover *by,
-                                        const nsvcd_verify_place *by_at) {
+static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
+                                               const nsvcd_verify_place *of_at,
+                                               const nsvcd_verify_mover *by,
+                                               const nsvcd_verify_place *by_at) {
   const nsvcd_verify_node root = {0, 0, 2};
   const double offset[3] = {of_at->at[0] - by_at->at[0], of_at->at[1] - by_at->at[1],
                             of_at->at[2] - by_at->at[2]};
@@ -219,8 +221,8 @@ static verify__extent verify__extent_of(const nsvcd_verify_mover *of,
 }
 
 // Rays from all components of one mover at t = 0.
-static const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *of,
-                                   const nsvcd_verify_mover *by) {
+static inline const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *of,
+                                          const nsvcd_verify_mover *by) {
   nsvcd_verify_place of_at, by_at;
   of->place(of->motion, 0, &of_at);
   by->place(by->motion, 0, &by_at);
@@ -247,18 +249,19 @@ typedef struct verify__pair {
 } verify__pair;
 
 // A corner of the triangle of one of them, in the frame of another.
-static void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t k, double *out) {
+static inline void verify__corner_seen(const verify__pair *p, int of, int by, uint32_t k,
+                                       double *out) {
   const uint32_t vertex = p->mover[of]->mesh->indices[3 * (size_t)p->triangle[of] + k];
   verify__seen(p->mover[of], &p->at[of], p->mover[by], &p->at[by], vertex, out);
 }
 
-static verify__extent verify__extent_in(const verify__pair *p, int of, int by) {
+static inline verify__extent verify__extent_in(const verify__pair *p, int of, int by) {
   return verify__extent_of(p->mover[of], &p->at[of], p->mover[by], &p->at[by]);
 }
 
 // Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
 // both of its ends to the other end.
-static const char *verify__pierced(verify__reader *r, const verify__pair *p) {
+static inline const char *verify__pierced(verify__reader *r, const verify__pair *p) {
   const int of = (int)verify__read(r, 1);
   const uint32_t edge = verify__read(r, 2);
   const nsvcd_verify_mesh *m = p->mover[!of]->mesh;
@@ -279,7 +282,7 @@ static const char *verify__pierced(verify__reader *r, const verify__pair *p) {
 
 // A point of each triangle, by two numbers of 16 bits: shares of the way from its first corner to
 // the second, and from there to the third.
-static const char *verify__near(verify__reader *r, const verify__pair *p) {
+static inline const char *verify__near(verify__reader *r, const verify__pair *p) {
   double apart[3] = {0, 0, 0};
   for (int k = 0; k < 2; k++) {
     const double v = (double)verify__read(r, 16) / 65535;
@@ -297,7 +300,7 @@ static const char *verify__near(verify__reader *r, const verify__pair *p) {
 }
 
 // Whose corner, which, and a ray. Only components count of which each edge has as many reverses.
-static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
+static inline const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
   out->b = verify__read(r, 1);
   out->a = verify__read(r, 32);
   verify__read_normal(r);
@@ -317,8 +320,8 @@ static const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
 }
 
 // HIT, NEAR and INSIDE: when, and what.
-static const char *verify__meeting(verify__reader *r, nsvcd_verify_kind kind,
-                                   nsvcd_verify_report *out) {
+static inline const char *verify__meeting(verify__reader *r, nsvcd_verify_kind kind,
+                                          nsvcd_verify_report *out) {
   verify__pair p;
   out->time = (double)verify__read(r, 32) / 4294967295.0;
   if (kind == NSVCD_VERIFY_INSIDE) return verify__inside(r, out);

@@ -44,11 +44,11 @@ typedef struct nsvcd_verify_part {
   float pose[7];        // in its link
 } nsvcd_verify_part;
 
-static double verify__piece_end(const nsvcd_verify_motion *m, size_t piece) {
+static inline double verify__piece_end(const nsvcd_verify_motion *m, size_t piece) {
   return (m->times[piece] - m->times[0]) / (m->times[m->pieces] - m->times[0]);
 }
 
-static size_t verify__piece(const nsvcd_verify_motion *m, double t) {
+static inline size_t verify__piece(const nsvcd_verify_motion *m, double t) {
   size_t low = 0;
   size_t high = m->pieces;
   while (high > low + 1) {
@@ -62,8 +62,8 @@ static size_t verify__piece(const nsvcd_verify_motion *m, double t) {
 }
 
 // The points of a joint's curve from one time to another, both in a piece (de Casteljau).
-static void verify__curve(const nsvcd_verify_motion *m, size_t joint, size_t piece, double t0,
-                          double t1, double *p) {
+static inline void verify__curve(const nsvcd_verify_motion *m, size_t joint, size_t piece,
+                                 double t0, double t1, double *p) {
   const double start = verify__piece_end(m, piece);
   const double whole = verify__piece_end(m, piece + 1) - start;
   const double to = verify__min((t1 - start) / whole, 1);
@@ -77,7 +77,7 @@ static void verify__curve(const nsvcd_verify_motion *m, size_t joint, size_t pie
 }
 
 // place becomes what a frame does to it: m place + at.
-static void verify__lift_into(const double *m, const float *at, nsvcd_verify_place *place) {
+static inline void verify__lift_into(const double *m, const float *at, nsvcd_verify_place *place) {
   const nsvcd_verify_place old = *place;
   for (int i = 0; i < 3; i++) {
     place->at[i] = verify__dot(m + 3 * i, old.at) + (at ? (double)at[i] : 0);
@@ -87,7 +87,7 @@ static void verify__lift_into(const double *m, const float *at, nsvcd_verify_pla
   }
 }
 
-static void verify__part_place(const void *motion, double t, nsvcd_verify_place *out) {
+static inline void verify__part_place(const void *motion, double t, nsvcd_verify_place *out) {
   const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
   const nsvcd_verify_motion *m = part->motion;
   const size_t piece = verify__piece(m, t);
@@ -116,18 +116,18 @@ static void verify__part_place(const void *motion, double t, nsvcd_verify_place 
   }
 }
 
-static double verify__part_next(const void *motion, double t) {
+static inline double verify__part_next(const void *motion, double t) {
   const nsvcd_verify_motion *m = ((const nsvcd_verify_part *)motion)->motion;
   return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;
 }
 
-static double verify__offset(const float *at) {
+static inline double verify__offset(const float *at) {
   return sqrt((double)at[0] * (double)at[0] + (double)at[1] * (double)at[1] +
               (double)at[2] * (double)at[2]);
 }
 
 // All in pairs: what does not depend on r, and what goes with it.
-static void verify__part_stray(const void *motion, double t0, double t1, double *stray) {
+static inline void verify__part_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
   const nsvcd_verify_motion *m = part->motion;
   const size_t piece = verify__piece(m, 0.5 * (t0 + t1));
@@ -137,7 +137,7 @@ static void verify__part_stray(const void *motion, double t0, double t1, double 
   stray[0] = stray[1] = 0;
   for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
     const nsvcd_verify_joint *joint = &m->joints[link - 1];
-    const double lever[2] = {joint->slides ? 1 : reach, joint->slides ? 0 : 1};
+    const double lever[2] = {joint->slides ? 1 : reach, joint->slides ? 0.0 : 1.0};
     double p[NSVCD_VERIFY_DEGREE + 1];
     double most = 0, speed = 0, bend = 0;
     verify__curve(m, link - 1, piece, t0, t1, p);
@@ -156,7 +156,7 @@ static void verify__part_stray(const void *motion, double t0, double t1, double 
 }
 
 // The deepest link that carries two others.
-static uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_t a, uint32_t b) {
+static inline uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_t a, uint32_t b) {
   while (a != b) {
     if (a > b)
       a = m->joints[a - 1].parent;
@@ -166,7 +166,7 @@ static uint32_t nsvcd_verify_common(const nsvcd_verify_motion *m, uint32_t a, ui
   return a;
 }
 
-static int verify__is_pose(const float *pose) {
+static inline int verify__is_pose(const float *pose) {
   double square = 0;
   for (int i = 0; i < 7; i++) {
     if (!(fabsf(pose[i]) <= 1e6f)) return 0;
@@ -176,7 +176,7 @@ static int verify__is_pose(const float *pose) {
 }
 
 // Checks joints and their motion. Returns why not, or NULL.
-static const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m) {
+static inline const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m) {
   if (m->joint_count < 1 || m->joint_count > NSVCD_VERIFY_JOINTS) return "no joints, or too many";
   if (m->pieces < 1 || m->pieces > 65536 || m->degree < 1 || m->degree > NSVCD_VERIFY_DEGREE)
     return "a motion has no pieces, or too many, or of another degree";
@@ -208,9 +208,9 @@ static const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m) {
 
 // Makes a mover of a mesh, a scale and a part of a motion that has been checked, all of which stay.
 // Returns why not, or NULL.
-static const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, float scale,
-                                          const nsvcd_verify_part *part,
-                                          nsvcd_verify_mover *mover) {
+static inline const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, float scale,
+                                                 const nsvcd_verify_part *part,
+                                                 nsvcd_verify_mover *mover) {
   const nsvcd_verify_motion *m = part->motion;
   if (!(scale >= 1e-6f && scale <= 1e6f)) return "a scale is out of range";
   if (!verify__is_pose(part->pose)) return "a part is at no pose";

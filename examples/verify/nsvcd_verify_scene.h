@@ -50,7 +50,9 @@ typedef struct nsvcd_verify_mover {
   uint32_t digest;  // of scale and motion
 } nsvcd_verify_mover;
 
-// Between two poses the position is linear and the rotation a slerp, the shorter way round.
+// Between two poses the position is linear and the rotation a slerp, the shorter way round. Both
+// ways are as long, to a rounding, where the turn is one of 180 degrees: the sign of x x' + y y' +
+// z z' + w w' decides, summed so in double, of which the products are exact.
 typedef struct nsvcd_verify_path {
   const float *poses;  // (count, 7): x y z, and a unit quaternion x y z w
   const float *times;  // (count) from 0 to 1, rising; NULL: uniform
@@ -58,14 +60,14 @@ typedef struct nsvcd_verify_path {
 } nsvcd_verify_path;
 
 // Of two numbers; fmin and fmax, which look for NaN, are calls.
-static double verify__min(double a, double b) {
+static inline double verify__min(double a, double b) {
   return a < b ? a : b;
 }
-static double verify__max(double a, double b) {
+static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
 
-static uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
+static inline uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
   for (size_t i = 0; i < count; i++) {
     uint32_t word;
     memcpy(&word, (const char *)words + 4 * i, 4);
@@ -77,24 +79,24 @@ static uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
 
 // ---- meshes
 
-static const float *verify__corner(const nsvcd_verify_mesh *m, size_t triangle, size_t k) {
+static inline const float *verify__corner(const nsvcd_verify_mesh *m, size_t triangle, size_t k) {
   return m->positions + 3 * (size_t)m->indices[3 * triangle + k];
 }
 
-static double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
+static inline double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
   const double sum =
       (double)verify__corner(m, triangle, 0)[axis] + (double)verify__corner(m, triangle, 1)[axis];
   return sum + (double)verify__corner(m, triangle, 2)[axis];
 }
 
-static int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
+static inline int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
   const double x = verify__sum(m, i, axis);
   const double y = verify__sum(m, j, axis);
   return x < y || (!(y < x) && i < j);
 }
 
 // Makes a node's box, and cuts it: puts the triangles of its left child first (Hoare's selection).
-static void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
+static inline void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
   uint32_t *order = m->order + node->first;
   float *low = m->boxes + 6 * (size_t)node->box;
   float *high = low + 3;
@@ -135,7 +137,7 @@ static void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *node) {
   }
 }
 
-static void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *child) {
+static inline void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *child) {
   const uint32_t half = node->count / 2;
   const nsvcd_verify_node left = {node->box + 1, node->first, half};
   const nsvcd_verify_node right = {node->box + 2 * half, node->first + half, node->count - half};
@@ -143,13 +145,13 @@ static void verify__children(const nsvcd_verify_node *node, nsvcd_verify_node *c
   child[1] = right;
 }
 
-static int verify__same(const float *x, const float *y) {
+static inline int verify__same(const float *x, const float *y) {
   return !(x[0] < y[0] || x[0] > y[0] || x[1] < y[1] || x[1] > y[1] || x[2] < y[2] || x[2] > y[2]);
 }
 
 // How many edges go from one place to another? *lowest: the lowest vertex at the first.
-static int verify__edges_from(const nsvcd_verify_mesh *m, const float *from, const float *to,
-                              uint32_t *lowest) {
+static inline int verify__edges_from(const nsvcd_verify_mesh *m, const float *from, const float *to,
+                                     uint32_t *lowest) {
   nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
   size_t height = 1;
   int count = 0;
@@ -175,24 +177,24 @@ static int verify__edges_from(const nsvcd_verify_mesh *m, const float *from, con
   return count;
 }
 
-static int verify__edges(const nsvcd_verify_mesh *m, const float *from, const float *to) {
+static inline int verify__edges(const nsvcd_verify_mesh *m, const float *from, const float *to) {
   uint32_t lowest = NSVCD_VERIFY_NONE;
   return verify__edges_from(m, from, to, &lowest);
 }
 
-static uint32_t verify__root(uint32_t *part, uint32_t v) {
+static inline uint32_t verify__root(uint32_t *part, uint32_t v) {
   while (part[v] != v) v = part[v] = part[part[v]];
   return v;
 }
 
-static void verify__unite(uint32_t *part, uint32_t v, uint32_t w) {
+static inline void verify__unite(uint32_t *part, uint32_t v, uint32_t w) {
   const uint32_t x = verify__root(part, v);
   const uint32_t y = verify__root(part, w);
   part[x > y ? x : y] = x > y ? y : x;
 }
 
 // Finds the components: joins the corners of triangles, and vertices at the same place.
-static void verify__join(nsvcd_verify_mesh *m) {
+static inline void verify__join(nsvcd_verify_mesh *m) {
   const size_t corners = 3 * m->triangles;
   for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
   for (size_t i = 0; i < corners; i++) m->part[m->indices[i]] = m->indices[i];
@@ -213,9 +215,9 @@ static void verify__join(nsvcd_verify_mesh *m) {
 
 // Checks a mesh and builds its tree, in memory aligned to 4 bytes that stays, as the arrays do.
 // Returns why not, or NULL. Takes its triangles times the logarithm of their number.
-static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertices,
-                                          const uint32_t *indices, size_t triangles, void *memory,
-                                          nsvcd_verify_mesh *m) {
+static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t vertices,
+                                                 const uint32_t *indices, size_t triangles,
+                                                 void *memory, nsvcd_verify_mesh *m) {
   nsvcd_verify_node stack[VERIFY__LEVELS];
   size_t height = 1;
   if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000)
@@ -252,12 +254,12 @@ static const char *nsvcd_verify_mesh_init(const float *positions, size_t vertice
 
 // ---- paths
 
-static double verify__knot(const nsvcd_verify_path *p, size_t k) {
+static inline double verify__knot(const nsvcd_verify_path *p, size_t k) {
   return p->times ? (double)p->times[k] : (double)k / (double)(p->count - 1);
 }
 
 // The last pose, but for the last one, that is not after a time.
-static size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
+static inline size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
   size_t low = 0;
   size_t high = p->count - 1;
   while (high > low + 1) {
@@ -271,12 +273,12 @@ static size_t verify__pose_before(const nsvcd_verify_path *p, double t) {
 }
 
 // The share of the way from pose k to the next one between two times, which may be t0 = knot k.
-static double verify__share(const nsvcd_verify_path *p, size_t k, double t0, double t1) {
+static inline double verify__share(const nsvcd_verify_path *p, size_t k, double t0, double t1) {
   return p->count > 1 ? (t1 - t0) / (verify__knot(p, k + 1) - verify__knot(p, k)) : 0;
 }
 
 // The quaternions of pose k and the next one, unit, on the same side, and the angle of the turn.
-static double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, double *to) {
+static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, double *to) {
   const float *a = p->poses + 7 * k + 3;
   const float *b = p->count > 1 ? a + 7 : a;
   double dot = 0, square_a = 0, square_b = 0, apart = 0, together = 0;
@@ -297,7 +299,7 @@ static double verify__turn(const nsvcd_verify_path *p, size_t k, double *from, d
 }
 
 // The rotation matrix of a quaternion of any length.
-static void verify__matrix(const double *q, double *m) {
+static inline void verify__matrix(const double *q, double *m) {
   const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
@@ -308,7 +310,7 @@ static void verify__matrix(const double *q, double *m) {
   }
 }
 
-static void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
+static inline void verify__path_place(const void *motion, double t, nsvcd_verify_place *out) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, t);
   const double u = verify__share(p, k, p->count > 1 ? verify__knot(p, k) : 0, t);
@@ -323,13 +325,13 @@ static void verify__path_place(const void *motion, double t, nsvcd_verify_place 
   verify__matrix(q, out->turn);
 }
 
-static double verify__path_next(const void *motion, double t) {
+static inline double verify__path_next(const void *motion, double t) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   return p->count > 1 ? verify__knot(p, verify__pose_before(p, t) + 1) : 1;
 }
 
 // At a constant rate a turn by h has a second derivative of h^2 r, and a stray of an eighth of it.
-static void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
+static inline void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, 0.5 * (t0 + t1));
   double from[4], to[4];
@@ -338,10 +340,10 @@ static void verify__path_stray(const void *motion, double t0, double t1, double 
   stray[1] = 0.1250001 * h * h;
 }
 
-// Makes a mover of a mesh, a scale and a path, which stay. Returns why not, or NULL. A turn by 180
-// degrees has no shorter way round.
-static const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, float scale,
-                                          const nsvcd_verify_path *p, nsvcd_verify_mover *mover) {
+// Makes a mover of a mesh, a scale and a path, which stay. Returns why not, or NULL.
+static inline const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, float scale,
+                                                 const nsvcd_verify_path *p,
+                                                 nsvcd_verify_mover *mover) {
   const int timed = p->times && p->count > 1;
   if (p->count < 1 || p->count > 65536) return "a path has no poses, or too many";
   if (!(scale >= 1e-6f && scale <= 1e6f)) return "a scale is out of range";
@@ -350,13 +352,9 @@ static const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, float s
   }
   for (size_t k = 0; k < p->count; k++) {
     const float *q = p->poses + 7 * k + 3;
-    double square = 0, dot = k > 0 ? 0 : 1;
-    for (int i = 0; i < 4; i++) {
-      square += (double)q[i] * (double)q[i];
-      if (k > 0) dot += (double)q[i] * (double)q[i - 7];
-    }
+    double square = 0;
+    for (int i = 0; i < 4; i++) square += (double)q[i] * (double)q[i];
     if (!(fabs(square - 1) < 2.1e-4)) return "a quaternion is not of unit length";
-    if (!(fabs(dot) > 1e-6)) return "a turn is one of 180 degrees";
     if (timed && k > 0 && !((double)p->times[k] - (double)p->times[k - 1] >= 0.99e-7))
       return "times do not rise";
   }

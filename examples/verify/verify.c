@@ -71,12 +71,6 @@ static int check(const char *folder, const char *id, const side *a, const side *
   return accepted;
 }
 
-static void prepare(const char *path, const nsvcd_verify_mesh *mesh, const char *scale, side *s) {
-  const char *why =
-      nsvcd_verify_path_init(mesh, (float)number_of(path, scale), &s->path, &s->mover);
-  if (why) fail(path, why);
-}
-
 // problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT [FIXED_COUNT]
 static int check_problem(const char *path, char **text, char **words, size_t count,
                          const list *meshes, const char *folder, float clearance) {
@@ -91,9 +85,13 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
   b.path.poses = poses + 7 * poses_a;  // of one that rests the pose of the line itself, behind
   b.path.count = poses_b > 0 ? poses_b : 1;
   a.path.times = b.path.times = NULL;
-  prepare(path, mesh_named(path, meshes, words[2]), words[3], &a);
-  prepare(path, mesh_named(path, meshes, words[4]), words[5], &b);
-  const int accepted = check(folder, words[1], &a, &b, clearance);
+  const float scales[2] = {(float)number_of(path, words[3]), (float)number_of(path, words[5])};
+  const char *why =
+      nsvcd_verify_path_init(mesh_named(path, meshes, words[2]), scales[0], &a.path, &a.mover);
+  if (!why)
+    why = nsvcd_verify_path_init(mesh_named(path, meshes, words[4]), scales[1], &b.path, &b.mover);
+  if (why) printf("%s\trefused\t%s\t0\t0\n", words[1], why);
+  const int accepted = !why && check(folder, words[1], &a, &b, clearance);
   free(poses);
   return accepted;
 }

@@ -3,6 +3,7 @@
 const METHODS = {proof: 1, network: 2};  // nsvcd_method
 const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict
 const BY = {PROOF: 0, NETWORK: 1};  // nsvcd_by
+const WHY = {NOTHING: 0, TOO_NEAR: 1, WORK: 2};  // nsvcd_why
 
 // Compiles the module. What it returns throws an Error with `line` where the library says no.
 async function createLibrary(bytes) {
@@ -40,10 +41,13 @@ async function createLibrary(bytes) {
     const [size, patches] = words(at, 2);
     return {size, patches, centre: [...floats(at + 8, 3)], radius: floats(at + 20, 1)[0]};
   }
-  // Asks so many times; answer() is the last one's.
-  function sweep({motion, scales, first, clearance, method}, times) {
+  function setMotion(motion) {
     const poses = motion.flatMap(({position, rotation}) => [...position, ...rotation]);
     floats(c.web_motion(), 14).set(poses);
+  }
+  // Asks so many times; answer() is the last one's.
+  function sweep({motion, scales, first, clearance, method}, times) {
+    setMotion(motion);
     check(c.web_sweep(...scales, first, clearance, METHODS[method], times));
   }
   // nsvcd_answer.
@@ -65,5 +69,13 @@ async function createLibrary(bytes) {
       opinion: {logit: f[94]},
     };
   }
-  return {encode, mesh, facts, sweep, answer};
+  // nsvcd_certificate of the last answer, and its bytes, copied.
+  function certify({motion, scales, clearance}) {
+    setMotion(motion);
+    check(c.web_certify(...scales, clearance));
+    const w = words(c.web_certificate(), 7);
+    const at = c.web_proof();
+    return {verdict: w[0], why: w[1], bytes: new Uint8Array(c.memory.buffer).slice(at, at + w[6])};
+  }
+  return {encode, mesh, facts, sweep, answer, certify};
 }

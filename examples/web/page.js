@@ -136,6 +136,79 @@ function ask(milliseconds, batches) {
   showAnswer();
 }
 
+// ---- the proof, to take away
+
+let proofFiles = null;  // [name, bytes] each; null where there is no proof of the answer
+
+const encoded = (text) => new TextEncoder().encode(text);
+
+function showProof(why) {
+  find('save').disabled = !proofFiles;
+  find('save').title = why;
+  show('save', proofFiles ? `Save the proof, ${proofFiles[0][1].length} bytes` : 'Save the proof');
+}
+
+// The numbers of a pose in a problem file, and what its reader takes them for.
+const written = ({position, rotation}) => [...position, ...rotation].map((x) => +x.toPrecision(9));
+function asRead(numbers) {
+  const rotation = numbers.slice(3);
+  const length = Math.sqrt(rotation.reduce((sum, x) => sum + x * x, 0));
+  return {position: numbers.slice(0, 3), rotation: rotation.map((x) => x / length)};
+}
+
+// Makes it, and says what it is, or why there is none.
+function prove() {
+  if (answer?.by !== BY.PROOF || answer.verdict === VERDICT.UNDECIDED)
+    return 'Only what is proven, free or a hit, can be saved';
+  const poses = motion.map(written);
+  const asked = {...question(), motion: poses.map(asRead)};
+  let made;
+  try {
+    made = library.certify(asked);
+  } catch (error) {
+    return error.message;
+  }
+  if (made.verdict !== answer.verdict)
+    return made.verdict ? 'They come so near that a certificate says the contrary' :
+      made.why === WHY.WORK ? 'A certificate is more work than allowed' :
+        'They touch, or come too near for a certificate';
+  const [a, b] = asked.scales;
+  const clearance = asked.clearance ? ` --clearance ${asked.clearance}` : '';
+  const lines = [`nsvcd-problems 1  # build/verify proof.txt .${clearance}`,
+    ...bodies.map(({name}, i) => `mesh ${'AB'[i]} ${'ab'[i]}.obj  # ${name.replace(/\s/g, ' ')}`),
+    `problem proof A ${a} B ${b}  0 0 0  0 0 0 1  -1 nan 2`,
+    ...poses.map((numbers) => numbers.join(' '))];
+  proofFiles = [['proof.cert', made.bytes], ['proof.txt', encoded(`${lines.join('\n')}\n`)],
+    ['a.obj', bodies[0].obj], ['b.obj', bodies[1].obj]];
+  return 'proof.tar: a certificate for build/verify, the motion and both meshes. That of a hit ' +
+    'proves one, not that it is the first';
+}
+
+// A tar file.
+function pack(files) {
+  const blocks = files.flatMap(([name, bytes]) => {
+    const header = new Uint8Array(512);
+    const put = (at, text) => header.set(encoded(text), at);
+    const octal = (number, digits) => number.toString(8).padStart(digits, '0');
+    put(0, name);
+    put(100, '0000644\x000000000\x000000000\0');  // mode, user, group
+    put(124, `${octal(bytes.length, 11)}\0${octal(Math.floor(Date.now() / 1000), 11)}\0`);
+    put(148, '        0');  // the sum, as if blank, and that it is a file
+    put(257, 'ustar\x0000');
+    put(148, `${octal(header.reduce((sum, byte) => sum + byte), 6)}\0`);
+    return [header, bytes, new Uint8Array(-bytes.length & 511)];
+  });
+  return new Blob([...blocks, new Uint8Array(1024)]);
+}
+
+function save() {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(pack(proofFiles));
+  link.download = 'proof.tar';
+  link.click();
+  setTimeout(URL.revokeObjectURL, 60000, link.href);
+}
+
 // ---- drawing
 
 const COLOURS =
@@ -285,8 +358,13 @@ function frame() {
   waiting = false;
   if (asking) {
     ask(1, 3);
+    proofFiles = null;
+    showProof('Not while it moves');
     clearTimeout(settled);
-    settled = setTimeout(settle, 250, 3);
+    settled = setTimeout(() => {
+      showProof(prove());
+      settle(3);
+    }, 250);
   }
   asking = false;
   if (find('follow').checked)
@@ -376,7 +454,7 @@ function loadBody(which, name, bytes) {
     return most;
   });
   Object.assign(bodies[which], mesh, library.facts(which),
-    {name, low: extreme(Math.min, Infinity), high: extreme(Math.max, -Infinity)});
+    {name, obj: bytes, low: extreme(Math.min, Infinity), high: extreme(Math.max, -Infinity)});
   scene?.loadMesh(`body-${which}`, mesh);
   showBody(which);
   if (bodies.every(({indices}) => indices)) {
@@ -550,6 +628,7 @@ function listen() {
   find('follow').addEventListener('input', () => changed(false));
   find('reset-view').addEventListener('click', resetView);
   find('reset-motion').addEventListener('click', resetMotion);
+  find('save').addEventListener('click', save);
   find('options').addEventListener('input', () => {
     const proof = question().method === 'proof';
     find('first').disabled = find('clearance').disabled = !proof;

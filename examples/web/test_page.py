@@ -4,8 +4,9 @@
 
 Drags, keys, dropped and chosen files, wrong ones among them, options, numbers out of range. The
 console must stay empty. Writes a picture of the page, and prints what a question takes there and in
-build/svcd; that time is only held to be below SLOWEST. Of throw.html, which lies beside: things come
-to rest, one walks, and nothing overlaps; throw-1000.png is its picture.
+build/svcd; that time is only held to be below SLOWEST. Proofs that the page saves are shown to
+build/verify, which lies beside build/svcd. Of throw.html, beside the first: things come to rest, one
+walks, and nothing overlaps; throw-1000.png is its picture.
 """
 
 import functools
@@ -17,6 +18,7 @@ import random
 import re
 import subprocess
 import sys
+import tarfile
 import tempfile
 import threading
 import time
@@ -31,6 +33,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 PAGE, SVCD, PICTURE = (Path(name).resolve() for name in sys.argv[1:4])
+VERIFY = SVCD.with_name("verify")
 ASSETS = Path(__file__).resolve().parent.parent / "assets"
 SLOWEST = 1000  # us of a question, the median; a page that does without vectors or compiler is slower
 FIRST = 0.01
@@ -418,6 +421,48 @@ class Page(Hands):
         self.drop(1, [["one.obj", cube(0.3)], ["two.obj", cube(0.2)]])
         self.assertIn("B: one.obj", self.text("drop-1"))
         self.assertIn("A: two.obj", self.text("drop-0"))
+
+    def save(self, folder: Path):
+        """Saves the proof into a new folder; the flags that build/verify is to have."""
+        folder.mkdir()
+        self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+        self.until(self.find("save").is_enabled)
+        self.find("save").click()
+        self.until((folder / "proof.tar").exists)
+        with tarfile.open(folder / "proof.tar") as tar:
+            tar.extractall(folder)
+        size = (folder / "proof.cert").stat().st_size
+        self.assertEqual(self.text("save"), f"Save the proof, {size} bytes")
+        command = (folder / "proof.txt").read_text().split("\n")[0].split("#")[1].split()
+        self.assertEqual(command[:3], ["build/verify", "proof.txt", "."])
+        return command[3:]
+
+    def test_proofs(self):
+        """Each that is saved is accepted, of its own motion and of no other."""
+        saved = {}
+        with tempfile.TemporaryDirectory() as folder:
+            def save(kind: str):
+                saved[kind] = Path(folder) / kind, self.save(Path(folder) / kind)
+
+            save("hit")
+            self.assertEqual((saved["hit"][0] / "b.obj").read_bytes(), (ASSETS / "dish_rack.obj").read_bytes())
+            self.set_poses(*HIGH)
+            save("free")
+            self.set("clearance", 250)
+            save("near")
+            self.set("clearance", 0)
+            self.drop(0, [["a # b.obj", cube(0.1)], ["large\n.obj", cube(0.5)]])
+            self.set_poses("0.1 0.2 0.3 0 0 0 1", "0 0 2 0.6 0 0 0.8")
+            save("inside")
+            for kind, (path, _) in saved.items():
+                for other, (motion, flags) in saved.items():
+                    out = subprocess.run([VERIFY, motion / "proof.txt", path, *flags], capture_output=True, text=True)
+                    verdict = ["accepted", kind] if kind == other else ["refused"]
+                    self.assertEqual(out.stdout.split("\t")[1:][:len(verdict)], verdict, (kind, other, out))
+        for height, why in (("0.60001", "proven"), ("0.600001", "contrary")):  # undecided; a hit, as stored
+            self.set_poses(f"0 0 {height} 0 0 0 1", f"0.1 0 {height} 0 0 0 1")
+            self.until(lambda: why in self.find("save").get_attribute("title"))
+            self.assertFalse(self.find("save").is_enabled())
 
     def test_wrong_files(self):
         before = self.poses()

@@ -1,8 +1,10 @@
-// web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer.
+// web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer,
+// its certificate.
 //
 // The module imports nothing. What page.js reads are the library's own structs in linear memory:
-// all their fields have four bytes on wasm32, so that a struct is an array of floats or words.
-// `web_encode` and `web_sweep` return an nsvcd_result, which `web_result_string` puts into words.
+// what it reads of them has four bytes on wasm32, so that a struct is an array of floats or words.
+// `web_encode`, `web_sweep` and `web_certify` return an nsvcd_result, which `web_result_string`
+// puts into words.
 #define NSVCD_NO_STDIO
 #define NSVCD_NO_INT8
 #define NSVCD_NO_GRADIENT
@@ -13,6 +15,7 @@
 
 // library.js counts on it.
 _Static_assert(sizeof(nsvcd_answer) == 4 * 101 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
+_Static_assert(offsetof(nsvcd_certificate, size) == 4 * 6, "behind a double");
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -21,11 +24,15 @@ typedef struct side {
   nsvcd_mesh mesh;
   const nsvcd_body *body;
   nsvcd_body_facts facts;
+  void *memory;            // of the tree
+  const nsvcd_tree *tree;  // of the mesh; NULL: not yet built
 } side;
 
 static side sides[2];
 static nsvcd_pose motion[2];  // of A; B rests at the origin
 static nsvcd_answer answer;
+static nsvcd_certificate certificate;
+static uint8_t proof[1 << 20];  // its bytes
 static void *workspace;
 static size_t workspace_size;
 static size_t error_line;
@@ -56,13 +63,11 @@ nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
   sides[which].mesh = mesh;
   sides[which].body = body;
   sides[which].facts = nsvcd_body_describe(body);
+  sides[which].tree = NULL;
   return NSVCD_OK;
 }
 
-// Asks `times` times whether A hits B, for the clock; once is enough for web_answer. first: to which
-// share of the motion the first contact is timed; 0: any contact will do.
-nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
-                               nsvcd_method method, size_t times) {
+static nsvcd_question make_question(float scale_a, float scale_b, float clearance) {
   nsvcd_question question = {0};
   question.a.body = sides[0].body;
   question.a.poses = motion;
@@ -70,9 +75,17 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
   question.a.scale = scale_a;
   question.b.body = sides[1].body;
   question.b.scale = scale_b;
+  question.clearance = clearance;
+  return question;
+}
+
+// Asks `times` times whether A hits B, for the clock; once is enough for web_answer. first: to which
+// share of the motion the first contact is timed; 0: any contact will do.
+nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
+                               nsvcd_method method, size_t times) {
+  nsvcd_question question = make_question(scale_a, scale_b, clearance);
   question.ask = first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
   question.to_time = first;
-  question.clearance = clearance;
   question.method = method;
   if (!workspace) {
     workspace_size = nsvcd_sweep_workspace_size(NULL);
@@ -84,11 +97,43 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
   return result;
 }
 
+// Once for each mesh.
+static nsvcd_result build_tree(side *s) {
+  const size_t size = nsvcd_tree_size(&s->mesh);
+  if (s->tree) return NSVCD_OK;
+  free(s->memory);
+  s->memory = malloc(size);
+  return s->memory ? nsvcd_tree_build(&s->mesh, s->memory, size, &s->tree) : NSVCD_ERROR_MEMORY;
+}
+
+// Proves the answer of the last web_sweep anew, of the motion that there is now: web_certificate
+// and web_proof are what comes of it.
+nsvcd_result EXPORT(web_certify)(float scale_a, float scale_b, float clearance) {
+  const nsvcd_question question = make_question(scale_a, scale_b, clearance);
+  const nsvcd_certify_options options = {&answer, 200000};  // a third of a second
+  nsvcd_result result = build_tree(&sides[0]);
+  if (!result) result = build_tree(&sides[1]);
+  if (result) return result;
+  const size_t size = nsvcd_certify_workspace_size(&question, sides[0].tree, sides[1].tree);
+  void *room = malloc(size);
+  if (!room) return NSVCD_ERROR_MEMORY;
+  result = nsvcd_certify(&question, sides[0].tree, sides[1].tree, &options, room, size, proof,
+                         sizeof proof, &certificate);
+  free(room);
+  return !result && certificate.size > sizeof proof ? NSVCD_ERROR_TOO_LARGE : result;
+}
+
 nsvcd_pose *EXPORT(web_motion)(void) {
   return motion;
 }
 const nsvcd_answer *EXPORT(web_answer)(void) {
   return &answer;
+}
+const nsvcd_certificate *EXPORT(web_certificate)(void) {
+  return &certificate;
+}
+const uint8_t *EXPORT(web_proof)(void) {
+  return proof;
 }
 const nsvcd_mesh *EXPORT(web_mesh)(size_t which) {
   return &sides[which].mesh;

@@ -63,7 +63,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
                                 const nsvcd__written_normal *normal) {
   const int known = k < NSVCD__REMEMBERED;
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
-  nsvcd__write_bits(c, known, (int)(known ? k : k - 1));
+  nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
   if (!known) {
     nsvcd__write_bits(c,
                       normal->bits == 8    ? 0

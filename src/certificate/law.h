@@ -137,11 +137,6 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
     meant->count = 1;
   }
   if (meant->count == 1) meant->times = NULL;
-  for (size_t k = 1; k < meant->count; k++) {
-    const nsvcd__dquat from = nsvcd__pose_rotation(&meant->poses[k - 1]);
-    const double dot = nsvcd__dquat_dot(from, nsvcd__pose_rotation(&meant->poses[k]));
-    if (fabs(dot) < 1.001e-6) return NSVCD_ERROR_POSE;
-  }
   rider->tree = tree;
   rider->scale = (double)scale;
   rider->place = nsvcd__mover_place;

@@ -96,7 +96,7 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
     const int slides = nsvcd__slides(c->checker, link - 1);
-    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0 : 1};
+    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0.0 : 1.0};
     double p[NSVCD_MAX_DEGREE + 1];
     double most = 0;
     double speed = 0;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The generator of problems: every set comes out as examples/FORMATS.md wants it and is what it says it is. The labels
-# themselves are the oracle's (tests/test_oracle.c). Needs build/problems and build/svcd; run from the repository root.
+# themselves are the oracle's (tests/test_oracle.c). Needs build/problems, build/svcd and build/verify; run from the repository root.
 # Ends with 1 if anything is not as it should be.
 set -u
 dir=$(mktemp -d)
@@ -25,8 +25,12 @@ for set in $sets; do
   count=8
   test "$set" = rest && count=12  # the first six gaps, free and colliding
   make_set "$set" "$set" $count
-  build/svcd check --repeat 1 "$dir/$set.txt" >"$dir/out" 2>"$dir/err" || fail "$set: svcd: $(tail -1 "$dir/err")"
+  mkdir -p "$dir/certs"
+  build/svcd check --repeat 1 --certificates "$dir/certs" "$dir/$set.txt" >"$dir/out" 2>"$dir/err" || fail "$set: svcd: $(tail -1 "$dir/err")"
   test "$(wc -l <"$dir/out")" = $count || fail "$set: $count problems, but these lines: $(cat "$dir/out")"
+  # a second opinion on each answer, and it is accepted
+  grep -q "^certificates: $count, of $count answers" "$dir/err" || fail "$set: $(grep -e certificate "$dir/err")"
+  build/verify "$dir/$set.txt" "$dir/certs" >"$dir/verified" || fail "$set: verify: $(grep refused "$dir/verified")"
   echo far inside rest nested | grep -qw "$set" ||
     holds "$set" 'label and margin disagree' '$1 == "problem" && ($14 == 1) != ($15 < 0) { bad = 1 } END { exit bad }'
 done
