@@ -237,7 +237,7 @@ firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, s
 # chromium-driver, python3-selenium.
 web:  ## build/web/index.html: drag a motion, drop two OBJ files, see the answer
 	@$(MAKE) --no-print-directory -C examples/web page
-check-web: build/svcd
+check-web: build/svcd build/verify
 	@$(MAKE) --no-print-directory -C examples/web check
 # The module for Python, where there is one with numpy: Debian's numpy is for Debian's Python.
 check-python:

@@ -1015,8 +1015,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void 
 // pointers to the mesh's arrays, which stay as they are; threads may share it.
 typedef struct nsvcd_tree nsvcd_tree;
 
-// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 56 for a
-// triangle and 4 for a vertex.
+// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 88 for a
+// triangle and 9 for a vertex.
 NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
 
 // Builds the tree of a mesh: once for each mesh, in a time like that of sorting it.
@@ -1253,7 +1253,7 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
 //   errors     those of nsvcd_certify and nsvcd_check, and ARGUMENT for a motion whose joints turn
-//              by more than 10,000 or, in the whole motion's time, 100,000
+//              by more than 1,000 or, in the whole motion's time, 100,000
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,
@@ -17009,6 +17009,10 @@ struct nsvcd_tree {
   float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *part;
+  // (vertices): the lowest vertex at its place
+  uint32_t *weld;
+  // (vertices): 1: the component is not closed
+  uint8_t *open;
   uint32_t digest;
 };
 
@@ -17097,37 +17101,79 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
   right->count = whole.count - left->count;
 }
 
-static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
-  return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
+// ---- components
+
+// Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
+static int nsvcd__place_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  const float *x = tree->mesh.positions + 3 * (size_t)i;
+  const float *y = tree->mesh.positions + 3 * (size_t)j;
+  for (size_t k = 0; k < 3; k++) {
+    if (x[k] < y[k]) return -1;
+    if (x[k] > y[k]) return 1;
+  }
+  return 0;
 }
 
-// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at
-// the first.
-static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
-                                 uint32_t *lowest) {
-  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
-  size_t height = 1;
-  long count = 0;
-  while (height > 0) {
-    const nsvcd__node node = stack[--height];
-    const nsvcd__box *box = &tree->boxes[node.box];
-    if (nsvcd__f3_exceeds(from, box->high) || nsvcd__f3_exceeds(box->low, from)) continue;
-    if (node.count > 1) {
-      nsvcd__children(&node, &stack[height], &stack[height + 1]);
-      height += 2;
-      continue;
-    }
-    const uint32_t triangle = tree->order[node.first];
-    for (uint32_t k = 0; k < 3; k++) {
-      const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
-      const nsvcd__f3 own = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, k));
-      const nsvcd__f3 next = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, (k + 1) % 3));
-      if (!nsvcd__same_point(own, from)) continue;
-      if (lowest && vertex < *lowest) *lowest = vertex;
-      count += nsvcd__same_point(next, to);
-    }
+// The ends of an edge, by the lowest vertices at their places; 3 t + k begins at corner k of
+// triangle t.
+static void nsvcd__edge_ends(const nsvcd_tree *tree, uint32_t edge, uint32_t *ends) {
+  const uint32_t next = edge % 3 == 2 ? edge - 2 : edge + 1;
+  ends[0] = tree->weld[tree->mesh.indices[edge]];
+  ends[1] = tree->weld[tree->mesh.indices[next]];
+}
+
+// The same of two edges, whichever way they go.
+static int nsvcd__edge_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  uint32_t a[2], b[2];
+  nsvcd__edge_ends(tree, i, a);
+  nsvcd__edge_ends(tree, j, b);
+  const uint64_t x = (uint64_t)(a[0] < a[1] ? a[0] : a[1]) << 32 | (a[0] < a[1] ? a[1] : a[0]);
+  const uint64_t y = (uint64_t)(b[0] < b[1] ? b[0] : b[1]) << 32 | (b[0] < b[1] ? b[1] : b[0]);
+  return x < y ? -1 : x > y;
+}
+
+typedef int nsvcd__tree_compare(const nsvcd_tree *tree, uint32_t i, uint32_t j);
+
+// Moves what is at place `at` of a heap down to where it belongs.
+static void nsvcd__sink(const nsvcd_tree *tree, nsvcd__tree_compare *order, uint32_t *heap,
+                        size_t count, size_t at) {
+  const uint32_t sinks = heap[at];
+  for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+    if (child + 1 < count && order(tree, heap[child], heap[child + 1]) < 0) child++;
+    if (order(tree, sinks, heap[child]) >= 0) break;
+    heap[at] = heap[child];
+    at = child;
   }
-  return count;
+  heap[at] = sinks;
+}
+
+// Heap sort (Williams 1964): no memory, and no mesh makes it slow.
+static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *order,
+                                uint32_t *numbers, size_t count) {
+  for (size_t at = count / 2; at-- > 0;) nsvcd__sink(tree, order, numbers, count, at);
+  for (size_t end = count; end-- > 1;) {
+    const uint32_t last = numbers[end];
+    numbers[end] = numbers[0];
+    numbers[0] = last;
+    nsvcd__sink(tree, order, numbers, end, 0);
+  }
+}
+
+// weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
+static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
+  const size_t count = tree->mesh.vertex_count;
+  size_t end;
+  for (size_t v = 0; v < count; v++) numbers[v] = (uint32_t)v;
+  nsvcd__sort_numbers(tree, nsvcd__place_order, numbers, count);
+  for (size_t i = 0; i < count; i = end) {
+    uint32_t lowest = numbers[i];
+    end = i;
+    while (end < count && nsvcd__place_order(tree, numbers[i], numbers[end]) == 0) {
+      lowest = numbers[end] < lowest ? numbers[end] : lowest;
+      end++;
+    }
+    for (size_t n = i; n < end; n++) tree->weld[numbers[n]] = lowest;
+  }
 }
 
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
@@ -17141,23 +17187,41 @@ static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
   part[x > y ? x : y] = x > y ? y : x;
 }
 
-// Joins the corners of triangles, and vertices at the same place.
-static void nsvcd__find_parts(nsvcd_tree *tree) {
+// Joins the corners of triangles, and vertices at the same place; a part is open if an edge of its
+// goes there and back not equally often. edges: (3 triangles), to work with.
+static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
-  for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
-  for (size_t i = 0; i < corners; i++)
+  size_t end;
+  nsvcd__weld_places(tree, tree->part);
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    tree->part[v] = NSVCD_NO_TRIANGLE;
+    tree->open[v] = 0;
+  }
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t lowest = tree->weld[indices[i]];
+    tree->part[indices[i]] = indices[i];
+    tree->part[lowest] = lowest;
+    edges[i] = (uint32_t)i;
+  }
+  for (size_t i = 0; i < corners; i++) {
     nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
-  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
-    const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)v);
-    uint32_t lowest = v;
-    if (tree->part[v] == NSVCD_NO_TRIANGLE) continue;
-    (void)nsvcd__edges_between(tree, x, x, &lowest);
-    nsvcd__unite_parts(tree->part, v, lowest);
+    nsvcd__unite_parts(tree->part, indices[i], tree->weld[indices[i]]);
   }
   for (size_t i = 0; i < corners; i++)
     tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+  nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
+  for (size_t i = 0; i < corners; i = end) {
+    size_t there = 0;
+    size_t back = 0;
+    for (end = i; end < corners && nsvcd__edge_order(tree, edges[i], edges[end]) == 0; end++) {
+      uint32_t ends[2];
+      nsvcd__edge_ends(tree, edges[end], ends);
+      there += ends[0] < ends[1];
+      back += ends[1] < ends[0];
+    }
+    if (there != back) tree->open[tree->part[indices[edges[i]]]] = 1;
+  }
 }
 
 // Lays a tree out at base, or, where that is NULL, only counts. Returns the bytes that it takes.
@@ -17169,6 +17233,8 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
   tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
 }
 
@@ -17195,6 +17261,7 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
+  nsvcd__find_parts(t, (uint32_t *)t->boxes);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
@@ -17209,7 +17276,6 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
     const float *corner = nsvcd__tree_corner(t, t->order[i / 3], (uint32_t)(i % 3));
     memcpy(t->corners + 3 * i, corner, 3 * sizeof *corner);
   }
-  nsvcd__find_parts(t);
   *tree = t;
   return NSVCD_OK;
 }
@@ -17243,7 +17309,7 @@ typedef struct nsvcd__rider {
   double (*next)(const void *motion, double t);
   nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
   const void *motion;
-  double reach;     // metres: beside places, what these are reckoned from is no longer
+  double reach;     // metres: what its places are reckoned from is no farther off
   uint32_t digest;  // of the scale and the motion
 } nsvcd__rider;
 
@@ -17359,6 +17425,10 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   rider->off_chord = nsvcd__mover_off_chord;
   rider->motion = meant;
   rider->reach = 0;
+  for (size_t k = 0; k < meant->count; k++) {
+    const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
+    rider->reach = nsvcd__max(rider->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+  }
   rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   rider->digest = nsvcd__digest(rider->digest, &scale, 1);
   if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);
@@ -17517,14 +17587,17 @@ static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes 
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
   double last = HUGE_VAL;
+  double last_lengths = 0;
   double leaves = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
     const double lengths = ra + rb + s->clearance + at->lengths;
     const double gap = nsvcd__gap_along(s, nodes, at, along);
-    const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
+    const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
+    const double most = length * (s->clearance + leaves + margin);
     if (!(gap > most && last > most)) return 0;
     last = gap;
+    last_lengths = lengths;
     leaves = at->off_a.base + at->off_a.per_metre * ra;
     leaves += at->off_b.base + at->off_b.per_metre * rb;
   }
@@ -17650,7 +17723,7 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = 1e-3 * (of->reach + by->reach + nsvcd__lengths_at(of_at, by_at));
+  const double places = of->reach + by->reach + nsvcd__lengths_at(of_at, by_at);
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->scale;
   out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
@@ -17660,26 +17733,33 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
 // Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
                              nsvcd__d3 along, const nsvcd__extent *e) {
-  const double margin = e->margin * nsvcd__d3_length(along);
-  const double area = margin * e->lengths;
-  nsvcd__d3 p[3];
-  double sides[3];
+  const double length = nsvcd__d3_length(along);
+  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * e->lengths * e->lengths;
+  nsvcd__d3 p[3], crosses[3];
+  int left = 0;
+  int right = 0;
   for (uint32_t k = 0; k < 3; k++)
     p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead < -margin) return 0;
-  for (size_t k = 0; k < 3; k++)
-    sides[k] = nsvcd__d3_dot(along, nsvcd__d3_cross(p[k], p[(k + 1) % 3]));
-  const double least = nsvcd__min(sides[0], nsvcd__min(sides[1], sides[2]));
-  const double most = nsvcd__max(sides[0], nsvcd__max(sides[1], sides[2]));
-  if (least < -area && most > area) return 0;
-  if (!(least > area || most < -area)) return NSVCD__UNCLEAR;
-  const double volume = nsvcd__d3_dot(p[2], nsvcd__d3_cross(p[0], p[1]));
-  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return NSVCD__UNCLEAR;
-  if ((volume > 0) != (most > 0)) return 0;
-  return most > 0 ? 1 : -1;
+  if (ahead < -1.01 * e->margin * length) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
+    const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
+    const double off =
+        length * (e->margin * edge + rounding) + 2 * e->margin * nsvcd__d3_length(crosses[k]);
+    left += nsvcd__d3_dot(along, crosses[k]) > off;
+    right += nsvcd__d3_dot(along, crosses[k]) < -off;
+  }
+  if (left > 0 && right > 0) return 0;
+  if (left < 3 && right < 3) return NSVCD__UNCLEAR;
+  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
+  const double volume = nsvcd__d3_dot(p[2], crosses[0]);
+  const double off = e->margin * nsvcd__d3_length(normal) + rounding * e->lengths;
+  if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
+  if ((volume > 0) != (left > 0)) return 0;
+  return left > 0 ? 1 : -1;
 }
 
 // Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
@@ -17720,25 +17800,10 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
   return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
-  const uint32_t *indices = tree->mesh.indices;
+// How often closed parts wind about where a ray begins.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
   int sum = 0;
-  int any = 0;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
-  if (!any) return 0;
-  for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
-    const uint32_t next = indices[i % 3 == 2 ? i - 2 : i + 1];
-    const nsvcd__f3 from = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)indices[i]);
-    const nsvcd__f3 to = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)next);
-    int32_t *crossed = &sums[tree->part[indices[i]]];
-    if (*crossed == 0) continue;
-    if (nsvcd__edges_between(tree, from, to, NULL) ==
-        nsvcd__edges_between(tree, to, from, NULL))
-      continue;
-    *crossed = 0;
-  }
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
   return sum;
 }
 #endif  // NSVCD_NO_CERTIFICATES
@@ -19353,7 +19418,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
       const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
-      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e4)) return 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
       if (!(step <= 0.999e5 * whole)) return 0;
     }
   }

@@ -221,15 +221,18 @@ postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].p
 postures: never touching|pairs[always ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
 postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
-verify: nothing is needed|if (!(gap > least \&\& last > least)) return 0;|if (!(gap > -1e9)) return 0;
-verify: parted at the start alone|if (!(gap > least \&\& last > least)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
-verify: parted at the ends by one of them|if (!(gap > least \&\& last > least)) return 0;|if (!(gap > least)) return 0;
+verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (!(gap > -1e9)) return 0;
+verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
+verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (!(gap > least)) return 0;
 verify: no strays|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;|(void)ra;
 verify: strays of a alone|+ at->stray_b[0] + at->stray_b[1] * rb;|;
 verify: strays of b alone|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0]|stray = at->stray_b[0]
 verify: strays at the origin|at->stray_a[1] * ra|at->stray_a[1] * 0 * ra
-verify: no clearance|length * (r->clearance + stray|length * (stray
-verify: margins that are taken away|stray + VERIFY__MARGIN * lengths);|stray - 1e4 * VERIFY__MARGIN * lengths);
+verify: no clearance|length * (r->clearance + stray + margin)|length * (stray + margin)
+verify: margins that are taken away|stray + margin);|stray - 1e4 * margin);
+verify: places without what they are reckoned from|mover->reach = verify__max(mover->reach, far_off);|(void)far_off;
+verify: edges that all close|if (balance != 0) m->open|if (0) m->open
+verify: edges one way|? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;|? 1 : weld[m->indices[e]] > weld[to] ? 1 : 0;
 verify: half the stray|stray[1] = 0.1250001 * h * h;|stray[1] = 0.06 * h * h;
 verify: turns of half the angle|return 4 * atan2(|return 2 * atan2(
 verify: the first child alone|*node = child[1];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];|*node = child[0];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];
@@ -249,9 +252,9 @@ verify: apart whatever is parted|if (v->a.box == 0 \&\& v->b.box == 0) r->apart 
 verify: rays that cross once|if (verify__wound(by->mesh) != 0)|if (verify__wound(by->mesh) > 1e9)
 verify: rays that are not clear|if (crossed == 2) return 0;|if (crossed == 2) continue;
 verify: what is inside whatever the ray|return verify__wound(m) != 0 ? NULL|return 1 ? NULL
-verify: sums of what is open|continue;\n    *sum_of = 0;|continue;
-verify: leaving is entering|return most > 0 ? 1 : -1;|return 1;
-verify: crossed behind|if ((volume > 0) != (most > 0)) return 0;|
+verify: sums of what is open|sum += m->open[v] ? 0 : m->sums[v];|sum += m->sums[v];
+verify: leaving is entering|return left > 0 ? 1 : -1;|return 1;
+verify: crossed behind|if ((volume > 0) != (left > 0)) return 0;|
 verify: points of other triangles|? NULL : "two points are not as near as that"|? NULL : r ? NULL : ""
 verify: near by the margin's other side|sqrt(verify__dot(apart, apart)) + verify__extent|sqrt(verify__dot(apart, apart)) - 1e7 * verify__extent
 verify: edges that end before|return clear \&\& second == -first ? NULL|return clear ? NULL
@@ -263,7 +266,7 @@ verify: what follows|if (!why \&\& r->bits - r->at >= 8) why =|if (0) why =
 verify: it ends early|if (!why \&\& r->at > r->bits) why = "it ends early";|
 verify: no knots|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = t1;
 verify: knots of a alone|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = r->a->next(r->a->motion, t);
-verify: vertices at one place are two|if (vertex < *lowest) *lowest = vertex;|
+verify: vertices at one place are two|weld[v] = same ? weld[m->part[i - 1]] : v;|weld[v] = v; (void)same;
 verify: quaternions of other sides|dot < 0 ? -sqrt(square_b) : sqrt(square_b)|sqrt(square_b)
 verify: joints without a bend|stray[k] += 0.1250001 * bend * lever[k];|
 verify: joints that do not turn each other|(2 * outer[k] + speed * lever[k])|(speed * lever[k])

@@ -337,6 +337,50 @@ static void certificates_of_half_turns(void) {
   CHECK_GE(count[NSVCD_HIT], 20);
 }
 
+// What is reckoned from lengths that cancel is no better than these: a body of 50 um that goes from
+// one end of the world to the other passes another one by 10 um, which nobody can tell, or by 10 mm.
+// And what is tiny is not taken for a point.
+static void certificates_of_lengths_that_cancel(void) {
+  for (int n = 0; n < 2; n++) {
+    cert_scene s;
+    cert_view view;
+    nsvcd_certificate made;
+    nsvcd_verify_report report;
+    uint8_t head[CERT_ROOM], bytes[64];
+    memset(&s, 0, sizeof s);
+    s.a = s.b = &cert_bodies()[9];
+    s.question.a.poses = s.poses[0];
+    s.question.b.poses = s.poses[1];
+    s.question.a.count = 2;
+    s.question.b.count = 1;
+    s.question.a.scale = s.question.b.scale = 1e-3f;
+    for (int k = 0; k < 3; k++) s.poses[k / 2][k % 2].rotation[3] = 1;
+    for (int k = 0; k < 2; k++) {
+      s.poses[0][k].position[0] = k ? 9e5f : -9e5f;
+      s.poses[0][k].position[2] = 5e-5f + (n ? 1e-2f : 1e-5f);
+    }
+    CHECK_EQ(cert_certify(&s, NULL, head, sizeof head, &made), NSVCD_OK);
+    CHECK_EQ(made.verdict, n ? NSVCD_FREE : NSVCD_UNDECIDED);
+    cert_look(&s, &view);
+    const size_t size = cert_one_plane(&s, head, nsvcd__d3_of(0, 0, 1), bytes);
+    CHECK_EQ(cert_check(&view, 0, bytes, size, &report), n);
+  }
+  for (double size = 1e-35; size < 1e6; size *= 10) {
+    const float corners[9] = {(float)size, 0, 0, 0, (float)size, 0, 0, 0, (float)size};
+    const uint32_t indices[3] = {0, 1, 2};
+    uint32_t memory[64];
+    nsvcd_verify_mesh mesh;
+    nsvcd_verify_mover mover;
+    const float pose[7] = {0, 0, 0, 0, 0, 0, 1};
+    const nsvcd_verify_path path = {pose, NULL, 1};
+    const nsvcd_verify_node root = {0, 0, 1};
+    CHECK_LE(NSVCD_VERIFY_MESH_BYTES(3, 1), sizeof memory);
+    CHECK(!nsvcd_verify_mesh_init(corners, 3, indices, 1, memory, &mesh));
+    CHECK(!nsvcd_verify_path_init(&mesh, 1, &path, &mover));
+    CHECK_GE(verify__radius(&mover, &root), size * 1.7);
+  }
+}
+
 // Lone triangles, of which each corner in turn sticks into a box.
 static void certificates_of_each_corner(void) {
   cert_body *bodies = cert_bodies();
@@ -984,6 +1028,7 @@ void test_certificate(void) {
   RUN(certificates_at_a_hair);
   RUN(certificates_see_a_swing);
   RUN(certificates_of_half_turns);
+  RUN(certificates_of_lengths_that_cancel);
   RUN(certificates_of_each_corner);
   RUN(certificates_of_hits_cannot_be_forged);
   RUN(certificates_of_what_is_inside);

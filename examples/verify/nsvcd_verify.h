@@ -7,11 +7,15 @@
 // STATEMENT. Two movers, a and b, each have a mesh (triangles, corners x in float), a scale s and a
 // motion: at a time t in [0,1] x is at s R(t) x + p(t). What nsvcd_verify accepts as
 //   FREE    proves: at no time does a point of a's triangles come within the clearance of one of
-//           b's, and never is a component of one inside what closed components of the other enclose
-//           (wind about); a component is triangles joined by corners at the same place;
+//           b's, and never is a component of one inside what closed components of the other
+//           enclose;
 //   HIT     at report.time an edge of one passes through a triangle of the other;
 //   NEAR    at report.time points of two triangles are nearer to each other than the clearance;
 //   INSIDE  at report.time a corner of one is inside what closed components of the other enclose.
+// A component is triangles joined by corners at the same place; it is closed if each of its edges
+// goes there and back equally often; and closed components enclose what they, together, wind about
+// a number of times that is not 0. So nothing is inside of a room whose walls face inwards, of a
+// box of which each wall is there twice, both ways round, or of one that a stray triangle hangs on.
 //
 // WHY. FREE is a walk over (node of a's tree, node of b's, stretch of time), which begins with both
 // roots and [0,1]. A visit reads one code:
@@ -33,9 +37,10 @@
 // wind about that corner, nor about the rest of its component, which does not cross them.
 //
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
-// all lengths in it: sums of some ten products, roots, and libm's sin and atan2 are good to units
-// of 1e-16, a share of the way between two of 65,536 poses to 1e-11. VERIFY__MARGIN, 1e-10 of all
-// lengths, is asked for beyond that, of planes and of rays. What is compared with a NaN is false,
+// all lengths in it, those of poses before and after included: sums of some ten products, roots,
+// and libm's sin and atan2 are good to units of 1e-16, a share of the way between two of 65,536
+// poses to 1e-11. VERIFY__MARGIN, 1e-10 of all lengths, is asked for beyond that, of planes and of
+// rays. Uniform poses are at the doubles k / (count - 1). What is compared with a NaN is false,
 // and then nothing is parted. So -ffast-math is not for this file.
 #ifndef NSVCD_VERIFY_H
 #define NSVCD_VERIFY_H
@@ -81,15 +86,18 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
   const double rb = verify__radius(r->b, &v->b);
   const double reach = r->a->reach + r->b->reach;
   double last = HUGE_VAL;
+  double last_lengths = 0;
   double stray = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
     const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
+    const double margin = VERIFY__MARGIN * verify__max(lengths, last_lengths);
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
-    const double least = length * (r->clearance + stray + VERIFY__MARGIN * lengths);
-    if (!(gap > least && last > least)) return 0;
+    const double least = length * (r->clearance + stray + margin);
+    if (!(gap > least && last > least && gap < HUGE_VAL)) return 0;
     last = gap;
+    last_lengths = lengths;
     stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;
   }
   return 1;

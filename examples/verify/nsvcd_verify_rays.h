@@ -78,13 +78,13 @@ static inline double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// No point of a node is farther from its body's origin. A root of a float is off by 1e-7.
+// No point of a node is farther from its body's origin.
 static inline double verify__radius(const nsvcd_verify_mover *mover,
                                     const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double corner[3];
   for (int i = 0; i < 3; i++) corner[i] = verify__max(-(double)low[i], (double)low[i + 3]);
-  return 1.000001 * mover->scale * (double)sqrtf((float)verify__dot(corner, corner));
+  return 1.000001 * mover->scale * sqrt(verify__dot(corner, corner));
 }
 
 static inline double verify__lengths(double radii, const nsvcd_verify_place *a,
@@ -123,28 +123,38 @@ typedef struct verify__extent {
 // not clear, by the margin.
 static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle, const double *y,
                                   const double *d, const verify__extent *e) {
-  const double along = e->margin * sqrt(verify__dot(d, d));
-  double p[3][3], cross[3], ahead = -HUGE_VAL, least = HUGE_VAL, most = -HUGE_VAL;
+  const double length = sqrt(verify__dot(d, d));
+  const double rounding = 1e-4 * VERIFY__MARGIN * e->lengths * e->lengths;
+  double p[3][3], cross[3], edge[3], normal[3] = {0, 0, 0}, ahead = -HUGE_VAL;
+  int left = 0;
+  int right = 0;
   for (uint32_t k = 0; k < 3; k++) {
     for (int i = 0; i < 3; i++) p[k][i] = (double)verify__corner(m, triangle, k)[i] - y[i];
     ahead = verify__max(ahead, verify__dot(p[k], d));
   }
-  if (ahead < -along) return 0;
+  if (ahead < -e->margin * length) return 0;
+  // on which side of each edge does it pass? If y is off, and d twice that
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
       cross[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-    least = verify__min(least, verify__dot(d, cross));
-    most = verify__max(most, verify__dot(d, cross));
+      edge[i] = v[i] - u[i];
+      normal[i] += cross[i];
+    }
+    const double off = length * (e->margin * sqrt(verify__dot(edge, edge)) + rounding) +
+                       2 * e->margin * sqrt(verify__dot(cross, cross));
+    left += verify__dot(d, cross) > off;
+    right += verify__dot(d, cross) < -off;
   }
-  // sides of its edges: it passes them on both sides, or on one; then, on which side of it is y?
+  if (left > 0 && right > 0) return 0;
+  if (left < 3 && right < 3) return 2;
+  // and on which side of the triangle is y?
   const double volume = verify__dot(p[2], cross);
-  if (least < -along * e->lengths && most > along * e->lengths) return 0;
-  if (!(least > along * e->lengths || most < -along * e->lengths)) return 2;
-  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return 2;
-  if ((volume > 0) != (most > 0)) return 0;
-  return most > 0 ? 1 : -1;
+  const double off = e->margin * sqrt(verify__dot(normal, normal)) + rounding * e->lengths;
+  if (!(fabs(volume) > off)) return 2;
+  if ((volume > 0) != (left > 0)) return 0;
+  return left > 0 ? 1 : -1;
 }
 
 // Does the line of a ray miss a box by a margin? If something across both of them parts them.
@@ -188,19 +198,10 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
   return 1;
 }
 
-// The sum over closed components: those of which each edge has as many reverses.
+// How often closed components wind about where the ray begins.
 static inline int64_t verify__wound(const nsvcd_verify_mesh *m) {
   int64_t sum = 0;
-  int any = 0;
-  for (size_t v = 0; v < m->vertices; v++) any |= m->sums[v];
-  for (size_t i = 0; any && i < 3 * m->triangles; i++) {
-    const float *from = verify__corner(m, i / 3, i % 3);
-    const float *to = verify__corner(m, i / 3, (i + 1) % 3);
-    int32_t *sum_of = &m->sums[m->part[m->indices[i]]];
-    if (*sum_of == 0 || verify__edges(m, from, to) == verify__edges(m, to, from)) continue;
-    *sum_of = 0;
-  }
-  for (size_t v = 0; v < m->vertices; v++) sum += m->sums[v];
+  for (size_t v = 0; v < m->vertices; v++) sum += m->open[v] ? 0 : m->sums[v];
   return sum;
 }
 
@@ -216,7 +217,7 @@ static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
   const double places = verify__lengths(of->reach + by->reach, of_at, by_at);
   verify__extent out;
   out.lengths = (radii + apart) / by->scale;
-  out.margin = VERIFY__MARGIN * out.lengths + 1e-3 * VERIFY__MARGIN * places / by->scale;
+  out.margin = VERIFY__MARGIN * (out.lengths + places / by->scale);
   return out;
 }
 

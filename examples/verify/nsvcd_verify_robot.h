@@ -189,8 +189,11 @@ static inline const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m
   }
   for (size_t i = 0; i <= m->pieces; i++) {
     if (!(fabs(m->times[i]) <= 1e9)) return "a time is out of range";
-    if (i > 0 && !(verify__piece_end(m, i) - verify__piece_end(m, i - 1) >= 1e-9))
-      return "times do not rise";
+    if (i > 0 && !(m->times[i] > m->times[i - 1])) return "times do not rise";
+  }
+  for (size_t i = 1; i <= m->pieces; i++) {
+    if (!(verify__piece_end(m, i) - verify__piece_end(m, i - 1) >= 1e-9))
+      return "a piece is too short";
   }
   // sines lose digits of large angles, and a share of a short piece those of what goes fast
   for (size_t i = 0; i <= m->pieces * m->degree; i++) {
@@ -198,7 +201,7 @@ static inline const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m
     const double whole = verify__piece_end(m, piece + 1) - verify__piece_end(m, piece);
     for (size_t k = 0; k < m->joint_count; k++) {
       const double *value = &m->points[i * m->joint_count + k];
-      if (!(fabs(*value) <= (m->joints[k].slides ? 1e6 : 1e4))) return "a joint is out of range";
+      if (!(fabs(*value) <= (m->joints[k].slides ? 1e6 : 1e3))) return "a joint is out of range";
       const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - m->joint_count)) : 0;
       if (!(step <= 1e5 * whole)) return "a joint is too fast";
     }
@@ -225,8 +228,8 @@ static inline const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, 
   uint32_t d = verify__hash(part->base, part->pose, 7);
   d = verify__hash(d, &scale, 1);
   for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
-    const nsvcd_verify_joint *joint = &m->joints[link - 1];
     if (link == 0) return "a part is seen from a link that does not carry it";
+    const nsvcd_verify_joint *joint = &m->joints[link - 1];
     d = verify__hash(d + joint->slides, joint->origin, 7);
     d = verify__hash(d + link, joint->axis, 3);
     double most = 0;

@@ -23,6 +23,7 @@ typedef struct nsvcd_verify_mesh {
   float *boxes;     // (2 triangles - 1, 6) low, high: of a node, of its left tree, its right tree
   uint32_t *part;   // (vertices): the lowest vertex of the component; NONE: no triangle has it
   int32_t *sums;    // (vertices): of each component, outwards less inwards along a ray
+  uint8_t *open;    // (vertices): 1: the component is not closed
   uint32_t digest;
 } nsvcd_verify_mesh;
 
@@ -46,7 +47,7 @@ typedef struct nsvcd_verify_mover {
   double (*next)(const void *motion, double t);
   void (*stray)(const void *motion, double t0, double t1, double *stray);
   const void *motion;
-  double reach;     // what its places are reckoned from is no longer, beside the places
+  double reach;     // metres: what its places are reckoned from is no farther off
   uint32_t digest;  // of scale and motion
 } nsvcd_verify_mover;
 
@@ -145,41 +146,45 @@ static inline void verify__children(const nsvcd_verify_node *node, nsvcd_verify_
   child[1] = right;
 }
 
-static inline int verify__same(const float *x, const float *y) {
-  return !(x[0] < y[0] || x[0] > y[0] || x[1] < y[1] || x[1] > y[1] || x[2] < y[2] || x[2] > y[2]);
-}
-
-// How many edges go from one place to another? *lowest: the lowest vertex at the first.
-static inline int verify__edges_from(const nsvcd_verify_mesh *m, const float *from, const float *to,
-                                     uint32_t *lowest) {
-  nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
-  size_t height = 1;
-  int count = 0;
-  while (height > 0) {
-    const nsvcd_verify_node node = stack[--height];
-    const float *low = m->boxes + 6 * (size_t)node.box;
-    const uint32_t triangle = m->order[node.first];
-    int holds = 1;
-    for (int i = 0; i < 3; i++) holds = holds && low[i] <= from[i] && from[i] <= low[i + 3];
-    if (!holds) continue;
-    if (node.count > 1) {
-      verify__children(&node, stack + height);
-      height += 2;
-      continue;
-    }
-    for (size_t k = 0; k < 3; k++) {
-      const uint32_t vertex = m->indices[3 * (size_t)triangle + k];
-      if (!verify__same(verify__corner(m, triangle, k), from)) continue;
-      if (vertex < *lowest) *lowest = vertex;
-      count += verify__same(verify__corner(m, triangle, (k + 1) % 3), to);
-    }
+// Is i before j? Without welds of vertices, by their places; with them, of edges, of which edge 3 t
+// + k begins at corner k of triangle t, by their two ends, the lower first.
+static inline int verify__less(const nsvcd_verify_mesh *m, const uint32_t *weld, uint32_t i,
+                               uint32_t j) {
+  const uint32_t of[2] = {i, j};
+  uint32_t ends[2][2];
+  for (int k = 0; k < 3 && !weld; k++) {
+    const float x = m->positions[3 * (size_t)i + (size_t)k];
+    const float y = m->positions[3 * (size_t)j + (size_t)k];
+    if (x < y || x > y) return x < y;
   }
-  return count;
+  if (!weld) return i < j;
+  for (int n = 0; n < 2; n++) {
+    const uint32_t from = weld[m->indices[of[n]]];
+    const uint32_t to = weld[m->indices[of[n] / 3 * 3 + (of[n] + 1) % 3]];
+    ends[n][0] = from < to ? from : to;
+    ends[n][1] = from < to ? to : from;
+  }
+  if (ends[0][0] != ends[1][0]) return ends[0][0] < ends[1][0];
+  return ends[0][1] < ends[1][1];
 }
 
-static inline int verify__edges(const nsvcd_verify_mesh *m, const float *from, const float *to) {
-  uint32_t lowest = NSVCD_VERIFY_NONE;
-  return verify__edges_from(m, from, to, &lowest);
+// Sorts vertices, or edges (Williams' heap sort).
+static inline void verify__sort(const nsvcd_verify_mesh *m, const uint32_t *weld, uint32_t *list,
+                                size_t count) {
+  for (size_t n = 2 * count; n > 1; n--) {
+    // the first count steps make a heap, the others take the last out of it
+    const size_t end = n > count ? count : n - 1;
+    size_t at = n > count ? n - count - 1 : 0;
+    const uint32_t sinks = n > count ? list[at] : list[end];
+    if (n <= count) list[end] = list[0];
+    for (size_t child = 2 * at + 1; child < end; child = 2 * at + 1) {
+      if (child + 1 < end && verify__less(m, weld, list[child], list[child + 1])) child++;
+      if (!verify__less(m, weld, sinks, list[child])) break;
+      list[at] = list[child];
+      at = child;
+    }
+    list[at] = sinks;
+  }
 }
 
 static inline uint32_t verify__root(uint32_t *part, uint32_t v) {
@@ -193,28 +198,53 @@ static inline void verify__unite(uint32_t *part, uint32_t v, uint32_t w) {
   part[x > y ? x : y] = x > y ? y : x;
 }
 
-// Finds the components: joins the corners of triangles, and vertices at the same place.
-static inline void verify__join(nsvcd_verify_mesh *m) {
+// Finds the components, and which are not closed: an edge of theirs goes there and back not equally
+// often. edges: (3 triangles), to work with.
+static inline void verify__join(nsvcd_verify_mesh *m, uint32_t *edges) {
   const size_t corners = 3 * m->triangles;
-  for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
-  for (size_t i = 0; i < corners; i++) m->part[m->indices[i]] = m->indices[i];
-  for (size_t i = 0; i < corners; i++) verify__unite(m->part, m->indices[i], m->indices[i / 3 * 3]);
-  for (uint32_t v = 0; v < m->vertices; v++) {
+  uint32_t *weld = (uint32_t *)m->sums;
+  for (size_t v = 0; v < m->vertices; v++) m->part[v] = (uint32_t)v;
+  verify__sort(m, NULL, m->part, m->vertices);
+  for (size_t i = 0; i < m->vertices; i++) {
+    const uint32_t v = m->part[i];
     const float *x = m->positions + 3 * (size_t)v;
-    uint32_t lowest = v;
-    if (m->part[v] == NSVCD_VERIFY_NONE) continue;
-    (void)verify__edges_from(m, x, x, &lowest);
-    verify__unite(m->part, v, lowest);
+    const float *y = m->positions + 3 * (size_t)m->part[i > 0 ? i - 1 : 0];
+    const int same = i > 0 && !(x[0] < y[0] || x[0] > y[0] || x[1] < y[1] || x[1] > y[1] ||
+                                x[2] < y[2] || x[2] > y[2]);
+    weld[v] = same ? weld[m->part[i - 1]] : v;
+  }
+  for (size_t i = 0; i < corners; i++) edges[i] = (uint32_t)i;
+  verify__sort(m, weld, edges, corners);
+  memset(m->open, 0, m->vertices);
+  for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
+  for (size_t i = 0; i < corners; i++) {
+    m->part[m->indices[i]] = m->indices[i];
+    m->part[weld[m->indices[i]]] = weld[m->indices[i]];
+  }
+  for (size_t i = 0; i < corners; i++) {
+    verify__unite(m->part, m->indices[i], m->indices[i / 3 * 3]);
+    verify__unite(m->part, m->indices[i], weld[m->indices[i]]);
   }
   for (size_t i = 0; i < corners; i++)
     m->part[m->indices[i]] = verify__root(m->part, m->indices[i]);
+  for (size_t i = 0, end; i < corners; i = end) {
+    int64_t balance = 0;
+    for (end = i; end < corners && !verify__less(m, weld, edges[i], edges[end]); end++) {
+      const uint32_t e = edges[end];
+      const uint32_t to = m->indices[e / 3 * 3 + (e + 1) % 3];
+      balance += weld[m->indices[e]] < weld[to] ? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;
+    }
+    if (balance != 0) m->open[m->part[m->indices[edges[i]]]] = 1;
+  }
 }
 
 // Bytes of the memory that nsvcd_verify_mesh_init takes.
-#define NSVCD_VERIFY_MESH_BYTES(vertices, triangles) (52 * (triangles) + 8 * (vertices))
+#define NSVCD_VERIFY_MESH_BYTES(vertices, triangles) \
+  (52 * (size_t)(triangles) + 9 * (size_t)(vertices))
 
 // Checks a mesh and builds its tree, in memory aligned to 4 bytes that stays, as the arrays do.
-// Returns why not, or NULL. Takes its triangles times the logarithm of their number.
+// Returns why not, or NULL. Takes its triangles times the logarithm of their number; of a mesh made
+// for it, their square.
 static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t vertices,
                                                  const uint32_t *indices, size_t triangles,
                                                  void *memory, nsvcd_verify_mesh *m) {
@@ -236,8 +266,10 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
   m->order = (uint32_t *)(m->boxes + 12 * triangles);
   m->part = m->order + triangles;
   m->sums = (int32_t *)(m->part + vertices);
+  m->open = (uint8_t *)(m->sums + vertices);
   m->digest = verify__hash((uint32_t)vertices, positions, 3 * vertices);
   m->digest = verify__hash(m->digest, indices, 3 * triangles);
+  verify__join(m, (uint32_t *)memory);
   for (size_t i = 0; i < triangles; i++) m->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)triangles;
@@ -248,7 +280,6 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
     verify__children(&node, stack + height);
     height += 2;
   }
-  verify__join(m);
   return NULL;
 }
 
@@ -366,6 +397,11 @@ static inline const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, 
   mover->stray = verify__path_stray;
   mover->motion = p;
   mover->reach = 0;
+  for (size_t k = 0; k < p->count; k++) {
+    const float *at = p->poses + 7 * k;
+    const double far_off = fabs((double)at[0]) + fabs((double)at[1]) + fabs((double)at[2]);
+    mover->reach = verify__max(mover->reach, far_off);
+  }
   mover->digest = verify__hash((uint32_t)p->count, p->poses, 7 * p->count);
   mover->digest = verify__hash(mover->digest, &scale, 1);
   if (timed) mover->digest = verify__hash(mover->digest, p->times, p->count);

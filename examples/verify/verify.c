@@ -77,6 +77,7 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
   side a, b;
   const size_t poses_a = strtoul(words[15], NULL, 10);
   const size_t poses_b = count > 16 ? strtoul(words[16], NULL, 10) : 0;
+  if (poses_a < 1 || poses_a > 65536 || poses_b > 65536) fail(path, "a COUNT is out of range");
   float *poses = (float *)allocate(7 * (poses_a + poses_b + 1) * sizeof *poses);
   read_poses(path, text, poses_a + poses_b, poses);
   read_pose(path, words + 6, poses + 7 * (poses_a + poses_b));

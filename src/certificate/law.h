@@ -28,7 +28,7 @@ typedef struct nsvcd__rider {
   double (*next)(const void *motion, double t);
   nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
   const void *motion;
-  double reach;     // metres: beside places, what these are reckoned from is no longer
+  double reach;     // metres: what its places are reckoned from is no farther off
   uint32_t digest;  // of the scale and the motion
 } nsvcd__rider;
 
@@ -144,6 +144,10 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   rider->off_chord = nsvcd__mover_off_chord;
   rider->motion = meant;
   rider->reach = 0;
+  for (size_t k = 0; k < meant->count; k++) {
+    const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
+    rider->reach = nsvcd__max(rider->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+  }
   rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
   rider->digest = nsvcd__digest(rider->digest, &scale, 1);
   if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);

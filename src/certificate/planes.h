@@ -151,14 +151,17 @@ static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes 
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
   double last = HUGE_VAL;
+  double last_lengths = 0;
   double leaves = 0;
   for (size_t i = 0; i < s->count; i++) {
     const nsvcd__instant *at = &s->instants[i];
     const double lengths = ra + rb + s->clearance + at->lengths;
     const double gap = nsvcd__gap_along(s, nodes, at, along);
-    const double most = length * (s->clearance + leaves + NSVCD__CERTIFIED_MARGIN * lengths);
+    const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
+    const double most = length * (s->clearance + leaves + margin);
     if (!(gap > most && last > most)) return 0;
     last = gap;
+    last_lengths = lengths;
     leaves = at->off_a.base + at->off_a.per_metre * ra;
     leaves += at->off_b.base + at->off_b.per_metre * rb;
   }

@@ -26,7 +26,7 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
   const nsvcd__node root = {0, 0, 2};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = 1e-3 * (of->reach + by->reach + nsvcd__lengths_at(of_at, by_at));
+  const double places = of->reach + by->reach + nsvcd__lengths_at(of_at, by_at);
   nsvcd__extent out;
   out.lengths = 1.000001 * (radii + apart) / by->scale;
   out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
@@ -36,26 +36,33 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
 // Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
 static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
                              nsvcd__d3 along, const nsvcd__extent *e) {
-  const double margin = e->margin * nsvcd__d3_length(along);
-  const double area = margin * e->lengths;
-  nsvcd__d3 p[3];
-  double sides[3];
+  const double length = nsvcd__d3_length(along);
+  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * e->lengths * e->lengths;
+  nsvcd__d3 p[3], crosses[3];
+  int left = 0;
+  int right = 0;
   for (uint32_t k = 0; k < 3; k++)
     p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
   const double ahead =
       nsvcd__max(nsvcd__d3_dot(p[0], along),
                  nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
-  if (ahead < -margin) return 0;
-  for (size_t k = 0; k < 3; k++)
-    sides[k] = nsvcd__d3_dot(along, nsvcd__d3_cross(p[k], p[(k + 1) % 3]));
-  const double least = nsvcd__min(sides[0], nsvcd__min(sides[1], sides[2]));
-  const double most = nsvcd__max(sides[0], nsvcd__max(sides[1], sides[2]));
-  if (least < -area && most > area) return 0;
-  if (!(least > area || most < -area)) return NSVCD__UNCLEAR;
-  const double volume = nsvcd__d3_dot(p[2], nsvcd__d3_cross(p[0], p[1]));
-  if (!(fabs(volume) > e->margin * e->lengths * e->lengths)) return NSVCD__UNCLEAR;
-  if ((volume > 0) != (most > 0)) return 0;
-  return most > 0 ? 1 : -1;
+  if (ahead < -1.01 * e->margin * length) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
+    const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
+    const double off =
+        length * (e->margin * edge + rounding) + 2 * e->margin * nsvcd__d3_length(crosses[k]);
+    left += nsvcd__d3_dot(along, crosses[k]) > off;
+    right += nsvcd__d3_dot(along, crosses[k]) < -off;
+  }
+  if (left > 0 && right > 0) return 0;
+  if (left < 3 && right < 3) return NSVCD__UNCLEAR;
+  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
+  const double volume = nsvcd__d3_dot(p[2], crosses[0]);
+  const double off = e->margin * nsvcd__d3_length(normal) + rounding * e->lengths;
+  if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
+  if ((volume > 0) != (left > 0)) return 0;
+  return left > 0 ? 1 : -1;
 }
 
 // Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
@@ -96,25 +103,10 @@ static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
   return 1;
 }
 
-// Of what a ray crosses, what closed parts have: those of which each edge has as many reverses.
-static int nsvcd__sum_of_closed(const nsvcd_tree *tree, int32_t *sums) {
-  const uint32_t *indices = tree->mesh.indices;
+// How often closed parts wind about where a ray begins.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
   int sum = 0;
-  int any = 0;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) any |= sums[v];
-  if (!any) return 0;
-  for (size_t i = 0; i < 3 * tree->mesh.triangle_count; i++) {
-    const uint32_t next = indices[i % 3 == 2 ? i - 2 : i + 1];
-    const nsvcd__f3 from = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)indices[i]);
-    const nsvcd__f3 to = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)next);
-    int32_t *crossed = &sums[tree->part[indices[i]]];
-    if (*crossed == 0) continue;
-    if (nsvcd__edges_between(tree, from, to, NULL) ==
-        nsvcd__edges_between(tree, to, from, NULL))
-      continue;
-    *crossed = 0;
-  }
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += sums[v];
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
   return sum;
 }
 #endif  // NSVCD_NO_CERTIFICATES

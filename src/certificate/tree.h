@@ -35,6 +35,10 @@ struct nsvcd_tree {
   float *corners;
   // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
   uint32_t *part;
+  // (vertices): the lowest vertex at its place
+  uint32_t *weld;
+  // (vertices): 1: the component is not closed
+  uint8_t *open;
   uint32_t digest;
 };
 
@@ -123,37 +127,79 @@ static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__n
   right->count = whole.count - left->count;
 }
 
-static int nsvcd__same_point(nsvcd__f3 a, nsvcd__f3 b) {
-  return !nsvcd__f3_exceeds(a, b) && !nsvcd__f3_exceeds(b, a);
+// ---- components
+
+// Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
+static int nsvcd__place_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  const float *x = tree->mesh.positions + 3 * (size_t)i;
+  const float *y = tree->mesh.positions + 3 * (size_t)j;
+  for (size_t k = 0; k < 3; k++) {
+    if (x[k] < y[k]) return -1;
+    if (x[k] > y[k]) return 1;
+  }
+  return 0;
 }
 
-// How many edges go from one place to another? Unless NULL, *lowest becomes the lowest vertex at
-// the first.
-static long nsvcd__edges_between(const nsvcd_tree *tree, nsvcd__f3 from, nsvcd__f3 to,
-                                 uint32_t *lowest) {
-  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
-  size_t height = 1;
-  long count = 0;
-  while (height > 0) {
-    const nsvcd__node node = stack[--height];
-    const nsvcd__box *box = &tree->boxes[node.box];
-    if (nsvcd__f3_exceeds(from, box->high) || nsvcd__f3_exceeds(box->low, from)) continue;
-    if (node.count > 1) {
-      nsvcd__children(&node, &stack[height], &stack[height + 1]);
-      height += 2;
-      continue;
-    }
-    const uint32_t triangle = tree->order[node.first];
-    for (uint32_t k = 0; k < 3; k++) {
-      const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
-      const nsvcd__f3 own = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, k));
-      const nsvcd__f3 next = nsvcd__f3_load(nsvcd__tree_corner(tree, triangle, (k + 1) % 3));
-      if (!nsvcd__same_point(own, from)) continue;
-      if (lowest && vertex < *lowest) *lowest = vertex;
-      count += nsvcd__same_point(next, to);
-    }
+// The ends of an edge, by the lowest vertices at their places; 3 t + k begins at corner k of
+// triangle t.
+static void nsvcd__edge_ends(const nsvcd_tree *tree, uint32_t edge, uint32_t *ends) {
+  const uint32_t next = edge % 3 == 2 ? edge - 2 : edge + 1;
+  ends[0] = tree->weld[tree->mesh.indices[edge]];
+  ends[1] = tree->weld[tree->mesh.indices[next]];
+}
+
+// The same of two edges, whichever way they go.
+static int nsvcd__edge_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  uint32_t a[2], b[2];
+  nsvcd__edge_ends(tree, i, a);
+  nsvcd__edge_ends(tree, j, b);
+  const uint64_t x = (uint64_t)(a[0] < a[1] ? a[0] : a[1]) << 32 | (a[0] < a[1] ? a[1] : a[0]);
+  const uint64_t y = (uint64_t)(b[0] < b[1] ? b[0] : b[1]) << 32 | (b[0] < b[1] ? b[1] : b[0]);
+  return x < y ? -1 : x > y;
+}
+
+typedef int nsvcd__tree_compare(const nsvcd_tree *tree, uint32_t i, uint32_t j);
+
+// Moves what is at place `at` of a heap down to where it belongs.
+static void nsvcd__sink(const nsvcd_tree *tree, nsvcd__tree_compare *order, uint32_t *heap,
+                        size_t count, size_t at) {
+  const uint32_t sinks = heap[at];
+  for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+    if (child + 1 < count && order(tree, heap[child], heap[child + 1]) < 0) child++;
+    if (order(tree, sinks, heap[child]) >= 0) break;
+    heap[at] = heap[child];
+    at = child;
   }
-  return count;
+  heap[at] = sinks;
+}
+
+// Heap sort (Williams 1964): no memory, and no mesh makes it slow.
+static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *order,
+                                uint32_t *numbers, size_t count) {
+  for (size_t at = count / 2; at-- > 0;) nsvcd__sink(tree, order, numbers, count, at);
+  for (size_t end = count; end-- > 1;) {
+    const uint32_t last = numbers[end];
+    numbers[end] = numbers[0];
+    numbers[0] = last;
+    nsvcd__sink(tree, order, numbers, end, 0);
+  }
+}
+
+// weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
+static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
+  const size_t count = tree->mesh.vertex_count;
+  size_t end;
+  for (size_t v = 0; v < count; v++) numbers[v] = (uint32_t)v;
+  nsvcd__sort_numbers(tree, nsvcd__place_order, numbers, count);
+  for (size_t i = 0; i < count; i = end) {
+    uint32_t lowest = numbers[i];
+    end = i;
+    while (end < count && nsvcd__place_order(tree, numbers[i], numbers[end]) == 0) {
+      lowest = numbers[end] < lowest ? numbers[end] : lowest;
+      end++;
+    }
+    for (size_t n = i; n < end; n++) tree->weld[numbers[n]] = lowest;
+  }
 }
 
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
@@ -167,23 +213,41 @@ static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
   part[x > y ? x : y] = x > y ? y : x;
 }
 
-// Joins the corners of triangles, and vertices at the same place.
-static void nsvcd__find_parts(nsvcd_tree *tree) {
+// Joins the corners of triangles, and vertices at the same place; a part is open if an edge of its
+// goes there and back not equally often. edges: (3 triangles), to work with.
+static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
   const uint32_t *indices = tree->mesh.indices;
   const size_t corners = 3 * tree->mesh.triangle_count;
-  for (size_t v = 0; v < tree->mesh.vertex_count; v++) tree->part[v] = NSVCD_NO_TRIANGLE;
-  for (size_t i = 0; i < corners; i++) tree->part[indices[i]] = indices[i];
-  for (size_t i = 0; i < corners; i++)
+  size_t end;
+  nsvcd__weld_places(tree, tree->part);
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    tree->part[v] = NSVCD_NO_TRIANGLE;
+    tree->open[v] = 0;
+  }
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t lowest = tree->weld[indices[i]];
+    tree->part[indices[i]] = indices[i];
+    tree->part[lowest] = lowest;
+    edges[i] = (uint32_t)i;
+  }
+  for (size_t i = 0; i < corners; i++) {
     nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
-  for (uint32_t v = 0; v < tree->mesh.vertex_count; v++) {
-    const nsvcd__f3 x = nsvcd__f3_load(tree->mesh.positions + 3 * (size_t)v);
-    uint32_t lowest = v;
-    if (tree->part[v] == NSVCD_NO_TRIANGLE) continue;
-    (void)nsvcd__edges_between(tree, x, x, &lowest);
-    nsvcd__unite_parts(tree->part, v, lowest);
+    nsvcd__unite_parts(tree->part, indices[i], tree->weld[indices[i]]);
   }
   for (size_t i = 0; i < corners; i++)
     tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+  nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
+  for (size_t i = 0; i < corners; i = end) {
+    size_t there = 0;
+    size_t back = 0;
+    for (end = i; end < corners && nsvcd__edge_order(tree, edges[i], edges[end]) == 0; end++) {
+      uint32_t ends[2];
+      nsvcd__edge_ends(tree, edges[end], ends);
+      there += ends[0] < ends[1];
+      back += ends[1] < ends[0];
+    }
+    if (there != back) tree->open[tree->part[indices[edges[i]]]] = 1;
+  }
 }
 
 // Lays a tree out at base, or, where that is NULL, only counts. Returns the bytes that it takes.
@@ -195,6 +259,8 @@ static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tre
   tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
   tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
   tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
   return used;
 }
 
@@ -221,6 +287,7 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   t->digest =
       nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
   t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
+  nsvcd__find_parts(t, (uint32_t *)t->boxes);
   for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
   stack[0].box = stack[0].first = 0;
   stack[0].count = (uint32_t)mesh->triangle_count;
@@ -235,7 +302,6 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
     const float *corner = nsvcd__tree_corner(t, t->order[i / 3], (uint32_t)(i % 3));
     memcpy(t->corners + 3 * i, corner, 3 * sizeof *corner);
   }
-  nsvcd__find_parts(t);
   *tree = t;
   return NSVCD_OK;
 }

@@ -8,8 +8,8 @@
 // pointers to the mesh's arrays, which stay as they are; threads may share it.
 typedef struct nsvcd_tree nsvcd_tree;
 
-// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 56 for a
-// triangle and 4 for a vertex.
+// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 88 for a
+// triangle and 9 for a vertex.
 NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
 
 // Builds the tree of a mesh: once for each mesh, in a time like that of sorting it.

@@ -167,7 +167,7 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
 //   errors     those of nsvcd_certify and nsvcd_check, and ARGUMENT for a motion whose joints turn
-//              by more than 10,000 or, in the whole motion's time, 100,000
+//              by more than 1,000 or, in the whole motion's time, 100,000
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,

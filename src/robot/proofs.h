@@ -171,7 +171,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
       const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
-      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e4)) return 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
       if (!(step <= 0.999e5 * whole)) return 0;
     }
   }
