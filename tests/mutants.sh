@@ -262,8 +262,7 @@ verify: edges that pass by|return clear \&\& second == -first ? NULL|return seco
 verify: another mesh|if (!why \&\& !is_a) why =|if (0) why =
 verify: another mesh b|if (!why \&\& !is_b) why =|if (0) why =
 verify: another motion|if (!why \&\& !is_motion) why =|if (0) why =
-verify: what follows|if (!why \&\& r->bits - r->at >= 8) why =|if (0) why =
-verify: it ends early|if (!why \&\& r->at > r->bits) why = "it ends early";|
+verify: what follows|if (!why \&\& (r->at + 7) / 8 != size)|if (0)
 verify: no knots|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = t1;
 verify: knots of a alone|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = r->a->next(r->a->motion, t);
 verify: vertices at one place are two|weld[v] = same ? weld[m->part[i - 1]] : v;|weld[v] = v; (void)same;

@@ -230,8 +230,8 @@ static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_m
   } else if (!why) {
     why = verify__meeting(r, kind, report);
   }
-  if (!why && r->at > r->bits) why = "it ends early";
-  if (!why && r->bits - r->at >= 8) why = "something follows its end";
+  if (!why && (r->at + 7) / 8 != size)
+    why = r->at > r->bits ? "it ends early" : "something follows its end";
   report->reason = why;
   report->kind = why ? NSVCD_VERIFY_NOTHING : kind;
   report->position = (r->at < r->bits ? r->at : r->bits) / 8;
