@@ -539,6 +539,18 @@ expect 0 '' build/svcd plan "$dir/robot.txt" --only up,turned --certificates "$d
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 test "$(grep -c '	accepted	free	' "$dir/out")" = 2 || fail "plans: $(cat "$dir/out")"
 grep -q '^stuck	refused	there is no certificate	' "$dir/out" || fail "a plan without one: $(cat "$dir/out")"
+not_of_a_plan() {  # TEXT SED: a planning file that verify does not take, whatever certificates there are
+  sed "$2" "$dir/robot.txt" >"$dir/other_robot.txt"
+  cmp -s "$dir/robot.txt" "$dir/other_robot.txt" && fail "the same planning file: $2"
+  expect 2 "$1" build/verify "$dir/other_robot.txt" "$dir/certs"
+}
+first=$(grep '^obstacle' "$dir/robot.txt" | head -1 | sed 's,/,.,g')
+not_of_a_plan 'not where it may stand' "/^scene/a body late world $(awk '$1 == "body" { print $4; exit }' "$dir/robot.txt")"
+not_of_a_plan 'not where it may stand' "s,^plan turned.*,&\n$first x,"
+not_of_a_plan 'not where it may stand' 's/^plan up shelf/plan up hall/'
+not_of_a_plan 'a joint is of no kind' '1,/ revolute /s/ revolute / fixed /'
+not_of_a_plan 'two bodies of one name' 's/^body forearm /body palm /'
+not_of_a_plan 'a path ends early' 's/^path aside shelf 3/path aside shelf 99999999/'
 mv "$dir/certs/up.cert" "$dir/certs/turned.cert"
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fail "another plan's: $(cat "$dir/out")"

@@ -13,9 +13,10 @@
 //   NEAR    at report.time points of two triangles are nearer to each other than the clearance;
 //   INSIDE  at report.time a corner of one is inside what closed components of the other enclose.
 // A component is triangles joined by corners at the same place; it is closed if each of its edges
-// goes there and back equally often; and closed components enclose what they, together, wind about
-// a number of times that is not 0. So nothing is inside of a room whose walls face inwards, of a
-// box of which each wall is there twice, both ways round, or of one that a stray triangle hangs on.
+// goes there and back equally often; closed components enclose what they, together, wind about a
+// number of times that is not 0. So the space in a box is inside, whichever way its walls all face.
+// Nothing is inside of the hollow of a room with thick walls, of a box whose walls are there twice,
+// both ways round, or of a component that is not closed, as one with a stray triangle at a corner.
 //
 // WHY. FREE is a walk over (node of a's tree, node of b's, stretch of time), which begins with both
 // roots and [0,1]. A visit reads one code:
@@ -32,18 +33,21 @@
 // triangles it is most and least at corners.
 //   Surfaces that never meet do not get inside of each other later on. If somewhere the roots are
 // parted, nothing is inside then. Else a ray follows for each component of a, from a corner of it
-// at t = 0, then for each of b. Of each component of the other that is not closed it crosses as
-// many triangles inwards as outwards, and so it does of all closed ones together. So these do not
-// wind about that corner, nor about the rest of its component, which does not cross them.
+// at t = 0, then for each of b. It crosses the closed components of the other, summed, as often
+// inwards as outwards, and passes no edge too near to tell. So these do not wind about that corner,
+// nor about the rest of its component, which does not cross them.
 //
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it, those of poses before and after included: sums of some ten products, roots,
 // and libm's sin and atan2 are good to units of 1e-16, a share of the way between two of 65,536
 // poses to 1e-11. VERIFY__MARGIN, 1e-10 of all lengths, is asked for beyond that, of planes and of
 // rays. Uniform poses are at the doubles k / (count - 1). What is compared with a NaN is false,
-// and then nothing is parted. So -ffast-math is not for this file.
+// and then nothing is parted. Digests only catch mix-ups: no proof rests on them.
 #ifndef NSVCD_VERIFY_H
 #define NSVCD_VERIFY_H
+#ifdef __FAST_MATH__
+#error "nsvcd_verify.h: comparisons with NaN, and margins, do not hold with -ffast-math"
+#endif
 #include "nsvcd_verify_rays.h"
 
 #define VERIFY__EXACT 24        // triangles: of no more, corners count; of more, the box
@@ -106,7 +110,7 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
 // ---- the walk
 
 // Places both bodies at t0, at t1, and at all knots between. 0: there is no room.
-static inline int verify__place(verify__reader *r, double t0, double t1) {
+static inline int verify__instants(verify__reader *r, double t0, double t1) {
   double t = t0;
   for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
     verify__instant *at = &r->instants[r->count++];
@@ -130,7 +134,7 @@ static inline double verify__side(const nsvcd_verify_mover *mover, const nsvcd_v
 }
 
 // Puts two visits in place of one: v, and the one after it on the stack, which comes first.
-static inline int verify__open(const verify__reader *r, verify__visit *v) {
+static inline int verify__descend(const verify__reader *r, verify__visit *v) {
   const int longer = verify__side(r->a, &v->a) >= verify__side(r->b, &v->b);
   const int opens_a = v->b.count == 1 || (v->a.count > 1 && longer);
   nsvcd_verify_node *node = opens_a ? &v->a : &v->b;
@@ -156,7 +160,7 @@ static inline const char *verify__walk(verify__reader *r) {
     if (v->t0 != t0 || v->t1 != t1) {
       t0 = v->t0;
       t1 = v->t1;
-      if (!verify__place(r, t0, t1)) return "the workspace has no room for all knots";
+      if (!verify__instants(r, t0, t1)) return "the workspace has no room for all knots";
     }
     const int opens = !verify__read(r, 1);
     const int same = !opens && verify__read(r, 1);
@@ -172,7 +176,7 @@ static inline const char *verify__walk(verify__reader *r) {
     }
     if (r->at > r->bits) return "it ends early";
     if (height == VERIFY__STACK || (halves && t1 - t0 < VERIFY__SHORTEST)) return "it is too deep";
-    if (opens && !verify__open(r, v)) return "it opens triangles";
+    if (opens && !verify__descend(r, v)) return "it opens triangles";
     if (halves) {
       v[1] = *v;
       v[1].t1 = v->t0 = 0.5 * (t0 + t1);
@@ -197,7 +201,7 @@ static inline uint32_t verify__fold(uint32_t digest, int bits) {
 // Does a certificate, which may be any bytes, prove something of two movers and a clearance in
 // metres? 1: what report->kind says. 0: report->reason says why not. The workspace is aligned to 8
 // bytes; threads that share a mesh take turns, for rays write to it. Takes the certificate's length
-// times the knots, and for each ray the triangles.
+// times the knots and the joints, and for each ray the mesh.
 static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_mover *b,
                                float clearance, const uint8_t *bytes, size_t size, void *workspace,
                                size_t workspace_size, nsvcd_verify_report *report) {
@@ -223,6 +227,7 @@ static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_m
   const int is_motion = verify__read(r, 16) == verify__fold(motion, 16);
   if (!why && !is_motion) why = "it is about another motion, scale or clearance";
   if (!(clearance >= 0 && clearance <= 1e6f)) why = "a clearance is out of range";
+  if (size > SIZE_MAX / 16) why = "it is too large";
   if (!why && kind == NSVCD_VERIFY_FREE) {
     why = verify__walk(r);
     if (!why && !r->apart) why = verify__outside(r, a, b);

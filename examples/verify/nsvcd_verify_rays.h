@@ -16,7 +16,7 @@ typedef enum nsvcd_verify_kind {
 
 typedef struct nsvcd_verify_report {
   const char *reason;      // why it is refused; NULL: it is not
-  size_t position;         // of the byte that was read last
+  size_t position;         // of the byte that would be read next
   nsvcd_verify_kind kind;  // what is proven; NOTHING: it is refused
   double time;             // of HIT, NEAR and INSIDE
   uint32_t a, b;           // HIT, NEAR: triangles. INSIDE: a corner, and whose: 0 a's, 1 b's
@@ -51,8 +51,8 @@ static inline uint32_t verify__read(verify__reader *r, int count) {
   return out;
 }
 
-// The next normal: k zeros and a 1: the one that was used k + 1 before the last; seven zeros: a new
-// one, 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
+// The next normal: k zeros and a 1: the one k + 1 places before the last; seven zeros: a new one,
+// 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
 // octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It
 // becomes the last.
 static inline void verify__read_normal(verify__reader *r) {
@@ -113,8 +113,8 @@ static inline void verify__seen(const nsvcd_verify_mover *of, const nsvcd_verify
   }
 }
 
-// In the frame of one mover, in units of its scale: no length is more, and no point is off by as
-// much as the margin.
+// In the frame of one mover, in units of its scale: no coordinate is longer than `lengths`, and
+// each point is nearer than the margin to where it truly is.
 typedef struct verify__extent {
   double lengths, margin;
 } verify__extent;
@@ -133,7 +133,8 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
     ahead = verify__max(ahead, verify__dot(p[k], d));
   }
   if (ahead < -e->margin * length) return 0;
-  // on which side of each edge does it pass? If y is off, and d twice that
+  // On which side of each edge does it pass? det(d, u, v) is off by |d| |edge| if y is off by a
+  // metre, and by |u x v| if d is: of an edge twice the margin, for both of its ends are off.
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
@@ -209,7 +210,7 @@ static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
                                                const nsvcd_verify_place *of_at,
                                                const nsvcd_verify_mover *by,
                                                const nsvcd_verify_place *by_at) {
-  const nsvcd_verify_node root = {0, 0, 2};
+  const nsvcd_verify_node root = {0, 0, 1};
   const double offset[3] = {of_at->at[0] - by_at->at[0], of_at->at[1] - by_at->at[1],
                             of_at->at[2] - by_at->at[2]};
   const double apart = sqrt(verify__dot(offset, offset));
@@ -300,7 +301,7 @@ static inline const char *verify__near(verify__reader *r, const verify__pair *p)
   return p->mover[1]->scale * distance < r->clearance ? NULL : "two points are not as near as that";
 }
 
-// Whose corner, which, and a ray. Only components count of which each edge has as many reverses.
+// Whose corner, which, and a ray. Only closed components count.
 static inline const char *verify__inside(verify__reader *r, nsvcd_verify_report *out) {
   out->b = verify__read(r, 1);
   out->a = verify__read(r, 32);

@@ -10,12 +10,13 @@
 //
 // THE STRAY. Let x in [0,1] be the share of a stretch of a piece that has gone by, V_j and A_j
 // bounds of |q_j'| and |q_j''| by x, and L_j one of the distance of a point y of the part from
-// joint j; of a joint that slides, 1. Derivatives of y by q_j are no more than L_j, those by q_j
-// and q_k than L of the outer one if the inner one turns, and 0 if it slides; by q_j twice than
-// L_j, if it turns. So
+// joint j; of a joint that slides, 1. Of two joints the outer one is nearer to the part. The
+// derivative of y by q_j is no more than L_j; that by q_j and q_k no more than L of the outer one
+// if the inner one turns, 0 if it slides; that by q_j twice no more than L_j, if it turns. So
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j),
-// the second term of joints that turn alone, and a chord is left by an eighth of it. L_j is the sum
-// of what stands between joint j and y: offsets of joints, slides, |p| and |s x|.
+// the second term only for joints that turn, and a chord is left by an eighth of it. L_j is the sum
+// of what stands between joint j and y: offsets of joints, slides, |p| and |s x|. Ends of pieces
+// are rounded: that changes the clock of both parts alike, which share one motion and one base.
 #ifndef NSVCD_VERIFY_ROBOT_H
 #define NSVCD_VERIFY_ROBOT_H
 #include "nsvcd_verify.h"
@@ -126,7 +127,7 @@ static inline double verify__offset(const float *at) {
               (double)at[2] * (double)at[2]);
 }
 
-// All in pairs: what does not depend on r, and what goes with it.
+// stray[0] and outer[0] are metres, stray[1] and outer[1] what r is multiplied by.
 static inline void verify__part_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_part *part = (const nsvcd_verify_part *)motion;
   const nsvcd_verify_motion *m = part->motion;
@@ -146,6 +147,9 @@ static inline void verify__part_stray(const void *motion, double t0, double t1, 
       speed = verify__max(speed, n * fabs(p[i + 1] - p[i]));
     for (size_t i = 0; i + 2 <= m->degree; i++)
       bend = verify__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
+    // differences of rounded points
+    speed += 1e-13 * most;
+    bend += 1e-13 * most;
     for (int k = 0; k < 2; k++) {
       stray[k] += 0.1250001 * bend * lever[k];
       if (!joint->slides) stray[k] += 0.1250001 * speed * (2 * outer[k] + speed * lever[k]);

@@ -21,7 +21,7 @@ typedef struct nsvcd_verify_mesh {
   size_t vertices, triangles;
   uint32_t *order;  // (triangles): the leaves, from left to right
   float *boxes;     // (2 triangles - 1, 6) low, high: of a node, of its left tree, its right tree
-  uint32_t *part;   // (vertices): the lowest vertex of the component; NONE: no triangle has it
+  uint32_t *part;   // (vertices): the lowest vertex of its component; NONE: it is of none
   int32_t *sums;    // (vertices): of each component, outwards less inwards along a ray
   uint8_t *open;    // (vertices): 1: the component is not closed
   uint32_t digest;
@@ -146,30 +146,34 @@ static inline void verify__children(const nsvcd_verify_node *node, nsvcd_verify_
   child[1] = right;
 }
 
-// Is i before j? Without welds of vertices, by their places; with them, of edges, of which edge 3 t
-// + k begins at corner k of triangle t, by their two ends, the lower first.
-static inline int verify__less(const nsvcd_verify_mesh *m, const uint32_t *weld, uint32_t i,
-                               uint32_t j) {
-  const uint32_t of[2] = {i, j};
-  uint32_t ends[2][2];
-  for (int k = 0; k < 3 && !weld; k++) {
-    const float x = m->positions[3 * (size_t)i + (size_t)k];
-    const float y = m->positions[3 * (size_t)j + (size_t)k];
-    if (x < y || x > y) return x < y;
+// Below 0, 0 or above it: vertex i is before, at or after the place of vertex j.
+static inline int verify__vertex_order(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j) {
+  for (size_t k = 0; k < 3; k++) {
+    const float x = m->positions[3 * (size_t)i + k];
+    const float y = m->positions[3 * (size_t)j + k];
+    if (x < y || x > y) return x < y ? -1 : 1;
   }
-  if (!weld) return i < j;
-  for (int n = 0; n < 2; n++) {
-    const uint32_t from = weld[m->indices[of[n]]];
-    const uint32_t to = weld[m->indices[of[n] / 3 * 3 + (of[n] + 1) % 3]];
-    ends[n][0] = from < to ? from : to;
-    ends[n][1] = from < to ? to : from;
-  }
-  if (ends[0][0] != ends[1][0]) return ends[0][0] < ends[1][0];
-  return ends[0][1] < ends[1][1];
+  return 0;
 }
 
-// Sorts vertices, or edges (Williams' heap sort).
-static inline void verify__sort(const nsvcd_verify_mesh *m, const uint32_t *weld, uint32_t *list,
+// The same of edges by their ends, the lower one first, whichever way they go. Edge 3 t + k begins
+// at corner k of triangle t. Vertices count as the one that stands for their place, in m->sums.
+static inline int verify__edge_order(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j) {
+  const uint32_t *weld = (const uint32_t *)m->sums;
+  const uint32_t edges[2] = {i, j};
+  uint64_t ends[2];
+  for (int n = 0; n < 2; n++) {
+    const uint32_t from = weld[m->indices[edges[n]]];
+    const uint32_t to = weld[m->indices[edges[n] / 3 * 3 + (edges[n] + 1) % 3]];
+    ends[n] = from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from;
+  }
+  return ends[0] < ends[1] ? -1 : ends[0] > ends[1];
+}
+
+typedef int verify__order(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j);
+
+// Heap sort (Williams 1964).
+static inline void verify__sort(const nsvcd_verify_mesh *m, verify__order *order, uint32_t *list,
                                 size_t count) {
   for (size_t n = 2 * count; n > 1; n--) {
     // the first count steps make a heap, the others take the last out of it
@@ -178,8 +182,8 @@ static inline void verify__sort(const nsvcd_verify_mesh *m, const uint32_t *weld
     const uint32_t sinks = n > count ? list[at] : list[end];
     if (n <= count) list[end] = list[0];
     for (size_t child = 2 * at + 1; child < end; child = 2 * at + 1) {
-      if (child + 1 < end && verify__less(m, weld, list[child], list[child + 1])) child++;
-      if (!verify__less(m, weld, sinks, list[child])) break;
+      if (child + 1 < end && order(m, list[child], list[child + 1]) < 0) child++;
+      if (order(m, sinks, list[child]) >= 0) break;
       list[at] = list[child];
       at = child;
     }
@@ -188,7 +192,10 @@ static inline void verify__sort(const nsvcd_verify_mesh *m, const uint32_t *weld
 }
 
 static inline uint32_t verify__root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) v = part[v] = part[part[v]];
+  while (part[v] != v) {
+    part[v] = part[part[v]];
+    v = part[v];
+  }
   return v;
 }
 
@@ -204,17 +211,14 @@ static inline void verify__join(nsvcd_verify_mesh *m, uint32_t *edges) {
   const size_t corners = 3 * m->triangles;
   uint32_t *weld = (uint32_t *)m->sums;
   for (size_t v = 0; v < m->vertices; v++) m->part[v] = (uint32_t)v;
-  verify__sort(m, NULL, m->part, m->vertices);
+  verify__sort(m, verify__vertex_order, m->part, m->vertices);
   for (size_t i = 0; i < m->vertices; i++) {
     const uint32_t v = m->part[i];
-    const float *x = m->positions + 3 * (size_t)v;
-    const float *y = m->positions + 3 * (size_t)m->part[i > 0 ? i - 1 : 0];
-    const int same = i > 0 && !(x[0] < y[0] || x[0] > y[0] || x[1] < y[1] || x[1] > y[1] ||
-                                x[2] < y[2] || x[2] > y[2]);
+    const int same = i > 0 && verify__vertex_order(m, m->part[i - 1], v) == 0;
     weld[v] = same ? weld[m->part[i - 1]] : v;
   }
   for (size_t i = 0; i < corners; i++) edges[i] = (uint32_t)i;
-  verify__sort(m, weld, edges, corners);
+  verify__sort(m, verify__edge_order, edges, corners);
   memset(m->open, 0, m->vertices);
   for (size_t v = 0; v < m->vertices; v++) m->part[v] = NSVCD_VERIFY_NONE;
   for (size_t i = 0; i < corners; i++) {
@@ -229,7 +233,7 @@ static inline void verify__join(nsvcd_verify_mesh *m, uint32_t *edges) {
     m->part[m->indices[i]] = verify__root(m->part, m->indices[i]);
   for (size_t i = 0, end; i < corners; i = end) {
     int64_t balance = 0;
-    for (end = i; end < corners && !verify__less(m, weld, edges[i], edges[end]); end++) {
+    for (end = i; end < corners && verify__edge_order(m, edges[i], edges[end]) == 0; end++) {
       const uint32_t e = edges[end];
       const uint32_t to = m->indices[e / 3 * 3 + (e + 1) % 3];
       balance += weld[m->indices[e]] < weld[to] ? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;
@@ -238,7 +242,8 @@ static inline void verify__join(nsvcd_verify_mesh *m, uint32_t *edges) {
   }
 }
 
-// Bytes of the memory that nsvcd_verify_mesh_init takes.
+// Bytes of the memory that nsvcd_verify_mesh_init takes; of no more than SIZE_MAX / 128 triangles
+// and SIZE_MAX / 32 vertices.
 #define NSVCD_VERIFY_MESH_BYTES(vertices, triangles) \
   (52 * (size_t)(triangles) + 9 * (size_t)(vertices))
 
@@ -250,7 +255,8 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
                                                  void *memory, nsvcd_verify_mesh *m) {
   nsvcd_verify_node stack[VERIFY__LEVELS];
   size_t height = 1;
-  if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000)
+  if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000 ||
+      triangles > SIZE_MAX / 128 || vertices > SIZE_MAX / 32)
     return "a mesh has no triangles, or too many";
   for (size_t i = 0; i < 3 * triangles; i++) {
     if (indices[i] >= vertices) return "a mesh has an index out of range";

@@ -1,5 +1,6 @@
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
-// neuralsvcd.h: nsvcd_verify.h is what there is to be believed.
+// neuralsvcd.h. To be believed are nsvcd_verify.h and its files, and of what is read, which mesh,
+// motion and pair it is, verify_files.h and verify_plans.h.
 //
 //   verify FILE.txt FOLDER [--clearance METRES]
 //
@@ -8,8 +9,8 @@
 // --certificates FOLDER` write them. A line each, separated by tabs:
 //   ID accepted|refused REASON BYTES MICROSECONDS
 // REASON: what is proven (free, hit, near, inside), or why it is refused and at which byte.
-// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 all
-// are accepted, 1 one is refused, 2 a file cannot be read, or usage.
+// MICROSECONDS: of one check; meshes are read, and their trees built, before. Exit status: 0 each
+// proves what its line says, which may be a hit; 1 one is refused; 2 a file cannot be read, or usage.
 #include <time.h>
 
 #include "verify_plans.h"
@@ -111,6 +112,7 @@ int main(int argc, char **argv) {
   int all = 1;
   char *text = read_file(path, &size);
   if (!text) fail(path, strerror(errno));
+  no_zero(path, text, size);
   char *next = text;
   expect(path, &next, words, 2);
   if (strcmp(words[0], "nsvcd-plans") == 0) return !check_plans(path, next, argv[2], clearance);

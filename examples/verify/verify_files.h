@@ -56,6 +56,10 @@ static char *read_file(const char *path, size_t *size) {
   return failed ? NULL : (char *)bytes.items;
 }
 
+static void no_zero(const char *path, const char *text, size_t size) {
+  if (memchr(text, 0, size)) fail(path, "a zero byte in a text");
+}
+
 // The next line of a text that has any words, cut into them; 0: there is none.
 static size_t next_words(char **text, char **words, size_t most) {
   size_t count = 0;
@@ -72,8 +76,10 @@ static size_t next_words(char **text, char **words, size_t most) {
     *text = *end ? end + 1 : end;
     *end = 0;
     line[strcspn(line, "#")] = 0;
-    for (char *word = strtok(line, " \t\v\f"); word; word = strtok(NULL, " \t\v\f"))
-      if (count < most) words[count++] = word;
+    for (char *word = strtok(line, " \t\v\f"); word; word = strtok(NULL, " \t\v\f")) {
+      if (count == most) fail("a line", "it has too many words");
+      words[count++] = word;
+    }
   }
   return count;
 }
@@ -85,7 +91,7 @@ static double number_of(const char *path, const char *word) {
   return x;
 }
 
-// A pose, of a quaternion of any length about 1, which is made unit in double.
+// A pose, of a quaternion of any length, which is made unit in double.
 static void read_pose(const char *path, char *const *words, float *pose) {
   double q[4], square = 0;
   for (size_t k = 0; k < 3; k++) pose[k] = (float)number_of(path, words[k]);
@@ -203,8 +209,12 @@ static void read_obj(const char *path, char *text, list *positions, list *indice
     if (strcmp(words[0], "f") != 0) continue;
     add_index(&sizes, (uint32_t)(n - 1));
     for (size_t k = 1; k < n; k++) {
-      const long at = strtol(words[k], NULL, 10);
-      add_index(&corners, (uint32_t)(at < 0 ? (long)(positions->count / 3) + at : at - 1));
+      char *end;
+      const long long at = strtoll(words[k], &end, 10);
+      const long long before = (long long)(positions->count / 3);
+      if (end == words[k] || (*end && *end != '/') || at == 0 || at > 0x60000000 || at < -before)
+        fail(path, "a corner of a face is none");
+      add_index(&corners, (uint32_t)(at < 0 ? before + at : at - 1));
     }
   }
   const uint32_t *vertex = (const uint32_t *)corners.items;
@@ -268,12 +278,14 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
       add_float(positions, (double)x);
     }
   } else {
-    char *words[8];
-    for (size_t n = next_words(&text, words, 8); n > 0; n = next_words(&text, words, 8)) {
+    char *words[80];
+    no_zero(path, text, size);
+    for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
       if (n == 4 && (words[0][0] | 32) == 'v')
         for (size_t k = 1; k < 4; k++) add_float(positions, number_of(path, words[k]));
     }
   }
+  if (positions->count % 9 != 0) fail(path, "it ends within a triangle");
   weld(positions, indices);
 }
 
@@ -288,6 +300,7 @@ static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
   const int is_stl = length > 4 && (path[length - 3] | 32) == 's' && (path[length - 2] | 32) == 't';
   char *begin = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
   if (is_stl) read_stl(path, text, size, &positions, &indices);
+  if (!is_stl) no_zero(path, text, size);
   if (!is_stl) read_obj(path, begin, &positions, &indices);
   const size_t vertices = positions.count / 3;
   const size_t triangles = indices.count / 3;
@@ -305,7 +318,8 @@ static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name)
   const char *slash = strrchr(file, '/');
   const int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - file);
   nsvcd_verify_mesh *mesh = (nsvcd_verify_mesh *)allocate(sizeof *mesh);
-  snprintf(path, sizeof path, "%.*s%s", folder, file, name);
+  const int length = snprintf(path, sizeof path, "%.*s%s", folder, file, name);
+  if (length < 0 || (size_t)length >= sizeof path) fail(name, "its path is too long");
   read_mesh(path, mesh);
   return mesh;
 }

@@ -1,5 +1,6 @@
 // verify_plans.h - of verify.c: planning files (examples/FORMATS.md), and the certificates of their
-// plans: a motion, and a proof for each pair of bodies that must not meet.
+// plans: a motion, and a proof for each pair of bodies that must not meet. Not looked at are limits
+// of joints, of speeds and accelerations, and pairs that the file does not name.
 #ifndef NSVCD_VERIFY_PLANS_H
 #define NSVCD_VERIFY_PLANS_H
 #include "nsvcd_verify_robot.h"
@@ -41,6 +42,9 @@ static uint32_t body_named(const robot *r, const char *name) {
 
 static void add_body(robot *r, const char *name, const char *mesh, uint32_t link,
                      char *const *pose) {
+  for (size_t i = 0; i < r->bodies.count; i++)
+    if (strcmp(((const robot_body *)r->bodies.items)[i].name, name) == 0)
+      fail(r->path, "two bodies of one name");
   robot_body *body = (robot_body *)add(&r->bodies, sizeof *body);
   memset(body, 0, sizeof *body);
   body->name = name;
@@ -52,6 +56,13 @@ static void add_body(robot *r, const char *name, const char *mesh, uint32_t link
 
 static void add_joint(robot *r, char *const *words) {
   if (r->joint_count == NSVCD_VERIFY_JOINTS) fail(r->path, "too many joints");
+  static const char *const kinds[] = {"revolute", "continuous", "prismatic"};
+  int kind = 0;
+  while (kind < 3 && strcmp(kinds[kind], words[13]) != 0) kind++;
+  if (kind == 3) fail(r->path, "a joint is of no kind");
+  for (size_t i = 0; i < r->joint_count; i++)
+    if (strcmp(r->names[i], words[1]) == 0) fail(r->path, "two joints of one name");
+  if (strcmp(words[1], "world") == 0) fail(r->path, "a joint of the name world");
   nsvcd_verify_joint *joint = &r->joints[r->joint_count];
   joint->parent = link_named(r, words[2]);
   joint->slides = strcmp(words[13], "prismatic") == 0;
@@ -127,8 +138,7 @@ static const char *check_motion(const robot *r, char *const *words, float cleara
   m.degree = (size_t)take(bytes, size, at, 4);
   m.joint_count = (size_t)take(bytes, size, at, 4);
   if (m.joint_count != r->joint_count) return "it is about another robot";
-  if (m.pieces < 1 || m.degree < 1 || m.degree > 5 || m.pieces > size || m.joint_count > 32)
-    return "it has no motion";
+  if (m.pieces < 1 || m.degree < 1 || m.degree > 5 || m.pieces > size) return "it has no motion";
   const size_t numbers = (m.pieces * m.degree + 1) * m.joint_count;
   if (size / 8 < numbers + m.pieces + 1) return "it ends early";
   double *motion = (double *)allocate((numbers + m.pieces + 1) * sizeof *motion);
@@ -182,39 +192,45 @@ static void pair_with_obstacles(robot *r) {
   }
 }
 
-// All plans of a planning file. 1: all are accepted.
+// All plans of a planning file: the robot, one scene, its obstacles, then plans and paths. 1: all
+// are accepted.
 static int check_plans(const char *path, char *text, const char *folder, float clearance) {
   robot r;
   char *words[80];
+  const char *scene = NULL;
   size_t own_pairs = 0;
+  int asked = 0;  // 1: a plan or a path stands above
   int all = 1;
-  int in_scene = 0;
   memset(&r, 0, sizeof r);
   r.path = path;
   for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
     const char *word = words[0];
-    if (strcmp(word, "joint") == 0 && n >= 17) {
+    if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
-    } else if (strcmp(word, "body") == 0 && n == 4) {
+    } else if (strcmp(word, "body") == 0 && n == 4 && !scene) {
       add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL);
       r.own = r.bodies.count;
-    } else if (strcmp(word, "pair") == 0 && n == 3) {
+    } else if (strcmp(word, "pair") == 0 && n == 3 && !scene) {
       add_index(&r.pairs, body_named(&r, words[1]));
       add_index(&r.pairs, body_named(&r, words[2]));
-      own_pairs = r.pairs.count;
-    } else if (strcmp(word, "scene") == 0) {
-      if (in_scene) fail(path, "a second scene: one a file");
-      in_scene = 1;
-    } else if (strcmp(word, "obstacle") == 0 && n == 10) {
-      add_body(&r, words[1], words[2], 0, words + 3);
-    } else if (strcmp(word, "path") == 0 && n == 4) {
-      for (size_t k = strtoul(words[3], NULL, 10); k > 0; k--) next_words(&text, words, 80);
-    } else if (strcmp(word, "plan") == 0 && n == 3 + 2 * r.joint_count) {
+    } else if (strcmp(word, "scene") == 0 && n == 2) {
+      if (!scene) own_pairs = r.pairs.count;
+      scene = words[1];
+      asked = 0;
+      r.bodies.count = r.own;
       r.pairs.count = own_pairs;
-      pair_with_obstacles(&r);
-      all &= check_plan(&r, words, folder, clearance);
+    } else if (strcmp(word, "obstacle") == 0 && n == 10 && scene && !asked) {
+      add_body(&r, words[1], words[2], 0, words + 3);
+    } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
+                                          : strcmp(word, "path") == 0 && n == 4) &&
+               scene && strcmp(words[2], scene) == 0) {
+      if (!asked) pair_with_obstacles(&r);
+      asked = 1;
+      if (word[1] == 'l') all &= check_plan(&r, words, folder, clearance);
+      for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
+        if (next_words(&text, words, 80) == 0) fail(path, "a path ends early");
     } else {
-      fail(path, "a line is not one of a planning file");
+      fail(path, "a line is not one of a planning file, or not where it may stand");
     }
   }
   return all;

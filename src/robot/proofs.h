@@ -107,6 +107,9 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
       speed = nsvcd__max(speed, n * fabs(p[i + 1] - p[i]));
     for (size_t i = 0; i + 2 <= c->motion.degree; i++)
       bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
+    // differences of rounded points
+    speed += 1.01e-13 * most;
+    bend += 1.01e-13 * most;
     const double own = slides ? 0 : speed;
     out.base += bend * lever.base + own * (2 * outer.base + own * lever.base);
     out.per_metre +=
