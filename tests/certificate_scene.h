@@ -218,7 +218,7 @@ typedef struct cert_view {
 
 static void cert_look(const cert_scene *s, cert_view *view) {
   const nsvcd_mover *movers[2] = {&s->question.a, &s->question.b};
-  view->why = NULL;
+  memset(view, 0, sizeof *view);
   for (int n = 0; n < 2 && !view->why; n++) {
     view->paths[n].poses = movers[n]->poses->position;
     view->paths[n].times = movers[n]->times;

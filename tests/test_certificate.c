@@ -402,6 +402,8 @@ static void certificates_of_lengths_that_cancel(void) {
     uint32_t memory[64];
     nsvcd_verify_mesh mesh;
     nsvcd_verify_mover mover;
+    memset(&mesh, 0, sizeof mesh);
+    memset(&mover, 0, sizeof mover);
     const float pose[7] = {0, 0, 0, 0, 0, 0, 1};
     const nsvcd_verify_path path = {pose, NULL, 1};
     const nsvcd_verify_node root = {0, 0, 1};
@@ -893,6 +895,7 @@ static void certificates_know_joints(void) {
     nsvcd_verify_part part;
     nsvcd_verify_mover mover;
     double at[9][3], q[NSVCD_MAX_JOINTS];
+    memset(&mover, 0, sizeof mover);
     robot_random(&r, &rng);
     cert_random_motion(&r, &rng, 0.5, &m);
     const size_t n = (size_t)shapes_pick(&rng, (int)r.scene.part_count);
@@ -959,6 +962,7 @@ static void certificates_of_robots(void) {
       nsvcd_verify_mover movers[2];
       nsvcd_verify_report report;
       uint64_t memory[8192];
+      memset(movers, 0, sizeof movers);
       const nsvcd_certify_options options = {NULL, 20000};
       const size_t size = nsvcd_certify_pair_workspace_size(&m.motion, a->tree, b->tree);
       CHECK_LE(size, sizeof memory);

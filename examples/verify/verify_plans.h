@@ -192,8 +192,8 @@ static void pair_with_obstacles(robot *r) {
   }
 }
 
-// All plans of a planning file: the robot, one scene, its obstacles, then plans and paths. 1: all
-// are accepted.
+// All plans of a planning file: the robot, then a scene, its obstacles, and plans and paths in it,
+// and perhaps another scene. 1: all are accepted.
 static int check_plans(const char *path, char *text, const char *folder, float clearance) {
   robot r;
   char *words[80];
