@@ -2,7 +2,7 @@
 # The library on other processors, under QEMU's user mode: cross.sh [ARCH...], from the repository's root; all of
 # aarch64 (NEON), armhf, riscv64, ppc64le, s390x (big-endian) without an argument. Of each: examples/quickstart.c, the
 # verdicts of `svcd check` by proof and by the network on PROBLEMS problems, which must be the host's, a body that the host
-# has encoded, and the tests of TESTS. An ARCH whose tools are not there is not tested, and that is no error. Ends with 1 if
+# has encoded, certificates that it has made, and the tests of TESTS. An ARCH whose tools are not there is not tested, and that is no error. Ends with 1 if
 # anything is not as on the host.
 set -u
 CC=${CC:-cc}
@@ -36,6 +36,7 @@ answers() {
   for program in quickstart svcd; do
     $cc $flags $extra -o "$here/$program" examples/$program.c -lm || return 1
   done
+  $cc $flags $extra -o "$here/verify" examples/verify/verify.c -lm || return 1
   (cd "$here" && $run ./quickstart) | grep carried | sed 's/;.*us)/)/; s/ at .*//' >"$here/quickstart.txt"
   for method in proof network; do
     $run "$here/svcd" check --method $method --repeat 1 "$out/problems.txt" 2>"$here/$method.err" |
@@ -52,6 +53,12 @@ $out/host/svcd encode examples/assets/mug.obj $out/host.body >$out/host/body.txt
 $out/host/svcd info $out/host.body >$out/host/info.txt || fail "a body of the host's"
 test "$(grep -c HITS $out/host/quickstart.txt)" = 1 || fail "the quickstart of the host: $(cat $out/host/quickstart.txt)"
 test "$(wc -l <$out/host/proof.txt)" = "$PROBLEMS" || fail "the host answers $(wc -l <$out/host/proof.txt) problems"
+
+# Certificates are the same bytes everywhere, and what the host has proven is accepted everywhere.
+mkdir -p $out/certs
+$out/host/svcd check --repeat 1 --certificates $out/certs $out/problems.txt >$out/host/proven.txt 2>&1 || fail "no certificates: $(tail -1 $out/host/proven.txt)"
+$out/host/verify $out/problems.txt $out/certs | cut -f 1-4 >$out/host/verified.txt
+test "$(grep -c accepted $out/host/verified.txt)" = "$PROBLEMS" || fail "the host's certificates: $(grep -m 1 refused $out/host/verified.txt)"
 
 same() {  # ARCH, what
   here=$out/$1
@@ -91,6 +98,8 @@ for arch in ${*:-aarch64 armhf riscv64 ppc64le s390x}; do
   if answers "$out/$arch" "${1}gcc" -static "$2"; then
     for what in quickstart proof network; do same "$arch" $what; done
     bodies "$arch" "$2"
+    $2 "$out/$arch/verify" $out/problems.txt $out/certs | cut -f 1-4 >"$out/$arch/verified.txt"
+    same "$arch" verified
     tests_of "$arch" "${1}gcc" "$2"
   else
     fail "$arch: its programs"

@@ -273,7 +273,7 @@ verify: joints without their own turn|(2 * outer[k] + speed * lever[k])|(2 * out
 verify: levers without offsets|outer[k] += speed * lever[k];\n    }\n    reach += verify__offset(joint->origin) +|outer[k] += speed * lever[k];\n    }\n    reach +=
 verify: levers without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n}|reach += verify__offset(joint->origin);\n  }\n}
 verify: pieces as one|return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;|return 1;
-verify: other points of a motion|d = verify__hash(d, value, 2);|
+verify: other points of a motion|d = verify__hash_double(d, *value);|
 verify: coordinates that are none|if (!(fabsf(positions[i]) <= 1e6f)) return|if (0) return
 verify: indices out of range|if (indices[i] >= vertices) return|if (0) return
 verify: quaternions of any length|if (!(fabs(square - 1) < 2.1e-4)) return|if (0) return

@@ -213,6 +213,14 @@ static inline const char *nsvcd_verify_motion_check(const nsvcd_verify_motion *m
   return NULL;
 }
 
+// The lower half of a double first, whatever the machine's order.
+static inline uint32_t verify__hash_double(uint32_t hash, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  const uint32_t halves[2] = {(uint32_t)bits, (uint32_t)(bits >> 32)};
+  return verify__hash(hash, halves, 2);
+}
+
 // Makes a mover of a mesh, a scale and a part of a motion that has been checked, all of which stay.
 // Returns why not, or NULL.
 static inline const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, float scale,
@@ -239,12 +247,13 @@ static inline const char *nsvcd_verify_part_init(const nsvcd_verify_mesh *mesh, 
     double most = 0;
     for (size_t i = 0; i <= m->pieces * m->degree; i++) {
       const double *value = &m->points[i * m->joint_count + link - 1];
-      d = verify__hash(d, value, 2);
+      d = verify__hash_double(d, *value);
       most = verify__max(most, fabs(*value));
     }
     mover->reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
   }
-  d = verify__hash(d + (uint32_t)m->degree, m->times, 2 * (m->pieces + 1));
+  d += (uint32_t)m->degree;
+  for (size_t i = 0; i <= m->pieces; i++) d = verify__hash_double(d, m->times[i]);
   mover->digest = d;
   return NULL;
 }

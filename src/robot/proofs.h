@@ -124,6 +124,14 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
   return out;
 }
 
+// The lower half of a double first, whatever the machine's order.
+static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  const uint32_t halves[2] = {(uint32_t)bits, (uint32_t)(bits >> 32)};
+  return nsvcd__digest(digest, halves, 2);
+}
+
 // A digest of what carries a part, and by how much its places can be off: lengths that they are
 // reckoned from.
 static void nsvcd__carry(const nsvcd__carried *c, const nsvcd_tree *tree,
@@ -143,15 +151,14 @@ static void nsvcd__carry(const nsvcd__carried *c, const nsvcd_tree *tree,
     d = nsvcd__digest(d + (uint32_t)link, joint->axis, 3);
     for (size_t i = 0; i <= m->pieces * m->degree; i++) {
       const double *value = &m->points[i * scene->joint_count + link - 1];
-      d = nsvcd__digest(d, value, 2);
+      d = nsvcd__digest_double(d, *value);
       most = nsvcd__max(most, fabs(*value));
     }
     reach += nsvcd__d3_length(c->checker->links[link - 1].place) + (slides ? most : 0);
   }
   d += (uint32_t)m->degree;
   for (size_t i = 0; i <= m->pieces; i++) {
-    const double time = nsvcd__piece_start(m, i);
-    d = nsvcd__digest(d, &time, 2);
+    d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
   }
   rider->tree = tree;
   rider->scale = (double)scale;
