@@ -17562,16 +17562,29 @@ static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes 
   return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
 }
 
-// How far it goes.
+// How far along a direction, in its frame, a node reaches. Three corners at a time: a maximum waits
+// for the one before.
+static double nsvcd__most_along(const nsvcd_tree *tree, const nsvcd__node *node,
+                                nsvcd__d3 way) {
+  if (node->count > NSVCD__EXACT) return nsvcd__d3_dot(nsvcd__farthest(tree, node, way), way);
+  const float *corners = tree->corners + 9 * (size_t)node->first;
+  double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < node->count; i++) {
+    for (size_t k = 0; k < 3; k++)
+      most[k] = nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), way), most[k]);
+  }
+  return nsvcd__max(most[0], nsvcd__max(most[1], most[2]));
+}
+
+// How far that difference goes.
 static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                const nsvcd__instant *at, nsvcd__d3 along) {
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
   const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
   const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
-  const double a = nsvcd__d3_dot(way_a, nsvcd__farthest(s->a->tree, &nodes->a, back));
-  const double b = nsvcd__d3_dot(way_b, nsvcd__farthest(s->b->tree, &nodes->b, way_b));
-  const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
-  return nsvcd__d3_dot(along, offset) + (s->a->scale * a - s->b->scale * b);
+  const double a = s->a->scale * nsvcd__most_along(s->a->tree, &nodes->a, back);
+  const double b = s->b->scale * nsvcd__most_along(s->b->tree, &nodes->b, way_b);
+  return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
 }
 
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
