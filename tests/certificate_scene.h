@@ -45,6 +45,16 @@ static void cert_make(shapes_mesh *shape, int split, cert_body *out) {
   shapes_free(shape);
 }
 
+static void cert_free(cert_body *b) {
+  nsvcd_body_free(b->body, NULL);
+  oracle_mesh_free(&b->exact);
+  free((void *)(uintptr_t)b->tree);
+  free(b->checked.boxes);
+  free(b->mesh.positions);
+  free(b->mesh.indices);
+  free(b->points);
+}
+
 // Solids, a shell with a cavity, bodies of parts, one open sheet, and one whose vertices are split.
 static cert_body *cert_bodies(void) {
   static cert_body made[CERT_SHAPES];

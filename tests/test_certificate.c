@@ -443,7 +443,7 @@ static void certificates_of_each_corner(void) {
     cert_look(&s, &view);
     const size_t size = cert_one_plane(&s, head, nsvcd__d3_of(0, 0, 1), bytes);
     CHECK(!cert_check(&view, 0, bytes, size, &report));
-    nsvcd_body_free(lone.body, NULL);
+    cert_free(&lone);
   }
 }
 
@@ -1064,7 +1064,10 @@ static void certificates_of_levels(void) {
     CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &made), NSVCD_OK);
     CHECK_EQ(made.verdict, NSVCD_FREE);
     local += made.size;
+    nsvcd_mesh_free(&part, NULL);
+    cert_free(&piece);
   }
+  cert_free(&level);
   CHECK_GE(local, 100);
   CHECK_LE(whole, 3 * local);
 }
