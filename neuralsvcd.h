@@ -17047,9 +17047,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// The box of a node; its triangles so that those that are first along the axis
-// along which their middles differ most, of
-// equals those of lower number, are before the middle (Hoare 1961).
+// The box of a node; its triangles so that those that are first along the axis along which their
+// middles differ most, of equals those of lower number, are before the middle (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -17177,7 +17176,10 @@ static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
 }
 
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) v = part[v] = part[part[v]];
+  while (part[v] != v) {
+    part[v] = part[part[v]];
+    v = part[v];
+  }
   return v;
 }
 
@@ -17524,7 +17526,8 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 
 // ---- nodes
 
-// The corner of a node's box, or of its triangle, that is farthest along a direction in its frame.
+// The corner of a node's box, or of its few triangles, that is farthest along a direction in its
+// frame.
 static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
                                  nsvcd__d3 way) {
   if (node->count > NSVCD__EXACT) {
@@ -17656,7 +17659,6 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
-  const double enough = NSVCD__NORMAL_ENOUGH;
   const double size = nsvcd__d3_length(v);
   for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
     const double length = nsvcd__d3_length(v);
@@ -17667,7 +17669,7 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
       best.along = v;
       best.gap = gap;
     }
-    if (gap - s->clearance > enough * (length - s->clearance)) break;
+    if (gap - s->clearance > NSVCD__NORMAL_ENOUGH * (length - s->clearance)) break;
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;
@@ -17733,7 +17735,7 @@ typedef struct nsvcd__extent {
 
 static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
                                         const nsvcd__rider *by, const nsvcd__posed *by_at) {
-  const nsvcd__node root = {0, 0, 2};
+  const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
   const double places = of->reach + by->reach + nsvcd__lengths_at(of_at, by_at);
@@ -17902,6 +17904,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
+  memset(c->normals, 0, sizeof c->normals);  // a reader begins with none
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
   for (size_t k = 0; k < 3; k++) {

@@ -414,6 +414,37 @@ static void certificates_of_lengths_that_cancel(void) {
   }
 }
 
+// What an answer says is not believed: with one that lies, of what is free and of what is not, a
+// certificate is as good as without.
+static void certificates_of_answers_that_lie(void) {
+  static uint8_t bytes[CERT_ROOM];
+  shapes_rng rng = {13};
+  size_t count[3] = {0};
+  for (int trial = 0; trial < 300; trial++) {
+    cert_scene s;
+    cert_view view;
+    nsvcd_answer lie;
+    nsvcd_certificate made, honest;
+    nsvcd_verify_report report;
+    cert_random(&s, &rng);
+    memset(&lie, 0, sizeof lie);
+    lie.verdict = NSVCD_HIT;
+    lie.inside = trial % 2;
+    lie.nearest.time = (float)shapes_uniform(&rng, 0, 1);
+    lie.nearest.triangle_a = (uint32_t)shapes_pick(&rng, 20);
+    lie.nearest.triangle_b = (uint32_t)shapes_pick(&rng, 20);
+    CHECK_EQ(cert_certify(&s, NULL, bytes, sizeof bytes, &honest), NSVCD_OK);
+    CHECK_EQ(cert_certify(&s, &lie, bytes, sizeof bytes, &made), NSVCD_OK);
+    if (honest.verdict == NSVCD_UNDECIDED) continue;
+    CHECK_EQ(made.verdict, honest.verdict);
+    count[made.verdict]++;
+    cert_look(&s, &view);
+    CHECK(cert_check(&view, s.question.clearance, bytes, made.size, &report));
+  }
+  CHECK_GE(count[NSVCD_FREE], 30);
+  CHECK_GE(count[NSVCD_HIT], 30);
+}
+
 // Lone triangles, of which each corner in turn sticks into a box.
 static void certificates_of_each_corner(void) {
   cert_body *bodies = cert_bodies();
@@ -1078,6 +1109,7 @@ void test_certificate(void) {
   RUN(certificates_at_a_hair);
   RUN(certificates_see_a_swing);
   RUN(certificates_of_half_turns);
+  RUN(certificates_of_answers_that_lie);
   RUN(certificates_of_lengths_that_cancel);
   RUN(certificates_of_each_corner);
   RUN(certificates_of_hits_cannot_be_forged);

@@ -81,6 +81,7 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
 static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
   const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
   c->bits = 0;
+  memset(c->normals, 0, sizeof c->normals);  // a reader begins with none
   nsvcd__write_bits(c, 1, 6);
   nsvcd__write_bits(c, kind, 2);
   for (size_t k = 0; k < 3; k++) {

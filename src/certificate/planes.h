@@ -88,7 +88,8 @@ static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
 
 // ---- nodes
 
-// The corner of a node's box, or of its triangle, that is farthest along a direction in its frame.
+// The corner of a node's box, or of its few triangles, that is farthest along a direction in its
+// frame.
 static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
                                  nsvcd__d3 way) {
   if (node->count > NSVCD__EXACT) {
@@ -220,7 +221,6 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
                                   const nsvcd__instant *at, nsvcd__d3 along) {
   nsvcd__best best = {along, -HUGE_VAL};
   nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
-  const double enough = NSVCD__NORMAL_ENOUGH;
   const double size = nsvcd__d3_length(v);
   for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
     const double length = nsvcd__d3_length(v);
@@ -231,7 +231,7 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
       best.along = v;
       best.gap = gap;
     }
-    if (gap - s->clearance > enough * (length - s->clearance)) break;
+    if (gap - s->clearance > NSVCD__NORMAL_ENOUGH * (length - s->clearance)) break;
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;

@@ -23,7 +23,7 @@ typedef struct nsvcd__extent {
 
 static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
                                         const nsvcd__rider *by, const nsvcd__posed *by_at) {
-  const nsvcd__node root = {0, 0, 2};
+  const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
   const double places = of->reach + by->reach + nsvcd__lengths_at(of_at, by_at);

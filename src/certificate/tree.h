@@ -73,9 +73,8 @@ static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t
   return triangle < other ? -1 : triangle > other;
 }
 
-// The box of a node; its triangles so that those that are first along the axis
-// along which their middles differ most, of
-// equals those of lower number, are before the middle (Hoare 1961).
+// The box of a node; its triangles so that those that are first along the axis along which their
+// middles differ most, of equals those of lower number, are before the middle (Hoare 1961).
 static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
   uint32_t *order = tree->order + node->first;
   nsvcd__box box;
@@ -203,7 +202,10 @@ static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
 }
 
 static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
-  while (part[v] != v) v = part[v] = part[part[v]];
+  while (part[v] != v) {
+    part[v] = part[part[v]];
+    v = part[v];
+  }
   return v;
 }
 
