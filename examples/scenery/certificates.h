@@ -3,29 +3,8 @@
 #ifndef NSVCD_SCENERY_CERTIFICATES_H
 #define NSVCD_SCENERY_CERTIFICATES_H
 
-// A mesh, and its tree.
-typedef struct proof_mesh {
-  nsvcd_mesh mesh;
-  void *memory;
-  const nsvcd_tree *tree;
-} proof_mesh;
-
-// That a file names. Returns 0 after a complaint.
-static int load_tree(const char *file, const char *name, proof_mesh *out) {
-  char path[4096];
-  path_of(file, name, path, sizeof path);
-  if (!load_mesh("", path, &out->mesh)) return 0;
-  const size_t size = nsvcd_tree_size(&out->mesh);
-  out->memory = allocate(size);
-  const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
-  return result ? complain("%s: %s", path, reason_of(result)) : 1;
-}
-
 static void free_trees(proof_mesh *meshes, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    nsvcd_mesh_free(&meshes[i].mesh, NULL);
-    free(meshes[i].memory);
-  }
+  for (size_t i = 0; i < count; i++) free_tree(&meshes[i]);
   free(meshes);
 }
 
@@ -182,13 +161,14 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
   size_t bytes_of_all = 0;
   int is_proven = 1;
   const double start = seconds();
-  proof_mesh *meshes = (proof_mesh *)allocate(file->mesh_count * sizeof *meshes);
-  memset(meshes, 0, file->mesh_count * sizeof *meshes);
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
   FILE *out = fopen(path, "wb");
   int good = out ? 1 : complain("%s: %s", path, strerror(errno));
-  for (size_t i = 0; i < file->mesh_count && good; i++)
-    good = load_tree(file->path, file->meshes[i].path, &meshes[i]);
+  // once for all plans of the file
+  for (size_t i = 0; i < file->mesh_count && good; i++) {
+    robot_mesh *mesh = &file->meshes[i];
+    if (!mesh->proof.tree) good = load_tree(file->path, mesh->path, &mesh->proof);
+  }
   if (good) {
     fputs("NSVM", out);
     put_bytes(out, motion->pieces, 4);
@@ -201,8 +181,8 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
   }
   for (size_t n = 0; n < scene->pair_count && good && is_proven; n++) {
     const nsvcd_body_pair *pair = &scene->pairs[n];
-    const proof_mesh *a = &meshes[robot_thing_of(in, pair->a)->mesh];
-    const proof_mesh *b = &meshes[robot_thing_of(in, pair->b)->mesh];
+    const proof_mesh *a = &file->meshes[robot_thing_of(in, pair->a)->mesh].proof;
+    const proof_mesh *b = &file->meshes[robot_thing_of(in, pair->b)->mesh].proof;
     nsvcd_certificate made;
     const size_t size = nsvcd_certify_pair_workspace_size(motion, a->tree, b->tree);
     const size_t room = (size_t)1 << 22;
@@ -224,7 +204,6 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
     free(workspace);
     free(bytes);
   }
-  free_trees(meshes, file->mesh_count);
   if (out) good = close_written(out, path) && good;
   if (out && (!good || !is_proven)) remove(path);
   if (good && is_proven)

@@ -97,6 +97,28 @@ static void path_of(const char *file, const char *name, char *path, size_t size)
   snprintf(path, size, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
 }
 
+// A mesh, and its tree.
+typedef struct proof_mesh {
+  nsvcd_mesh mesh;
+  void *memory;
+  const nsvcd_tree *tree;
+} proof_mesh;
+
+// That a file names. Returns 0 after a complaint.
+static int load_tree(const char *file, const char *name, proof_mesh *out) {
+  char path[4096];
+  path_of(file, name, path, sizeof path);
+  if (!load_mesh("", path, &out->mesh)) return 0;
+  const size_t size = nsvcd_tree_size(&out->mesh);
+  out->memory = allocate(size);
+  const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
+  return result ? complain("%s: %s", path, reason_of(result)) : 1;
+}
+static void free_tree(proof_mesh *mesh) {
+  nsvcd_mesh_free(&mesh->mesh, NULL);
+  free(mesh->memory);
+}
+
 // Loaded and encoded.
 static const nsvcd_body *encode_named(const char *from, const char *file, const char *name,
                                       const nsvcd_encode_options *options, double *taken) {

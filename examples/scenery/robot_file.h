@@ -19,6 +19,7 @@ typedef struct robot_mesh {
   const char *path;
   size_t line;  // where it is named first
   const nsvcd_body *body;
+  proof_mesh proof;  // made where a certificate is written
 } robot_mesh;
 
 // A body of the robot, or an obstacle of a scene.
@@ -281,7 +282,10 @@ static int encode_robot(robot_file *file, double *taken) {
 }
 
 static void free_robot(robot_file *file) {
-  for (size_t i = 0; i < file->mesh_count; i++) nsvcd_body_free(file->meshes[i].body, NULL);
+  for (size_t i = 0; i < file->mesh_count; i++) {
+    nsvcd_body_free(file->meshes[i].body, NULL);
+    free_tree(&file->meshes[i].proof);
+  }
   free(file->text);
   free(file->meshes);
   free(file->things);

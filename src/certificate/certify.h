@@ -65,11 +65,8 @@ static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
   const nsvcd__d3 along = known ? c->normals[k] : normal->along;
   nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
   if (!known) {
-    nsvcd__write_bits(c,
-                      normal->bits == 8    ? 0
-                      : normal->bits == 16 ? 2
-                                           : 3,
-                      normal->bits == 8 ? 1 : 2);
+    const uint32_t bytes = (uint32_t)normal->bits / 8;
+    nsvcd__write_bits(c, bytes > 1 ? bytes : 0, bytes > 1 ? 2 : 1);
     nsvcd__write_bits(c, normal->x, normal->bits);
     nsvcd__write_bits(c, normal->y, normal->bits);
     k--;

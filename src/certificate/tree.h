@@ -276,12 +276,14 @@ NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh) {
 NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
                                        const nsvcd_tree **tree) {
   nsvcd__node stack[NSVCD__TREE_STACK];
+  nsvcd_tree counted;
   size_t height = 1;
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;
   if (!tree) return NSVCD_ERROR_ARGUMENT;
-  const size_t needed = nsvcd_tree_size(mesh);
-  if (mesh->triangle_count > NSVCD__TREE_TRIANGLES || !needed) return NSVCD_ERROR_TOO_LARGE;
+  const uint64_t needed = nsvcd__tree_layout(mesh, NULL, &counted);
+  if (mesh->triangle_count > NSVCD__TREE_TRIANGLES || needed > SIZE_MAX)
+    return NSVCD_ERROR_TOO_LARGE;
   if (!memory || size < needed || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_tree *t = (nsvcd_tree *)memory;
   (void)nsvcd__tree_layout(mesh, (char *)memory, t);
