@@ -33,7 +33,7 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets header help format clean firmware web weights problems accuracy
+.PHONY: all demo preview assets header api help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
 .PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
 .PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
@@ -54,6 +54,8 @@ build:
 
 header:  ## writes neuralsvcd.h from the rooms of src/
 	python3 src/make_header.py
+api: | build  ## build/api.html: what a program sees, as a page
+	python3 src/make_api.py
 
 # ---------------------------------------------------------------------------------------------------------- examples
 
@@ -562,7 +564,7 @@ format:  ## clang-format on what is written by hand
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
 check-text:  ## the rooms as a text; that neuralsvcd.h is made of them, the tests of tests/PROMISES.md are there, all is formatted
 	@if command -v python3 >/dev/null; then python3 src/make_header.py --check && python3 tests/make_header_test.py && \
-	  python3 tests/text.py && python3 tests/promises.py; \
+	  python3 tests/make_api_test.py && python3 tests/text.py && python3 tests/promises.py; \
 	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \
