@@ -67,12 +67,12 @@ build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_fil
 build/verify: examples/verify/verify.c $(VERIFIER) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 
-# What the module of examples/python opens.
+# What the modules of examples/python open.
 build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
-# What nsvcd_verify.py opens: the checker alone.
+	$(CC) $(ALL_CFLAGS) -I. -fPIC -shared -o $@ $< -lm
+# What the module nsvcd_verify opens: the checker alone.
 build/_nsvcd_verify.so: examples/python/_nsvcd_verify.c $(VERIFIER) | build
-	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
+	$(CC) $(ALL_CFLAGS) -I. -fPIC -shared -o $@ $< -lm
 python: build/_neuralsvcd.so build/_nsvcd_verify.so  ## the libraries for examples/python
 
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/

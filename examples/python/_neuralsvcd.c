@@ -1,11 +1,11 @@
-// _neuralsvcd.c - the library as neuralsvcd.py loads it, with ctypes, which knows nothing of the
-// header. So that a changed header cannot break it silently, prototypes are compared here, and the
-// layout of structs is told to neuralsvcd.py, which compares it on import.
+// _neuralsvcd.c - the library as the module neuralsvcd loads it, with ctypes, which knows nothing of
+// the header. So that a changed header cannot break it silently, prototypes are compared here, and
+// the layout of structs is told to the module, which compares it on import.
 #define NSVCD_NO_STDIO  // Python reads the files
 #define NEURALSVCD_IMPLEMENTATION
-#include "../../neuralsvcd.h"
+#include "neuralsvcd.h"
 
-// As neuralsvcd.py calls them. Where the header says otherwise, this does not compile.
+// As the module calls them. Where the header says otherwise, this does not compile.
 const char *nsvcd_result_string(nsvcd_result);
 nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],

@@ -1,4 +1,4 @@
-"""Tests of neuralsvcd.py: `make check-python`, or, after `make python build/svcd`, `python3 -m unittest` here."""
+"""Tests of the modules: `make check-python`, or, after `make python build/svcd`, `python3 -m unittest` here."""
 from __future__ import annotations
 
 import copy
@@ -1218,7 +1218,7 @@ class Readme(unittest.TestCase):
 
 class Wheel(unittest.TestCase):
     def test_from_a_clean_checkout(self) -> None:
-        """Only what the build needs is copied; the wheel runs in an environment of its own, far from the sources."""
+        """Only what the build needs is copied, into an sdist; a wheel of that runs in an environment of its own."""
         tools = subprocess.run([sys.executable, "-c", "import setuptools, wheel, pip, venv"], capture_output=True)
         if tools.returncode or not (ROOT / "neuralsvcd.h").exists():
             self.skipTest("no setuptools, wheel, pip or venv: not tested")
@@ -1229,9 +1229,10 @@ class Wheel(unittest.TestCase):
             shutil.copytree(HERE.parent / "verify", folder / "checkout" / "examples" / "verify")
             for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
                 shutil.copy(ROOT / file, folder / "checkout")
-            for file in ("neuralsvcd.py", "_neuralsvcd.c", "nsvcd_verify.py", "_nsvcd_verify.c", "setup.py",
-                         "pyproject.toml", "README.md"):
+            for file in ("_neuralsvcd.c", "_nsvcd_verify.c", "setup.py", "pyproject.toml", "README.md"):
                 shutil.copy(HERE / file, sources)
+            for package in ("neuralsvcd", "nsvcd_verify"):
+                shutil.copytree(HERE / package, sources / package, ignore=shutil.ignore_patterns("__pycache__"))
 
             def run(*command: object, cwd: Path = folder, **variables: str) -> str:
                 environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
@@ -1240,22 +1241,25 @@ class Wheel(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 return done.stdout
             pip = ["-m", "pip", "--disable-pip-version-check"]
-            run(sys.executable, *pip, "wheel", ".", "--no-deps", "--no-build-isolation", "--no-index", "-w", folder,
-                cwd=sources, CFLAGS="-O1")
+            run(sys.executable, "setup.py", "-q", "sdist", "-d", folder, cwd=sources)
+            shutil.rmtree(folder / "checkout")
+            archive, = folder.glob("*.tar.gz")
+            run(sys.executable, *pip, "wheel", archive, "--no-deps", "--no-build-isolation", "--no-index", "-w", folder,
+                CFLAGS="-O1")
             wheel, = folder.glob("*.whl")
             self.assertIn("-abi3-", wheel.name)
             names = zipfile.ZipFile(wheel).namelist()
-            for part in ("neuralsvcd.py", "_neuralsvcd.abi3.so", "nsvcd_verify.py", "_nsvcd_verify.abi3.so"):
+            for part in ("neuralsvcd/__init__.py", "neuralsvcd/_neuralsvcd.abi3.so", "neuralsvcd/py.typed",
+                         "nsvcd_verify/__init__.py", "nsvcd_verify/_nsvcd_verify.abi3.so", "nsvcd_verify/py.typed"):
                 self.assertIn(part, names)
             self.assertTrue(any(part.endswith("LICENSE") for part in names))
             run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", "own")
             python = folder / "own" / "bin" / "python"
             run(python, *pip, "install", "--no-deps", "--no-index", wheel)
-            shutil.rmtree(folder / "checkout")
             shutil.copy(ASSETS / "mug.obj", folder)
             printed = run(python, "-c", "import nsvcd_verify, neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
                           "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).verdict)")
-            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py hit\n$")
+            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd/__init__\.py hit\n$")
 
 
 if __name__ == "__main__":

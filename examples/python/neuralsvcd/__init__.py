@@ -303,7 +303,7 @@ def _expected_layouts() -> dict[str, tuple[int, int]]:
 def _load_library() -> ctypes.CDLL:
     """The library beside this file, as a wheel has it, or the one that `make python` has built."""
     here = Path(__file__).resolve().parent
-    places = [here / "_neuralsvcd.abi3.so", here.parent.parent / "build" / "_neuralsvcd.so"]
+    places = [here / "_neuralsvcd.abi3.so", here.parents[2] / "build" / "_neuralsvcd.so"]
     path = next((place for place in places if place.exists()), None)
     if path is None:
         raise ImportError(f"neuralsvcd: the library is not built: make python; looked for {places[0]}, {places[1]}")
@@ -319,7 +319,7 @@ def _load_library() -> ctypes.CDLL:
     expected = _expected_layouts()
     wrong = sorted(name for name in {*found, *expected} if found.get(name) != expected.get(name))
     if wrong:
-        raise ImportError(f"neuralsvcd: {path} is of another neuralsvcd.h than neuralsvcd.py: {', '.join(wrong)}")
+        raise ImportError(f"neuralsvcd: {path} is of another neuralsvcd.h than this module: {', '.join(wrong)}")
     return library
 
 
@@ -581,7 +581,7 @@ class Body:
 
     @classmethod
     def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
-        return cls([start, end], [[0, 1, 1]], round=radius)
+        return cls(np.array([start, end]), [[0, 1, 1]], round=radius)
 
     @classmethod
     def cloud(cls, points: ArrayLike, radius: float) -> Body:
@@ -964,7 +964,7 @@ class Certificate(NamedTuple):
     why      ... since the visits were spent, or they come too near to tell
     inside   a hit, for a corner of one is inside of the other
     time     in [0, 1], of a hit
-    bytes    the proof, for nsvcd_verify.py and examples/verify
+    bytes    the proof, for nsvcd_verify and examples/verify
     visits   steps that were taken
     """
     verdict: Verdict
@@ -1428,7 +1428,7 @@ def _index_or_none(index: int) -> Optional[int]:
 def _checked(c: Any) -> Checked:
     is_hit = _VERDICTS[c.verdict] is Verdict.HIT
     return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.share,
-                   tuple(c.contact.point) if is_hit else None, tuple(c.contact.normal) if is_hit else None,
+                   _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
                    _index_or_none(c.joint), c.placed, c.sweeps)
 
 
@@ -1490,8 +1490,8 @@ class Robot:
         count = c_size_t()
         options = _filled(_GapOptions, within=within, to=to, deepest=deepest, work=work)
         _check(_library.nsvcd_gaps(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
-        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, tuple(g.contact.point),
-                    tuple(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
+        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
+                    _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
 
     def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
         """A configuration near by that is proven free, or None: nsvcd_escape."""
