@@ -163,7 +163,7 @@ def page_of(src: Path) -> str:
     page = Page()
     page.known = {name for _, _, _, items in rooms for item in items for name in item.names()}
     title = plan[0][3:]
-    first = [line[3:] for line in plan[1 : plan.index("#ifndef NEURALSVCD_H")] if line != "// CONTENTS"]
+    first = [line[3:] for line in plan[1 : plan.index("#ifndef NEURALSVCD_H")] if not line.startswith(("// CONTENTS", "// SPDX"))]
     page.parts.append(f"<h1>{title.partition(' - does')[0]}</h1>\n<p>Does{title.partition(' - does')[2]}</p>\n")
     page.parts.append(page.heading("Overview", 2) + page.comment(first))
     for name, says, top, items in rooms:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // _neuralsvcd.c - the library as the module neuralsvcd loads it, with ctypes, which knows nothing of
 // the header. So that a changed header cannot break it silently, prototypes are compared here, and
 // the layout of structs is told to the module, which compares it on import.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // _nsvcd_verify.c - the checker of certificates as the module nsvcd_verify loads it, with ctypes. It has
 // nothing of neuralsvcd.h. What is prepared lies in memory of Python's, which does not look into it.
 #include "examples/verify/nsvcd_verify.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Does this body, moving along this trajectory, hit that body? neuralsvcd.h for Python, by ctypes.
 
     rack = Body(*load_obj("dish_rack.obj"))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Checks certificates that bodies never meet, or that they do: examples/verify for Python, by ctypes.
 
     report = verify(certificate, Mesh(vertices, triangles), rack, path)   # as given to neuralsvcd.certify
