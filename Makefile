@@ -97,9 +97,8 @@ SHARED = build/libneuralsvcd.so
 SONAME = -Wl,-soname,libneuralsvcd.so.$(VERSION)
 endif
 
-build/library.o: $(LIBRARY) | build
-	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "neuralsvcd.h"\n' >build/library.c
-	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ build/library.c
+build/library.o: packages/neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ $<
 $(SHARED): build/library.o
 	$(CC) -shared $(SONAME) -o $@ $< -lm
 build/libneuralsvcd.a: build/library.o
@@ -122,10 +121,10 @@ install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config
 	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
 	  ln -sf libneuralsvcd.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so; fi
 	for name in neuralsvcd neuralsvcd-library; do \
-	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
+	  sed 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|lib|; s|@VERSION@|$(VERSION)|' packages/installed/$$name.pc.in \
 	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
-	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
-	sed 's|@VERSION@|$(VERSION)|' examples/packages/neuralsvcdConfigVersion.cmake.in \
+	cp packages/installed/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
+	sed 's|@VERSION@|$(VERSION)|' packages/installed/neuralsvcdConfigVersion.cmake.in \
 	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
@@ -557,7 +556,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/packages/project examples/scenery examples/firmware examples/python examples/verify examples/web tests tests/bench
+WRITTEN = examples examples/scenery examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
