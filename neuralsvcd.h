@@ -162,6 +162,7 @@
 //   mesh: files and triangles
 //     mesh            checks, cuts at a box
 //     polygons        polygons into triangles
+//     faces           faces of any number of corners
 //     obj             Wavefront OBJ
 //     stl             STL, binary and text
 //   patches: a mesh in parts
@@ -405,7 +406,7 @@ typedef struct nsvcd_allocator {
 } nsvcd_allocator;
 
 // -------------------------------------------------------------------------------- interface/meshes
-// In: an OBJ or STL file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
+// In: an OBJ or STL file, or faces of the caller. Out: nsvcd_mesh, or a part of one.
 
 typedef struct nsvcd_mesh {
   // (vertex_count, 3) metres
@@ -457,6 +458,29 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
+
+// Faces of any number of corners: what readers of other formats, and engines, have.
+typedef struct nsvcd_faces {
+  // (vertex_count, 3) metres
+  const float *positions;
+  // (corner_count) vertices: those of the first face, counter-clockwise from outside, of the second
+  const uint32_t *corners;
+  // (face_count), 3 or more each, corner_count in all; NULL: all are triangles
+  const uint32_t *sizes;
+  size_t vertex_count;
+  size_t corner_count;
+  size_t face_count;
+} nsvcd_faces;
+
+// Cuts faces into triangles, concave ones too, as nsvcd_obj_parse does.
+//   faces      not NULL
+//   allocator  NULL: malloc and free
+//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   allocates  the mesh, and working memory that is given back; time as of nsvcd_obj_parse
+//   errors     ARGUMENT (also sizes that are not those of the corners), INDEX, NUMBER, EMPTY,
+//              TOO_LARGE, MEMORY
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
+                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh);
 #endif
 #ifndef NSVCD_NO_ENCODER
 // Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
@@ -473,8 +497,7 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_stl_parse, their files or nsvcd_mesh_cut allocated, and
-// empties *mesh.
+// Gives back what the functions above allocated, and empties *mesh.
 //   mesh       may be NULL
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);
@@ -2845,6 +2868,70 @@ static void nsvcd__polygon_triangulate(nsvcd__polygon *polygon, const float *pos
   triangles[0] = corners[at].vertex;
   triangles[1] = corners[corners[at].next].vertex;
   triangles[2] = corners[corners[at].previous].vertex;
+}
+#endif  // NSVCD_NO_OBJ
+
+// -------------------------------------------------------------------------------------- mesh/faces
+// In: faces of any number of corners, as an engine or another file's reader has them. Out:
+// nsvcd_mesh.
+
+#ifndef NSVCD_NO_OBJ
+// Are the sizes those of so many corners? Then *most is the largest, and *triangles what they make.
+static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangles,
+                                       uint32_t *most) {
+  size_t corners = 0;
+  *triangles = 0;
+  *most = 0;
+  for (size_t f = 0; f < faces->face_count; f++) {
+    const uint32_t size = faces->sizes ? faces->sizes[f] : 3;
+    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_ARGUMENT;
+    corners += size;
+    *triangles += size - 2;
+    if (size > *most) *most = size;
+  }
+  if (corners != faces->corner_count) return NSVCD_ERROR_ARGUMENT;
+  if (faces->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
+  for (size_t i = 0; i < corners; i++) {
+    if (faces->corners[i] >= faces->vertex_count) return NSVCD_ERROR_INDEX;
+  }
+  for (size_t i = 0; i < 3 * faces->vertex_count; i++) {
+    const float x = faces->positions[i];
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+  }
+  return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
+}
+
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
+                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+  nsvcd_mesh out;
+  nsvcd__polygon polygon;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  size_t triangles;
+  uint32_t most;
+  if (!faces || !mesh) return NSVCD_ERROR_ARGUMENT;
+  if (faces->face_count && (!faces->positions || !faces->corners)) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
+  if (result) return result;
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__mesh_alloc(&out, faces->vertex_count, triangles, allocator) ||
+      !nsvcd__polygon_alloc(&polygon, most, &arena)) {
+    nsvcd__arena_free(&arena);
+    nsvcd_mesh_free(&out, allocator);
+    return NSVCD_ERROR_MEMORY;
+  }
+  memcpy(out.positions, faces->positions, 3 * faces->vertex_count * sizeof(float));
+  const uint32_t *corner = faces->corners;
+  uint32_t *triangle = out.indices;
+  for (size_t f = 0; f < faces->face_count; f++) {
+    polygon.count = faces->sizes ? faces->sizes[f] : 3;
+    for (uint32_t i = 0; i < polygon.count; i++) polygon.corners[i].vertex = *corner++;
+    nsvcd__polygon_triangulate(&polygon, out.positions, triangle);
+    triangle += 3 * (size_t)(polygon.count - 2);
+  }
+  nsvcd__arena_free(&arena);
+  *mesh = out;
+  return NSVCD_OK;
 }
 #endif  // NSVCD_NO_OBJ
 

@@ -222,6 +222,7 @@ extern "C" {
 // ======================================================================= mesh: files and triangles
 #include "mesh/mesh.h"      // checks, cuts at a box
 #include "mesh/polygons.h"  // polygons into triangles
+#include "mesh/faces.h"     // faces of any number of corners
 #include "mesh/obj.h"       // Wavefront OBJ
 #include "mesh/stl.h"       // STL, binary and text
 

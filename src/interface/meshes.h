@@ -1,4 +1,4 @@
-// In: an OBJ or STL file, or triangles of the caller. Out: nsvcd_mesh, or a part of one.
+// In: an OBJ or STL file, or faces of the caller. Out: nsvcd_mesh, or a part of one.
 #pragma once
 #include "results.h"
 
@@ -52,6 +52,29 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
 #endif
+
+// Faces of any number of corners: what readers of other formats, and engines, have.
+typedef struct nsvcd_faces {
+  // (vertex_count, 3) metres
+  const float *positions;
+  // (corner_count) vertices: those of the first face, counter-clockwise from outside, of the second
+  const uint32_t *corners;
+  // (face_count), 3 or more each, corner_count in all; NULL: all are triangles
+  const uint32_t *sizes;
+  size_t vertex_count;
+  size_t corner_count;
+  size_t face_count;
+} nsvcd_faces;
+
+// Cuts faces into triangles, concave ones too, as nsvcd_obj_parse does.
+//   faces      not NULL
+//   allocator  NULL: malloc and free
+//   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
+//   allocates  the mesh, and working memory that is given back; time as of nsvcd_obj_parse
+//   errors     ARGUMENT (also sizes that are not those of the corners), INDEX, NUMBER, EMPTY,
+//              TOO_LARGE, MEMORY
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
+                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh);
 #endif
 #ifndef NSVCD_NO_ENCODER
 // Cuts out the part of a mesh within a box: triangles are cut at the box, vertices are not shared.
@@ -68,8 +91,7 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
                                      nsvcd_mesh *part);
-// Gives back what nsvcd_obj_parse, nsvcd_stl_parse, their files or nsvcd_mesh_cut allocated, and
-// empties *mesh.
+// Gives back what the functions above allocated, and empties *mesh.
 //   mesh       may be NULL
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator);

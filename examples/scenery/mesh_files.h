@@ -1,0 +1,72 @@
+// mesh_files.h - a mesh from the bytes of a file: OBJ, STL, PLY or GLB, by what they are, and by the
+// file's name where that is not plain. No stdio. Include neuralsvcd.h first.
+//
+//   mesh_fault fault;
+//   if (!mesh_parse("part.ply", data, size, NULL, &mesh, &fault))
+//     printf("%s, line %zu: %s\n", fault.format, fault.line, fault.reason);
+#ifndef NSVCD_SCENERY_MESH_FILES_H
+#define NSVCD_SCENERY_MESH_FILES_H
+
+#include "mesh_soup.h"
+#include "ply.h"
+#include "glb.h"
+
+// What follows the last point of a name, in small letters; "" where that is long.
+static inline void mesh_ending(const char *name, char out[8]) {
+  const char *dot = strrchr(name, '.');
+  const size_t length = dot ? strlen(dot + 1) : 8;
+  memset(out, 0, 8);
+  for (size_t i = 0; i < length && length < 8; i++) {
+    const char c = dot[1 + i];
+    out[i] = (char)(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  }
+}
+
+// What the file is, "OBJ" where nothing else is plain; NULL where it is known not to be read.
+static inline const char *mesh_format(const char *name, const unsigned char *data, size_t size) {
+  static const char *const others[] = {"fbx", "dae",  "3ds", "step",  "stp",  "iges", "igs",
+                                       "usd", "usdz", "3mf", "blend", "gltf", "off"};
+  char ending[8];
+  mesh_ending(name, ending);
+  if (size >= 4 && memcmp(data, "glTF", 4) == 0) return "GLB";
+  if (size >= 4 && memcmp(data, "ply", 3) == 0 && (data[3] == '\n' || data[3] == '\r'))
+    return "PLY";
+  if (strcmp(ending, "glb") == 0) return "GLB";
+  if (strcmp(ending, "ply") == 0) return "PLY";
+  if (strcmp(ending, "stl") == 0) return "STL";
+  if (strcmp(ending, "obj") == 0) return "OBJ";
+  for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+    if (strcmp(ending, others[i]) == 0) return NULL;
+  }
+  if (size >= 84 && size == 84 + 50 * mesh_word(data + 80, 4, 0)) return "STL";
+  return size >= 6 && memcmp(data, "solid ", 6) == 0 ? "STL" : "OBJ";
+}
+
+// Returns 1, or 0 with a reason in *fault. data: (size), not NULL. name: of the file, or "".
+static inline int mesh_parse(const char *name, const void *data, size_t size,
+                             const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                             mesh_fault *fault) {
+  const char *bytes = (const char *)data;
+  memset(fault, 0, sizeof *fault);
+  fault->format = mesh_format(name, (const unsigned char *)data, size);
+  if (!fault->format) {
+    fault->format = "none of these";
+    return mesh_refuse(fault, "OBJ, STL, PLY and GLB are read, and no other: convert it");
+  }
+  if (fault->format[0] == 'G') {
+    if (size >= 4 && memcmp(bytes, "glTF", 4) == 0)
+      return glb_parse(data, size, allocator, mesh, fault);
+    return mesh_refuse(fault, "it does not begin with 'glTF', as a GLB does");
+  }
+  if (fault->format[0] == 'P') {
+    if (size >= 4 && memcmp(bytes, "ply", 3) == 0)
+      return ply_parse(bytes, size, allocator, mesh, fault);
+    return mesh_refuse(fault, "it does not begin with 'ply', as a PLY does");
+  }
+  const nsvcd_result result = fault->format[0] == 'S'
+                                  ? nsvcd_stl_parse(data, size, allocator, mesh, &fault->line)
+                                  : nsvcd_obj_parse(bytes, size, allocator, mesh, &fault->line);
+  return !result || mesh_refuse(fault, nsvcd_result_string(result));
+}
+
+#endif

@@ -1,0 +1,65 @@
+// In: faces of any number of corners, as an engine or another file's reader has them. Out:
+// nsvcd_mesh.
+#pragma once
+#include "mesh.h"
+#include "polygons.h"
+
+#ifndef NSVCD_NO_OBJ
+// Are the sizes those of so many corners? Then *most is the largest, and *triangles what they make.
+static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangles,
+                                       uint32_t *most) {
+  size_t corners = 0;
+  *triangles = 0;
+  *most = 0;
+  for (size_t f = 0; f < faces->face_count; f++) {
+    const uint32_t size = faces->sizes ? faces->sizes[f] : 3;
+    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_ARGUMENT;
+    corners += size;
+    *triangles += size - 2;
+    if (size > *most) *most = size;
+  }
+  if (corners != faces->corner_count) return NSVCD_ERROR_ARGUMENT;
+  if (faces->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
+  for (size_t i = 0; i < corners; i++) {
+    if (faces->corners[i] >= faces->vertex_count) return NSVCD_ERROR_INDEX;
+  }
+  for (size_t i = 0; i < 3 * faces->vertex_count; i++) {
+    const float x = faces->positions[i];
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+  }
+  return *triangles ? NSVCD_OK : NSVCD_ERROR_EMPTY;
+}
+
+NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
+                                          const nsvcd_allocator *allocator, nsvcd_mesh *mesh) {
+  nsvcd_mesh out;
+  nsvcd__polygon polygon;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  size_t triangles;
+  uint32_t most;
+  if (!faces || !mesh) return NSVCD_ERROR_ARGUMENT;
+  if (faces->face_count && (!faces->positions || !faces->corners)) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
+  if (result) return result;
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__mesh_alloc(&out, faces->vertex_count, triangles, allocator) ||
+      !nsvcd__polygon_alloc(&polygon, most, &arena)) {
+    nsvcd__arena_free(&arena);
+    nsvcd_mesh_free(&out, allocator);
+    return NSVCD_ERROR_MEMORY;
+  }
+  memcpy(out.positions, faces->positions, 3 * faces->vertex_count * sizeof(float));
+  const uint32_t *corner = faces->corners;
+  uint32_t *triangle = out.indices;
+  for (size_t f = 0; f < faces->face_count; f++) {
+    polygon.count = faces->sizes ? faces->sizes[f] : 3;
+    for (uint32_t i = 0; i < polygon.count; i++) polygon.corners[i].vertex = *corner++;
+    nsvcd__polygon_triangulate(&polygon, out.positions, triangle);
+    triangle += 3 * (size_t)(polygon.count - 2);
+  }
+  nsvcd__arena_free(&arena);
+  *mesh = out;
+  return NSVCD_OK;
+}
+#endif  // NSVCD_NO_OBJ
