@@ -68,7 +68,7 @@ build/verify: examples/verify/verify.c $(VERIFIER) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 
 # What the modules of examples/python open.
-build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
+build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) $(SCENERY) | build
 	$(CC) $(ALL_CFLAGS) -I. -fPIC -shared -o $@ $< -lm
 # What the module nsvcd_verify opens: the checker alone.
 build/_nsvcd_verify.so: examples/python/_nsvcd_verify.c $(VERIFIER) | build
