@@ -42,6 +42,11 @@ def items_of(lines: list[str]) -> tuple[list[str], list[Item]]:
     for line in [*lines[top:], ""]:
         is_whole = not code or not line.startswith((" ", "}")) and not code[-1].endswith(("\\", ","))
         switch = re.match(r"#(if|endif|else|include|pragma|error)", line)
+        if line.startswith("#define") and comment and comment[0][0].islower():  # a note on this constant alone
+            code, comment = [f"// {note}" for note in comment], []
+        if re.match(r"// [a-z]", line) and code and re.match(r"#define|// ", code[-1]):
+            code.append(line)
+            continue
         if code and is_whole and (not line or line.startswith("//") or switch):
             if not re.search(r"(?<!!)defined\(", " ".join(switches)):  # what is for some settings alone is no interface
                 found.append(Item(comment, code, re.findall(r"NSVCD_NO_\w+", " ".join(switches))))
@@ -167,7 +172,7 @@ def page_of(src: Path) -> str:
     page.parts.append(f"<h1>{title.partition(' - does')[0]}</h1>\n<p>Does{title.partition(' - does')[2]}</p>\n")
     page.parts.append(page.heading("Overview", 2) + page.comment(first))
     for name, says, top, items in rooms:
-        page.parts.append(page.heading(name.capitalize(), 2) + f"<p>{says}. {page.comment(top)[3:]}")
+        page.parts.append(page.heading(name.capitalize(), 2) + page.comment([f"{says[0].upper()}{says[1:]}. {top[0]}", *top[1:]]))
         for item in items:
             page.item(item)
     return (f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">\n'
