@@ -16,7 +16,7 @@ ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
 LIBRARY = neuralsvcd.h weights.h
 ROOMS = $(wildcard src/*.h src/*/*.h)
 # What the examples and the tests share.
-SCENERY = $(wildcard examples/scenery/*.h)
+SCENERY = $(wildcard examples/scenery/*.h examples/svcd/*.h)
 # The checker of certificates, which knows nothing of the library.
 VERIFIER = $(wildcard examples/verify/*.h)
 
@@ -556,7 +556,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
+WRITTEN = examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

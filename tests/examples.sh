@@ -19,6 +19,9 @@ expect() {
   test -z "$text" || grep -q -e "$text" "$dir/err" || fail "no '$text' in the messages of: $*: $(tail -1 "$dir/err")"
 }
 
+# line TEXT: what a command printed contains it.
+line() { grep -q -e "$1" "$dir/out" || fail "no '$1': $(cat "$dir/out")"; }
+
 # Assets are what make_assets makes, and the quickstart runs on them.
 mkdir "$dir/assets"
 build/make_assets "$dir/assets" >/dev/null || fail "make_assets"
@@ -114,7 +117,7 @@ expect 1 'none.body: No such file' build/svcd info "$dir/none.body"
 case $(head -c 4 "$dir/mug.body") in NSVB) mark=BVSN ;; *) mark=NSVB ;; esac
 { printf $mark; tail -c +5 "$dir/mug.body"; } >"$dir/other.body"
 expect 1 'other.body: encoded on a machine of the other byte order' build/svcd info "$dir/other.body"
-expect 1 'none.obj: the file is missing' build/svcd encode "$dir/none.obj" "$dir/x.body"
+expect 1 'none.obj: No such file' build/svcd encode "$dir/none.obj" "$dir/x.body"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$dir/bad.obj"
 expect 1 'bad.obj:4: an index' build/svcd encode "$dir/bad.obj" "$dir/x.body"
 test ! -e "$dir/x.body" || fail "a refused mesh left a body behind"
@@ -184,8 +187,73 @@ expect 1 "large.obj:3: .*NSVCD_MAX_COORDINATE: 1e+06.*: 'v 0 1e9 0'" build/svcd 
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/line.obj"
 expect 1 'line.obj: there is no triangle, or no area' build/svcd info "$dir/line.obj"
 grep -q 'wrong: 1 degenerate triangle' "$dir/out" || fail "info of no area: $(cat "$dir/out")"
-printf 'ply\n' >"$dir/x.ply"
-expect 1 'x.ply: svcd reads OBJ, STL and .body files' build/svcd info "$dir/x.ply"
+
+# Other formats, each a square; standard input; what is no mesh at all.
+printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >"$dir/x.ply"
+expect 0 '' build/svcd info "$dir/x.ply"
+line 'x.ply: a PLY: 2 triangles, 4 vertices'
+sed 's/^4 0 1 2 3/4 0 1 2 4/' "$dir/x.ply" >"$dir/index.ply"
+expect 1 'index.ply: an index' build/svcd info "$dir/index.ply"
+sed 's/^0 1 0$/0 x 0/' "$dir/x.ply" >"$dir/letter.ply"
+expect 1 "letter.ply:13: a number is wanted: '0 x 0'" build/svcd info "$dir/letter.ply"
+json='{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[2,2,2]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}'
+while test $((${#json} % 4)) != 0; do json="$json "; done
+octal() { printf "\\$(printf %o $(($1 % 256)))\\$(printf %o $(($1 / 256)))\\0\\0"; }
+{ printf 'glTF\002\0\0\0'; octal $((12 + 8 + ${#json} + 8 + 36)); octal ${#json}; printf 'JSON%s' "$json"
+  octal 36; printf 'BIN\0'
+  printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0'; } >"$dir/x.glb"
+expect 0 '' build/svcd info "$dir/x.glb"
+line 'x.glb: a GLB: 1 triangle, 3 vertices'
+line 'box: 2 x 2 x 0 m'
+sed 's/"count":3/"count":4/' "$dir/x.glb" >"$dir/long.glb"
+expect 1 'long.glb: an accessor that ends outside of its data (read as GLB)' build/svcd info "$dir/long.glb"
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 9 0\nendloop\nendfacet\nendsolid a\n' >"$dir/x.stl"
+expect 0 '' build/svcd info "$dir/x.stl"
+line 'x.stl: an STL: 1 triangle'
+line 'wrong: a body of 9 m: are these millimetres? try --scale 0.001'
+expect 1 'certificates are of OBJ and STL' build/svcd sweep "$dir/x.ply" "$dir/cube.obj" --certificate "$dir/x.cert"
+expect 0 '' build/svcd info "$dir/cube.obj" "$dir/x.ply" "$dir/x.glb"
+test "$(grep -c ' vertices$' "$dir/out")" = 3 || fail "info of three files: $(cat "$dir/out")"
+expect 1 'none.obj: No such file' build/svcd info "$dir/none.obj" "$dir/cube.obj"
+line 'nothing is wrong'
+build/svcd info - <"$dir/cube.obj" | grep -q '^standard input: an OBJ: 12 triangles' || fail "info - of an OBJ"
+build/svcd info - <"$dir/x.glb" | grep -q '^standard input: a GLB: 1 triangle' || fail "info - of a GLB"
+build/svcd sweep - "$dir/cube.obj" --repeat 1 <"$dir/cube.obj" | grep -q '^hit' || fail "sweep - B"
+expect 2 'one of both files may be -' build/svcd sweep - -
+expect 1 'Is a directory' build/svcd info "$dir"
+head -c 200000000 /dev/zero >"$dir/zeros.obj"
+expect 1 'zeros.obj: it begins with zeros' build/svcd info "$dir/zeros.obj"
+expect 1 'larger than 512 MB' build/svcd info /dev/urandom
+rm "$dir/zeros.obj"
+# Nothing of a broken file reaches the terminal as it is; words of UTF-8 do.
+printf 'v 0 0 0\n\033]0;x\007 \377 \302\205 gr\303\274n\n' >"$dir/raw.obj"
+expect 1 "raw.obj:2: .*: '?]0;x? ? ?? grün'" build/svcd info "$dir/raw.obj"
+printf 'nsvcd-problems 1\nmesh \033[31m x.obj\n' >"$dir/raw.txt"
+expect 1 'raw.txt: not a text file: it has a control character' build/svcd check "$dir/raw.txt"
+
+# For scripts: JSON that a reader of JSON reads, of each command; a manual and completions that shells take.
+if command -v python3 >/dev/null; then
+  json() { expect 0 '' build/svcd "$@" --json; python3 -c 'import json, sys
+for line in open(sys.argv[1]): json.loads(line, parse_constant=lambda word: sys.exit(word))' "$dir/out" || fail "no JSON: svcd $*"; }
+  json sweep "$dir/cube.obj" "$dir/open.obj"
+  json sweep "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5
+  json info "$dir/open.obj" "$dir/x.ply" "$dir/mug.body"
+  test "$(wc -l <"$dir/out")" = 3 || fail "info --json of three files: $(cat "$dir/out")"
+  json encode "$dir/cube.obj" "$dir/x.body"
+fi
+expect 0 '' build/svcd --version
+line "^svcd $(sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)$"
+expect 0 '' build/svcd --manual man
+if command -v man >/dev/null; then man --warnings -l "$dir/out" 2>&1 >/dev/null | grep . && fail "the man page"; fi
+for shell in bash zsh fish; do
+  expect 0 '' build/svcd --manual $shell
+  if command -v $shell >/dev/null; then $shell -n "$dir/out" || fail "completions for $shell"; fi
+done
+build/svcd --manual bash >"$dir/complete"
+completed=$(bash -c '. "$0"; COMP_WORDS=(svcd sweep a.obj --method ""); COMP_CWORD=4; _svcd; echo "${COMPREPLY[@]}"
+  COMP_WORDS=(svcd sweep --meas); COMP_CWORD=2; _svcd; echo "${COMPREPLY[@]}"; COMP_WORDS=(svcd pl); COMP_CWORD=1; _svcd; echo "${COMPREPLY[@]}"' "$dir/complete" | paste -sd,)
+test "$completed" = 'proof network,--measure,plan' || fail "bash completes: $completed"
+expect 2 'man, bash, zsh or fish' build/svcd --manual
 
 # svcd sweep: verdicts that are known. verdict TEXT ARGUMENTS...: what the first line says.
 verdict() {
@@ -194,7 +262,6 @@ verdict() {
   expect 0 '' build/svcd sweep --repeat 1 "$@"
   head -1 "$dir/out" | grep -q -e "$wanted" || fail "no '$wanted': sweep $*: $(cat "$dir/out" "$dir/err")"
 }
-line() { grep -q -e "$1" "$dir/out" || fail "no '$1': $(cat "$dir/out")"; }
 verdict '^hit at t = 0.4[0-9]*, the first contact: proven, two triangles meet$' "$dir/cube.obj" "$dir/cube.obj" \
   --scale .5,1 --from .25,.25,5 --to .25,.25,-5
 awk 'NR == 1 { sub(",", "", $5); exit !($5 >= 0.4 && $5 <= 0.401) }' "$dir/out" || fail "the first contact: $(cat "$dir/out")"
@@ -298,7 +365,7 @@ if test -c /dev/full; then
 fi
 
 # What is wrong is named.
-expect 1 'none.obj: the file is missing' build/svcd sweep "$dir/cube.obj" "$dir/none.obj"
+expect 1 'none.obj: No such file' build/svcd sweep "$dir/cube.obj" "$dir/none.obj"
 expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"
 expect 1 'bad.body: the body is damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form 1,2,3
@@ -422,7 +489,7 @@ for number in nan inf 1e999 1e39 0,5 x 1x; do
 done
 for q in '0 0 0 0' '0 0 0 1.0002' '1 0 0 1' '0 0 0 .999'; do refused 4 'unit' "${head}${good}0 0 0 $q\n"; done
 refused 3 'unit' "${head}problem p m 1 m 1 0 0 0 0 0 0 1.01 0 nan 1\n$pose\n"
-refused 2 'none.obj: the file is missing' 'nsvcd-problems 1\nmesh m none.obj\n'
+refused 2 'none.obj: No such file' 'nsvcd-problems 1\nmesh m none.obj\n'
 refused 2 'bad.obj:4: an index' 'nsvcd-problems 1\nmesh m bad.obj\n'
 printf "$head\000" >"$dir/zero.txt"
 expect 1 'zero byte' build/svcd check "$dir/zero.txt"
@@ -559,12 +626,11 @@ grep -q '^turned	refused	its motion has another start or goal' "$dir/out" || fai
 expect 2 'svcd check' build/svcd
 expect 2 "no command 'frobnicate'" build/svcd frobnicate
 expect 2 "no command 'swep'; did you mean 'svcd sweep'" build/svcd swep a.obj b.obj
-expect 2 "did you mean 'svcd sweep A.obj B.obj'" build/svcd a.obj b.obj
+expect 2 "did you mean 'svcd sweep A B'" build/svcd a.obj b.obj
 expect 2 'svcd check' build/svcd check
 expect 2 'svcd info' build/svcd info
 expect 2 'svcd encode' build/svcd encode "$dir/my.obj"
 expect 2 'svcd sweep' build/svcd sweep "$dir/my.obj"
-expect 2 'one file too many' build/svcd info "$dir/my.obj" "$dir/my.obj"
 for help in --help -h help 'help sweep' 'sweep --help' 'info -h' 'encode --help' 'check --help'; do
   # shellcheck disable=SC2086
   expect 0 '' build/svcd $help

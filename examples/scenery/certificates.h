@@ -40,7 +40,7 @@ static int write_certificate(const char *folder, const char *id, const nsvcd_que
   int good = make_certificate(question, a, b, answer, &bytes, made);
   if (good && made->size == 0) remove(path);
   if (good && made->size > 0) {
-    FILE *file = fopen(path, "wb");
+    FILE *file = open_file(path, "wb");
     if (file) fwrite(bytes, 1, made->size, file);
     good = file ? close_written(file, path) : complain("%s: %s", path, strerror(errno));
   }
@@ -92,7 +92,7 @@ static int write_certificates(const session *s, const char *folder, float cleara
 // meshes are as given, which are from the working folder: so they go up from the file's.
 static int write_problem(const char *path, const char *id, const char *const *meshes,
                          const float *scales, const nsvcd_pose *poses, size_t count) {
-  FILE *out = fopen(path, "w");
+  FILE *out = open_file(path, "w");
   if (!out) return complain("%s: %s", path, strerror(errno));
   fprintf(out, "nsvcd-problems 1\n");
   for (int k = 0; k < 2; k++) {
@@ -162,7 +162,7 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
   int is_proven = 1;
   const double start = seconds();
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
-  FILE *out = fopen(path, "wb");
+  FILE *out = open_file(path, "wb");
   int good = out ? 1 : complain("%s: %s", path, strerror(errno));
   // once for all plans of the file
   for (size_t i = 0; i < file->mesh_count && good; i++) {

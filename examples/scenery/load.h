@@ -1,9 +1,10 @@
-// load.h - files that a person names, OBJ and .body, with messages that say what is wrong with
+// load.h - files that a person names, meshes and .body, with messages that say what is wrong with
 // them. Include neuralsvcd.h and problem_file.h first.
 #ifndef NSVCD_SCENERY_LOAD_H
 #define NSVCD_SCENERY_LOAD_H
 
 #include "mesh_check.h"
+#include "mesh_files.h"
 
 // ------------------------------------------------------------------------------------------ meshes
 
@@ -20,17 +21,16 @@ static const char *reason_of(nsvcd_result result) {
   return text;
 }
 
-// The text of a line, up to 60 characters of it; "" where it cannot be read again.
-static void quote_line(const char *path, size_t line, char *out, size_t size) {
-  FILE *file = fopen(path, "r");
-  int c = file ? getc(file) : EOF;
+// The text of a line, up to 60 characters of it.
+static void quote_line(const char *text, size_t size, size_t line, char *out, size_t room) {
   size_t n = 0;
-  for (size_t at = 1; c != EOF && at <= line; c = getc(file)) {
-    if (at == line && c != '\n' && c != '\r' && n + 1 < size) out[n++] = (char)(c < 32 ? ' ' : c);
-    at += c == '\n';
+  for (size_t i = 0, at = 1; i < size && at <= line; i++) {
+    const char c = text[i];
+    const int is_end = c == '\n' || (c == '\r' && (i + 1 == size || text[i + 1] != '\n'));
+    if (at == line && !is_end && c != '\r' && n + 1 < room) out[n++] = c == '\t' ? ' ' : c;
+    at += (size_t)is_end;
   }
   out[n] = 0;
-  if (file) fclose(file);
 }
 
 // What follows the folder in a path.
@@ -46,47 +46,66 @@ static const char *file_name(const char *path) {
   return name;
 }
 
-// Formats that people have, and svcd does not read.
-static const char *foreign(const char *path) {
-  static const char *const ends[] = {".ply", ".glb",  ".gltf", ".fbx", ".dae",
-                                     ".3ds", ".step", ".stp",  ".usd"};
-  const char *dot = strrchr(path, '.');
-  for (size_t i = 0; dot && i < sizeof ends / sizeof ends[0]; i++)
-    if (strcmp(dot, ends[i]) == 0) return ends[i];
+// Refuses by its beginning what is neither a mesh nor a body, before all of it is read.
+static int look_at_mesh(const char *path, const char *bytes, size_t size) {
+  char ending[8];
+  const char *format = mesh_format(path, (const unsigned char *)bytes, size);
+  size_t zeros = 0;
+  while (zeros < size && bytes[zeros] == 0) zeros++;
+  mesh_ending(path, ending);
+  if (zeros > 84) return complain("%s: it begins with zeros, as no mesh does", path);
+  if (strcmp(ending, "obj") == 0 && format && format[0] == 'O' && memchr(bytes, 0, size))
+    return complain("%s: not a text file, as an OBJ is: it has a zero byte", path);
+  return 1;
+}
+
+// A mesh of the bytes of a file. `from`: what asks for it, for messages ("file:line: "), or "".
+// Returns its format, or NULL after a complaint.
+static const char *parse_mesh(const char *from, const char *path, const char *bytes, size_t size,
+                              nsvcd_mesh *mesh) {
+  mesh_fault fault;
+  char text[61];
+  const char *of = "";
+  if (mesh_parse(path, bytes, size, NULL, mesh, &fault)) return fault.format;
+  if (strcmp(fault.reason, nsvcd_result_string(NSVCD_ERROR_NUMBER)) == 0)
+    of = reason_of(NSVCD_ERROR_NUMBER) + strlen(fault.reason);
+  if (!fault.line) {
+    complain("%s%s: %s%s (read as %s)", from, path, fault.reason, of, fault.format);
+    return NULL;
+  }
+  quote_line(bytes, size, fault.line, text, sizeof text);
+  complain("%s%s:%zu: %s%s: '%s'", from, path, fault.line, fault.reason, of, text);
   return NULL;
 }
 
-static int is_stl(const char *path) {
-  const size_t length = strlen(path);
-  const char *end = path + length - 4;
-  return length > 4 && end[0] == '.' && (end[1] | 32) == 's' && (end[2] | 32) == 't' &&
-         (end[3] | 32) == 'l';
+// The same of a file.
+static const char *load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
+  size_t size;
+  char *bytes = read_file(from, path, &size, look_at_mesh);
+  const char *format = bytes ? parse_mesh(from, shown_name(path), bytes, size, mesh) : NULL;
+  free(bytes);
+  return format;
 }
 
-// `from`: what asks for it, for messages ("file:line: "), or "". Returns 0 after a complaint.
-static int load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
-  size_t line = 0;
-  char text[61];
-  const nsvcd_result result = is_stl(path) ? nsvcd_stl_load(path, NULL, mesh, &line)
-                                           : nsvcd_obj_load(path, NULL, mesh, &line);
-  if (!result) return 1;
-  if (result != NSVCD_ERROR_IO && foreign(path))
-    return complain(
-        "%s%s: svcd reads OBJ, STL and .body files, no %s: convert it, as with Blender or "
-        "'assimp export'",
-        from, path, foreign(path));
-  if (!line) return complain("%s%s: %s", from, path, reason_of(result));
-  quote_line(path, line, text, sizeof text);
-  return complain("%s%s:%zu: %s: '%s'", from, path, line, reason_of(result), text);
+// On a terminal, of a mesh that takes about a second or more.
+static progress_bar tell_encoding(const char *path, size_t triangles) {
+  progress_bar working = {"", 0, 0, 0};
+  if (triangles > 100000 && is_terminal()) {
+    working.is_told = 1;
+    fprintf(stderr, PROGRAM ": encoding %.30s ...", file_name(path));
+  }
+  return working;
 }
 
 // Loads and encodes one mesh; nsvcd_body_free gives the body back.
 static const nsvcd_body *encode_mesh(const char *from, const char *path, const nsvcd_mesh *mesh,
                                      const nsvcd_encode_options *options, double *taken) {
   const nsvcd_body *body = NULL;
+  const progress_bar working = tell_encoding(path, mesh->triangle_count);
   const double start = seconds();
   const nsvcd_result result = nsvcd_encode(mesh, options, NULL, NULL, 0, &body);
   *taken = seconds() - start;
+  progress_end(&working);
   if (result) complain("%s%s: %s", from, path, reason_of(result));
   return body;
 }
@@ -108,7 +127,11 @@ typedef struct proof_mesh {
 static int load_tree(const char *file, const char *name, proof_mesh *out) {
   char path[4096];
   path_of(file, name, path, sizeof path);
-  if (!load_mesh("", path, &out->mesh)) return 0;
+  const char *format = load_mesh("", path, &out->mesh);
+  if (!format) return 0;
+  if (strcmp(format, "OBJ") != 0 && strcmp(format, "STL") != 0)
+    return complain("%s: a %s: certificates are of OBJ and STL, as build/verify reads no other",
+                    path, format);
   const size_t size = nsvcd_tree_size(&out->mesh);
   out->memory = allocate(size);
   const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
@@ -153,12 +176,15 @@ static int take_scales(const char *text, size_t count, float *scales) {
 
 // A file that was given: a mesh and the body that is made of it, or a .body file.
 typedef struct thing {
-  const char *path;
-  nsvcd_mesh mesh;  // metres; of a .body file none
+  const char *path;  // as it is shown
+  char *bytes;       // of the file; of a mesh only until it is loaded
+  size_t size;
+  int is_body;
+  const char *format;  // of a mesh
+  nsvcd_mesh mesh;     // metres
   mesh_report report;
   char faults[MESH_FINDINGS][MESH_LINE];
   int fault_count, grave;  // so many, the first ones, can change an answer
-  char *memory;            // of a .body file
   const nsvcd_body *body;
   double taken;            // seconds, by encoding
   float scale;             // for the question: 1 where the mesh is in metres already
@@ -167,19 +193,38 @@ typedef struct thing {
 
 static void free_thing(thing *t) {
   nsvcd_mesh_free(&t->mesh, NULL);
-  if (t->memory)
-    free(t->memory);
-  else
-    nsvcd_body_free(t->body, NULL);
+  if (!t->is_body) nsvcd_body_free(t->body, NULL);
+  free(t->bytes);
 }
 
-// Loads an OBJ, says what is wrong with it, and takes it to metres. Returns 0 after a complaint.
-static int load_obj(const char *path, float scale, thing *t) {
+static int ends_with(const char *text, const char *end) {
+  size_t n = strlen(text);
+  size_t m = strlen(end);
+  return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+// Reads a file, and knows by its begin or its name whether it is a body. Returns 0 after a complaint.
+static int open_thing(const char *path, thing *t) {
   memset(t, 0, sizeof *t);
-  t->path = path;
+  t->path = shown_name(path);
   t->scale = 1;
-  if (!load_mesh("", path, &t->mesh)) return 0;
+  t->bytes = read_file("", path, &t->size, ends_with(path, ".body") ? NULL : look_at_mesh);
+  if (!t->bytes) return 0;
+  t->is_body =
+      ends_with(path, ".body") ||
+      (t->size >= 4 && (memcmp(t->bytes, "NSVB", 4) == 0 || memcmp(t->bytes, "BVSN", 4) == 0));
+  return 1;
+}
+
+// Takes a mesh to metres, and says what is wrong with it. Returns 0 after a complaint.
+static int take_mesh(thing *t, float scale) {
+  t->format = parse_mesh("", t->path, t->bytes, t->size, &t->mesh);
+  free(t->bytes);
+  t->bytes = NULL;
+  if (!t->format) return 0;
   if (!mesh_check(&t->mesh, (double)scale, &t->report)) return complain("out of memory");
+  // drawn in millimetres by most
+  if (strcmp(t->format, "STL") == 0) t->report.large = MESH_LARGE_STL;
   t->fault_count = mesh_findings(&t->report, t->faults, &t->grave);
   for (size_t i = 0; i < 3 * t->mesh.vertex_count; i++) t->mesh.positions[i] *= scale;
   memcpy(t->low, t->report.low, sizeof t->low);
@@ -189,7 +234,7 @@ static int load_obj(const char *path, float scale, thing *t) {
 
 // Is it closed, all of it, and the right way out? Of a .body file that is not known.
 static int is_solid(const thing *t) {
-  return !t->memory && t->report.closed == t->report.components && t->report.volume > 0;
+  return !t->is_body && t->report.closed == t->report.components && t->report.volume > 0;
 }
 
 // Makes the body. Returns 0 after a complaint.
@@ -203,21 +248,6 @@ static int encode_thing(thing *t, const nsvcd_encode_options *options) {
 
 static void warn_of(const thing *t, int count) {
   for (int i = 0; i < count; i++) complain("warning: %s: %s", t->path, t->faults[i]);
-}
-
-static int ends_with(const char *text, const char *end) {
-  size_t n = strlen(text);
-  size_t m = strlen(end);
-  return n >= m && strcmp(text + n - m, end) == 0;
-}
-
-static int is_body_file(const char *path) {
-  char begin[4] = "";
-  FILE *file = fopen(path, "rb");
-  const size_t size = file ? fread(begin, 1, sizeof begin, file) : 0;
-  if (file) fclose(file);
-  const int is_blob = memcmp(begin, "NSVB", 4) == 0 || memcmp(begin, "BVSN", 4) == 0;
-  return ends_with(path, ".body") || (size == 4 && is_blob);
 }
 
 // A blob begins with "NSVB", or, from a big-endian machine, with "BVSN".
@@ -240,27 +270,21 @@ static void box_of_balls(thing *t) {
       t->high[k] = fmax(t->high[k], (double)t->scale * (double)(centre[k] + radius));
     }
 }
-// Returns 0 after a complaint.
-static int load_body(const char *path, float scale, thing *t) {
-  size_t size;
-  memset(t, 0, sizeof *t);
-  t->path = path;
+// Of a .body file. Returns 0 after a complaint.
+static int take_body(thing *t, float scale) {
   t->scale = scale;
-  t->memory = read_file(path, &size);
-  if (!t->memory) return 0;
-  const nsvcd_result result = nsvcd_body_load(t->memory, size, &t->body);
-  if (result && has_other_byte_order(t->memory, size))
-    return complain("%s: encoded on a machine of the other byte order", path);
-  if (result) return complain("%s: %s", path, reason_of(result));
+  const nsvcd_result result = nsvcd_body_load(t->bytes, t->size, &t->body);
+  if (result && has_other_byte_order(t->bytes, t->size))
+    return complain("%s: encoded on a machine of the other byte order", t->path);
+  if (result) return complain("%s: %s", t->path, reason_of(result));
   box_of_balls(t);
   return 1;
 }
 
 // Returns 0 after a complaint.
-static int load_thing(const char *path, float scale, const nsvcd_encode_options *options,
-                      thing *t) {
-  if (is_body_file(path)) return load_body(path, scale, t);
-  const int good = load_obj(path, scale, t) && encode_thing(t, options);
+static int take_thing(thing *t, float scale, const nsvcd_encode_options *options) {
+  if (t->is_body) return take_body(t, scale);
+  const int good = take_mesh(t, scale) && encode_thing(t, options);
   warn_of(t, t->grave);
   return good;
 }

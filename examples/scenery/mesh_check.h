@@ -18,9 +18,12 @@
 #include "oracle.h"
 
 #define MESH_DEF ORACLE_DEF
+#define MESH_LARGE 30.0     // metres
+#define MESH_LARGE_STL 3.0  // of a format whose files are mostly in millimetres
 
 typedef struct mesh_report {
   double scale;  // that takes the mesh's units to metres
+  double large;  // metres: a body beyond this is hardly meant
   size_t triangles, vertices;
   double low[3], high[3];  // metres, of what triangles use
   double area;             // square metres
@@ -178,6 +181,7 @@ MESH_DEF int mesh_check(const nsvcd_mesh *mesh, double scale, mesh_report *repor
   const int good = mesh_parts_init(&parts, mesh, scale);
   memset(report, 0, sizeof *report);
   report->scale = scale;
+  report->large = MESH_LARGE;
   report->triangles = mesh->triangle_count;
   report->vertices = mesh->vertex_count;
   if (good) {
@@ -208,12 +212,11 @@ MESH_DEF double mesh_extent(const mesh_report *report) {
 #define MESH_FINDINGS 7
 #define MESH_LINE 160  // characters
 // metres: bodies beyond these are hardly meant
-#define MESH_LARGE 30.0
 #define MESH_SMALL 0.001
 
 MESH_DEF int mesh_find_size(const mesh_report *report, char *line) {
   const double extent = mesh_extent(report);
-  const int large = extent > MESH_LARGE;
+  const int large = extent > report->large;
   if (large)
     snprintf(line, MESH_LINE, "a body of %.4g m: are these millimetres? try --scale %g", extent,
              report->scale / 1000);

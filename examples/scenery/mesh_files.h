@@ -66,6 +66,8 @@ static inline int mesh_parse(const char *name, const void *data, size_t size,
   const nsvcd_result result = fault->format[0] == 'S'
                                   ? nsvcd_stl_parse(data, size, allocator, mesh, &fault->line)
                                   : nsvcd_obj_parse(bytes, size, allocator, mesh, &fault->line);
+  if (result == NSVCD_ERROR_SYNTAX && !fault->line)
+    return mesh_refuse(fault, "it is shorter than its count of triangles says");
   return !result || mesh_refuse(fault, nsvcd_result_string(result));
 }
 

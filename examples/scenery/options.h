@@ -18,7 +18,9 @@ typedef struct option {
   option_kind kind;
   size_t offset;  // of its value in the settings
   double low, high;
-  const char *text;  // "one|two" words, or NULL, or the name of the limit
+  const char *text;   // "one|two" words, or NULL, or the name of the limit
+  const char *value;  // what stands behind it in the manual; NULL: the words, or nothing
+  const char *help;   // what it means; NULL: it is not in the manual
 } option;
 
 // ------------------------------------------------------------------------------------ did you mean

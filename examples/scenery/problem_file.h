@@ -17,38 +17,13 @@
 #define NSVCD_SCENERY_PROBLEM_FILE_H
 
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "clock.h"
+#include "files.h"
 
 enum { DONE = 0, REFUSED = 1, USAGE = 2 };  // exit statuses
 
 // ----------------------------------------------------------------------------------------- helpers
-
-// Prints "PROGRAM: ..." and returns 0: `return complain(...)` is how every reader below fails.
-static int complain(const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  fprintf(stderr, PROGRAM ": ");
-  vfprintf(stderr, format, arguments);
-  fprintf(stderr, "\n");
-  va_end(arguments);
-  return 0;
-}
-
-// Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT. A
-// tool may give up when there is none; the library never does.
-static void *allocate(size_t size) {
-  void *memory = malloc(size ? size : 1);
-  if (memory) return memory;
-  complain("out of memory");
-  exit(REFUSED);
-}
 
 // Makes room for one more item; `items` has `count`.
 static void *room_for_one(void *items, size_t count, size_t *capacity, size_t item_size) {
@@ -58,33 +33,6 @@ static void *room_for_one(void *items, size_t count, size_t *capacity, size_t it
   if (items) return items;
   complain("out of memory");
   exit(REFUSED);
-}
-
-// A whole file, aligned, with a 0 behind it. NULL after a complaint.
-static char *read_file(const char *path, size_t *size) {
-  FILE *file = fopen(path, "rb");
-  char *text = NULL;
-  size_t capacity = 0;
-  *size = 0;
-  while (file && !ferror(file) && !feof(file)) {
-    char *larger = (char *)allocate(capacity = capacity ? 2 * capacity : 65536);
-    if (text) memcpy(larger, text, *size);
-    free(text);
-    text = larger;
-    *size += fread(text + *size, 1, capacity - *size - 1, file);
-    text[*size] = 0;
-  }
-  int good = file && !ferror(file);
-  if (!good) complain("%s: %s", path, strerror(errno));
-  if (file) fclose(file);
-  if (!good) free(text);
-  return good ? text : NULL;
-}
-
-// Closes a file that was written. Returns 0 after a complaint.
-static int close_written(FILE *file, const char *path) {
-  const int is_written = fflush(file) == 0 && !ferror(file);
-  return fclose(file) == 0 && is_written ? 1 : complain("%s: cannot be written", path);
 }
 
 // ----------------------------------------------------------------------------------------- numbers
@@ -283,24 +231,34 @@ static int read_problem(reader *r, problem_file *file) {
   return 1;
 }
 
+// A name that a file has is printed, and so it holds nothing that a terminal obeys.
+static int look_at_text(const char *path, const char *bytes, size_t size) {
+  for (size_t i = 0; i < size; i++) {
+    const unsigned char c = (unsigned char)bytes[i];
+    if ((c < 32 && (c < '\t' || c > '\r')) || c == 127)
+      return complain("%s: not a text file: it has a %s", path,
+                      c ? "control character" : "zero byte");
+  }
+  return 1;
+}
+
 // Begins to read a text file whose first line is `format` and version 1. *text: to be freed. Returns
 // 0 after a complaint.
 static int open_reader(const char *path, const char *format, char **text, reader *r) {
   size_t size;
   memset(r, 0, sizeof *r);
-  r->path = path;
-  r->next = *text = read_file(path, &size);
-  if (!*text) return 0;
-  if (strlen(*text) != size) return complain("%s: not a text file: it has a zero byte", path);
+  r->path = shown_name(path);
+  r->next = *text = read_file("", path, &size, look_at_text);
+  if (!*text || !look_at_text(r->path, *text, size)) return 0;
   if (!next_line(r) || r->field_count != 2 || strcmp(r->fields[0], format) != 0)
-    return complain("%s:%zu: the first line is not '%s 1'", path, r->line ? r->line : 1, format);
+    return complain("%s:%zu: the first line is not '%s 1'", r->path, r->line ? r->line : 1, format);
   return strcmp(r->fields[1], "1") == 0 || refuse_field(r, "only version 1 is known", r->fields[1]);
 }
 
 static int read_problems(const char *path, problem_file *file) {
   reader r;
   memset(file, 0, sizeof *file);
-  file->path = path;
+  file->path = shown_name(path);
   if (!open_reader(path, "nsvcd-problems", &file->text, &r)) return 0;
   while (next_line(&r)) {
     int is_mesh = strcmp(r.fields[0], "mesh") == 0;

@@ -250,7 +250,7 @@ static int read_robot(const char *path, robot_file *file) {
                {"obstacle", robot_read_obstacle}};
   reader r;
   memset(file, 0, sizeof *file);
-  file->path = path;
+  file->path = shown_name(path);
   if (!open_reader(path, "nsvcd-plans", &file->text, &r)) return 0;
   while (next_line(&r)) {
     const int is_task = strcmp(r.fields[0], "plan") == 0 || strcmp(r.fields[0], "path") == 0;

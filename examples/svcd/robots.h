@@ -1,0 +1,322 @@
+// robots.h - svcd plan, path and pairs: motions of a robot, sought and proven; which of its bodies can
+// meet.
+#ifndef NSVCD_SVCD_ROBOTS_H
+#define NSVCD_SVCD_ROBOTS_H
+
+#include "settings.h"
+
+#define PLAN_NODES 100000
+
+// Is an ID one of a list "a,b"? NULL: all are.
+static int is_listed(const char *list, const char *id) {
+  const size_t length = strlen(id);
+  while (list && *list) {
+    const size_t word = strcspn(list, ",");
+    if (word == length && strncmp(list, id, word) == 0) return 1;
+    list += word + (list[word] == ',');
+  }
+  return !list;
+}
+
+static int plan_options(const settings *options, const char *command) {
+  if (options->path_count != 1)
+    return usage_error(command, "a planning file is wanted ('svcd plan --help')");
+  if ((options->samples > 0) != (options->joints != NULL))
+    return usage_error("--samples", "together with --joints OUT.tsv");
+  if (options->joints && !ends_with(options->joints, ".tsv"))
+    return usage_error("--joints", "a file that ends in .tsv is wanted");
+  const char *pictures[2] = {options->picture, options->film};
+  for (size_t k = 0; k < 2; k++) {
+    const char *name = k ? "--film" : "--picture";
+    if (!pictures[k]) continue;
+    if (!ends_with(pictures[k], ".svg"))
+      return usage_error(name, "a file that ends in .svg is wanted");
+    if (!options->only || strchr(options->only, ',')) return usage_error(name, "--only one plan");
+    if (!draw_may_write(pictures[k])) return REFUSED;
+  }
+  return DONE;
+}
+
+// How far the joints go, radians and metres alike: their ways added up as in space.
+static double route_length(const nsvcd_joint_motion *m, size_t joints) {
+  double length = 0;
+  double q[2][NSVCD_MAX_JOINTS];
+  const size_t looks = 16 * m->pieces;
+  nsvcd_motion_at(m, joints, 0, q[0]);
+  for (size_t k = 1; k <= looks; k++) {
+    double sum = 0;
+    const double *times = m->times + (k - 1) / 16;
+    nsvcd_motion_at(m, joints, times[0] + (times[1] - times[0]) * (double)((k - 1) % 16 + 1) / 16,
+                    q[k % 2]);
+    for (size_t j = 0; j < joints; j++) sum += (q[1][j] - q[0][j]) * (q[1][j] - q[0][j]);
+    length += sqrt(sum);
+  }
+  return length;
+}
+
+// All pairs that are as near as the clearance, and the nearest place that was found to be free, on
+// standard error.
+static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
+                         float clearance) {
+  nsvcd_gap_options options;
+  nsvcd_escape_options escape;
+  size_t count = 0;
+  int is_found = 0;
+  double out[NSVCD_MAX_JOINTS];
+  nsvcd_gap *gaps = (nsvcd_gap *)allocate((in->scene.pair_count + 1) * sizeof *gaps);
+  memset(&options, 0, sizeof options);
+  memset(&escape, 0, sizeof escape);
+  options.within = clearance > 0 ? clearance : 1e-6f;
+  options.deepest = 0.1f;
+  escape.clearance = clearance;
+  if (nsvcd_gaps(in->checker, joints, &options, gaps, in->scene.pair_count, &count)) count = 0;
+  for (size_t k = 0; k < count; k++) {
+    const nsvcd_gap *gap = &gaps[k];
+    const nsvcd_body_pair *pair = &in->scene.pairs[gap->pair];
+    const char *a = robot_name(in, pair->a);
+    const char *b = robot_name(in, pair->b);
+    if (gap->verdict != NSVCD_HIT)
+      complain("%s: %s and %s are %.2f mm apart", from, a, b, 1e3 * (double)gap->distance.high);
+    else if (gap->depth < HUGE_VALF)
+      complain("%s: %s and %s meet, %.2f mm deep", from, a, b, 1e3 * (double)gap->depth);
+    else
+      complain("%s: %s and %s meet, no lift of 100 mm parts them", from, a, b);
+  }
+  if (!nsvcd_escape(in->checker, joints, &escape, out, &is_found) && is_found) {
+    char list[32 * NSVCD_MAX_JOINTS] = "";
+    for (size_t j = 0; j < in->file->joint_count; j++)
+      snprintf(list + strlen(list), sizeof list - strlen(list), " %.9g", out[j]);
+    complain("%s: free near by:%s", from, list);
+  } else {
+    complain("%s: nothing free was found near by", from);
+  }
+  free(gaps);
+}
+
+// What is wrong with a start or a goal, on standard error.
+static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
+                       const double *joints, const nsvcd_check_answer *found, float clearance) {
+  char from[1024];
+  snprintf(from, sizeof from, "%s:%zu: %s: %s", in->file->path, task->line, task->id, where);
+  if (found->joint != NSVCD_NONE) {
+    complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
+  } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
+    const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
+    complain("%s: %s and %s are too near each other to tell", from, robot_name(in, pair->a),
+             robot_name(in, pair->b));
+  }
+  tell_way_out(in, from, joints, clearance);
+}
+
+static const char *plan_word(const nsvcd_route_answer *answer) {
+  const int is_doubt =
+      answer->check.verdict == NSVCD_UNDECIDED && answer->check.joint == NSVCD_NONE;
+  if (answer->status == NSVCD_ROUTE_FOUND) return "certified";
+  if (answer->status == NSVCD_ROUTE_START) return is_doubt ? "undecided" : "start";
+  if (answer->status == NSVCD_ROUTE_GOAL) return is_doubt ? "undecided" : "goal";
+  return "limit";
+}
+
+static int plan_one(const robot_in_room *in, const robot_task *task, const settings *options,
+                    FILE *out) {
+  nsvcd_route_problem problem;
+  nsvcd_route_options asked;
+  nsvcd_route_answer answer;
+  int good = 1;
+  const size_t joints = in->file->joint_count;
+  memset(&problem, 0, sizeof problem);
+  memset(&asked, 0, sizeof asked);
+  problem.start = in->file->numbers + task->first;
+  problem.goals = problem.start + joints;
+  problem.goal_count = 1;
+  asked.seed = options->seed;
+  asked.clearance = options->sweep.clearance;
+  asked.nodes = PLAN_NODES;
+  const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
+  void *memory = allocate(size);
+  const double began = seconds();
+  const nsvcd_result result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
+  const double taken = seconds() - began;
+  if (!result) {
+    const nsvcd_joint_motion *m = &answer.motion;
+    const int is_found = answer.status == NSVCD_ROUTE_FOUND;
+    const double duration = is_found ? answer.duration : HUGE_VAL;
+    const double length = is_found ? route_length(m, joints) : HUGE_VAL;
+    if (options->json) {
+      json_out j = {stdout, 0};
+      json_open(&j, NULL, '{');
+      json_text(&j, "id", task->id);
+      json_text(&j, "status", plan_word(&answer));
+      json_digits(&j, "seconds", taken, 6);
+      json_float(&j, "duration", duration);
+      json_float(&j, "length", length);
+      json_end_line(&j);
+    } else if (is_found) {
+      printf("%s\t%s\t%.6f\t%.9g\t%.9g\n", task->id, plan_word(&answer), taken, duration, length);
+    } else {
+      printf("%s\t%s\t%.6f\tnan\tnan\n", task->id, plan_word(&answer), taken);
+    }
+    if (answer.status == NSVCD_ROUTE_START)
+      tell_check(in, task, "the start", problem.start, &answer.check, asked.clearance);
+    if (answer.status == NSVCD_ROUTE_GOAL)
+      tell_check(in, task, "the goal", problem.goals, &answer.check, asked.clearance);
+    for (size_t k = 0; is_found && k < options->samples; k++) {
+      double q[NSVCD_MAX_JOINTS];
+      nsvcd_motion_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
+      fprintf(out, "%s\t%zu", task->id, k);
+      for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
+      fprintf(out, "\n");
+    }
+    if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
+    if (is_found && options->certificates)
+      good = write_motion_proof(in, options->certificates, task->id, m, asked.clearance);
+    if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
+  }
+  free(memory);
+  if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
+  return !result && good;
+}
+
+// Edge by edge.
+static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
+                    FILE *out) {
+  nsvcd_check_options asked;
+  nsvcd_check_answer answer;
+  nsvcd_result result = NSVCD_OK;
+  const size_t joints = in->file->joint_count;
+  const size_t edges = task->points > 1 ? task->points - 1 : 1;
+  size_t edge = 0;
+  memset(&asked, 0, sizeof asked);
+  memset(&answer, 0, sizeof answer);
+  asked.clearance = options->sweep.clearance;
+  (void)out;
+  const double began = seconds();
+  for (size_t k = 0; k < edges && !result; k++) {
+    const double *points = in->file->numbers + task->first + k * joints;
+    const nsvcd_joint_motion motion = {task->points > 1, 1, points, NULL};
+    edge = k;
+    result = nsvcd_check(in->checker, &motion, &asked, &answer);
+    if (answer.verdict != NSVCD_FREE) break;
+  }
+  const double mean = 1e6 * (seconds() - began) / (double)(edge + 1);
+  if (result)
+    return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
+  const int is_free = answer.verdict == NSVCD_FREE;
+  const nsvcd_body_pair *pair =
+      is_free || answer.pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer.pair];
+  const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
+                          pair ? robot_name(in, pair->b) : "-"};
+  if (options->json) {
+    json_out j = {stdout, 0};
+    json_open(&j, NULL, '{');
+    json_text(&j, "id", task->id);
+    json_text(&j, "verdict", nsvcd_verdict_string(answer.verdict));
+    if (!is_free) json_count(&j, "edge", edge);
+    if (!is_free) json_float(&j, "time", answer.share);
+    if (pair) json_text(&j, "a", names[0]);
+    if (pair) json_text(&j, "b", names[1]);
+    json_digits(&j, "microseconds", mean, 4);
+    json_end_line(&j);
+    return 1;
+  }
+  printf("%s\t%s\t", task->id, nsvcd_verdict_string(answer.verdict));
+  if (is_free)
+    printf("-1\tnan");
+  else
+    printf("%zu\t%.9g", edge, answer.share);
+  printf("\t%s\t%s\t%.2f\n", names[0], names[1], mean);
+  return 1;
+}
+
+// Plans, or paths, one after another. A checker is opened where the scene is another one.
+static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
+  robot_in_room in;
+  int good = 1;
+  progress_bar working = {is_path ? "paths" : "plans", file->task_count, 0, 0};
+  memset(&in, 0, sizeof in);
+  for (size_t i = 0; i < file->task_count && good; i++) {
+    const robot_task *task = &file->tasks[i];
+    progress_step(&working, i);
+    if ((task->points > 0) != is_path || !is_listed(options->only, task->id)) continue;
+    // a plan does not depend on those before: a checker remembers what was hit
+    if (!is_path || in.room != &file->rooms[task->room]) good = enter_room(file, task->room, &in);
+    if (good) good = (is_path ? path_one : plan_one)(&in, task, options, out);
+  }
+  progress_end(&working);
+  leave_room(&in);
+  return good;
+}
+
+// Which bodies of a robot can meet each other: lines for its planning file.
+static int pairs(settings *options) {
+  robot_file file;
+  robot_in_room in;
+  nsvcd_pair_counts counts;
+  double taken;
+  const int status = plan_options(options, "pairs");
+  if (status != DONE) return status;
+  memset(&in, 0, sizeof in);
+  int good = read_robot(options->paths[0], &file);
+  if (good && file.body_count == 0) good = complain("%s: no body", file.path);
+  good = good && encode_robot(&file, &taken);
+  if (good) {
+    const size_t most = file.body_count * file.body_count;
+    nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
+    good = enter_room(&file, NSVCD_NONE, &in);
+    const nsvcd_result result =
+        good ? nsvcd_find_pairs(in.checker, 0, options->seed, found, most, &counts) : NSVCD_OK;
+    if (result) good = complain("%s: %s", file.path, reason_of(result));
+    const size_t total = good ? counts.asked + counts.adjacent + counts.touching : 0;
+    for (size_t n = 0; n < total; n++) {
+      static const char *const words[2][3] = {{"pair", "# adjacent:", "# always touching:"},
+                                              {"pair", "adjacent", "touching"}};
+      const int kind = n < counts.asked ? 0 : n < counts.asked + counts.adjacent ? 1 : 2;
+      const char *a = robot_name(&in, found[n].a);
+      const char *b = robot_name(&in, found[n].b);
+      json_out j = {stdout, 0};
+      if (!options->json) printf("%s %s %s\n", words[0][kind], a, b);
+      if (!options->json) continue;
+      json_open(&j, NULL, '{');
+      json_text(&j, "kind", words[1][kind]);
+      json_text(&j, "a", a);
+      json_text(&j, "b", b);
+      json_end_line(&j);
+    }
+    free(found);
+  }
+  leave_room(&in);
+  free_robot(&file);
+  return good ? DONE : REFUSED;
+}
+
+static int robot_command(settings *options, int is_path) {
+  robot_file file;
+  double taken;
+  FILE *out = NULL;
+  const int status = plan_options(options, is_path ? "path" : "plan");
+  if (status != DONE) return status;
+  int good = read_robot(options->paths[0], &file);
+  good = good && encode_robot(&file, &taken);
+  if (good)
+    fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", file.mesh_count, 1e3 * taken);
+  if (good && (options->picture || options->film) && file.body_count == 0)
+    good = complain("%s: no body to draw", file.path);
+  if (good && options->joints) {
+    out = open_file(options->joints, "w");
+    if (!out) good = complain("%s: %s", options->joints, strerror(errno));
+  }
+  good = good && robot_tasks(&file, options, is_path, out);
+  if (out) {
+    good = close_written(out, options->joints) && good;
+  }
+  free_robot(&file);
+  return good ? DONE : REFUSED;
+}
+static int plan(settings *options) {
+  return robot_command(options, 0);
+}
+static int path(settings *options) {
+  return robot_command(options, 1);
+}
+
+#endif

@@ -1,0 +1,56 @@
+// settings.h - what all commands of svcd are told, and what they use beside scenery.
+#ifndef NSVCD_SVCD_SETTINGS_H
+#define NSVCD_SVCD_SETTINGS_H
+
+#include "../scenery/problem_file.h"
+#include "../scenery/status_of.h"
+// these call problem_file.h's
+#include "../scenery/load.h"
+#include "../scenery/options.h"
+#include "../scenery/manual.h"
+#include "../scenery/json_write.h"
+#include "../scenery/robot_file.h"
+#include "../scenery/problem_summary.h"
+#include "../scenery/sweep_motion.h"
+// and these the oracle
+#include "../scenery/poses.h"
+#include "../scenery/sweep_picture.h"
+#include "../scenery/robot_picture.h"
+#include "../scenery/certificates.h"
+
+struct settings {
+  nsvcd_encode_options encode;
+  nsvcd_question sweep;  // what is asked, of whatever bodies
+  float first[2];        // a share of the motion, or metres; 0: not asked for
+  float measure;         // metres
+  size_t repeat;         // 0: as the command has it
+  const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
+  const char *certificate, *certificates;
+  size_t seed, samples;
+  int int8, help, json, is_first_given;
+  const char **paths;
+  size_t path_count;
+};
+
+static int usage_error(const char *what, const char *reason) {
+  complain("%s: %s", what, reason);
+  return USAGE;
+}
+
+// Asks for the first contact, to a share of the motion or to metres, or, if both are 0, for any.
+static int wants_first(const settings *options) {
+  return options->first[0] > 0 || options->first[1] > 0;
+}
+static void ask_first(nsvcd_question *question, const settings *options) {
+  question->ask = wants_first(options) ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+  question->to_time = options->first[0];
+  question->to = options->first[1];
+}
+
+// Is a contact known, but not whether it is the first one, if that was asked for? Surfaces that come
+// nearer than triangles are stored can hide that.
+static int hides_first(const nsvcd_answer *answer) {
+  return answer->verdict == NSVCD_HIT && answer->why != NSVCD_WHY_NOTHING;
+}
+
+#endif

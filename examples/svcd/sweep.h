@@ -1,0 +1,356 @@
+// sweep.h - svcd sweep: one question of two files, its answer, its picture, its proof.
+#ifndef NSVCD_SVCD_SWEEP_H
+#define NSVCD_SVCD_SWEEP_H
+
+#include "settings.h"
+
+typedef struct sweep_job {
+  thing a, b;  // a moves
+  motion motion;
+  nsvcd_pose poses[MOST_POSES];
+  nsvcd_question question;
+  int by_proof;
+  void *workspace;
+  nsvcd_answer answer;
+  nsvcd_answer nearest;       // where --measure asks for it and they are free of each other
+  double microseconds;        // median, to know whether they meet
+  double microseconds_first;  // and when
+} sweep_job;
+
+// The network answers where a body holds no triangles: then nothing may be asked that it does not
+// know. Returns a status.
+static int sweep_method(sweep_job *job, settings *options) {
+  const nsvcd_question *sweep = &options->sweep;
+  const thing *bare = nsvcd_body_describe(job->a.body).triangles ? &job->b : &job->a;
+  const int proof = sweep->method != NSVCD_METHOD_NETWORK;
+  job->by_proof = proof && nsvcd_body_describe(bare->body).triangles;
+  if (job->by_proof) return DONE;
+  if (sweep->method == NSVCD_METHOD_PROOF) {
+    complain("%s: it holds no triangles, and so there is no proof", bare->path);
+    return REFUSED;
+  }
+  if (sweep->clearance > 0 || options->measure > 0 || sweep->skin > 0) {
+    complain("%s: the network knows neither --clearance, --measure nor --skin",
+             proof ? bare->path : "--method network");
+    return proof ? REFUSED : USAGE;
+  }
+  for (int i = 0; i < 2; i++) {
+    const thing *t = i ? &job->b : &job->a;
+    if (!nsvcd_body_describe(t->body).latents) {
+      complain("%s: it holds nothing for the network", t->path);
+      return REFUSED;
+    }
+  }
+  options->first[0] = options->first[1] = 0;
+  return DONE;
+}
+
+// Returns 0 after a complaint.
+static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
+  const nsvcd_result result =
+      nsvcd_sweep(&job->question, job->workspace, nsvcd_sweep_workspace_size(NULL), answer);
+  return result ? complain("%s", reason_of(result)) : 1;
+}
+
+// Once to warm up, and then by the clock: the median, in microseconds. Negative after a complaint.
+static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
+  double *times = (double *)allocate(repeat * sizeof *times);
+  int good = sweep_once(job, answer);
+  for (size_t i = 0; good && i < repeat; i++) {
+    const double start = seconds();
+    good = sweep_once(job, answer);
+    times[i] = 1e6 * (seconds() - start);
+  }
+  if (good) qsort(times, repeat, sizeof *times, compare_doubles);
+  const double median = good ? (times[(repeat - 1) / 2] + times[repeat / 2]) / 2 : -1;
+  free(times);
+  return median;
+}
+
+// The answer, and, where they are free of each other, how near they come.
+static int sweep_ask(sweep_job *job, const settings *options) {
+  nsvcd_question *question = &job->question;
+  *question = options->sweep;
+  question->a.body = job->a.body;
+  question->a.poses = job->poses;
+  question->a.count = job->motion.count;
+  question->a.scale = job->a.scale;
+  question->b.body = job->b.body;
+  question->b.scale = job->b.scale;
+  for (size_t i = 0; i < job->motion.count; i++)
+    job->poses[i] = pose_rounded(&job->motion.poses[i]);
+  job->microseconds = sweep_timed(job, options->repeat, &job->answer);
+  if (job->microseconds < 0) return 0;
+  if (job->answer.verdict != NSVCD_FREE && wants_first(options)) {
+    ask_first(question, options);
+    job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
+  }
+  if (!(options->measure > 0) || collides_of(&job->answer)) return job->microseconds_first >= 0;
+  question->clearance = question->to_time = 0;
+  question->ask = NSVCD_ASK_DISTANCE;
+  question->to = options->measure;
+  return sweep_once(job, &job->nearest);
+}
+
+// How it was decided.
+static void sweep_reason(const sweep_job *job, const settings *options, char *out, size_t size) {
+  const int proof = job->by_proof;
+  const char *reason = "the network's opinion";
+  const status s = status_of(&job->answer);
+  if (s == STATUS_WITNESS)
+    reason = options->sweep.clearance > 0 ? "proven, two triangles come so near"
+                                          : "proven, two triangles meet";
+  if (s == STATUS_CERTIFIED_FREE)
+    reason = proof ? "proven, the surfaces never meet" : "proven, spheres about them never meet";
+  if (s == STATUS_INSIDE)
+    reason = proof ? "proven, one is inside of the other at the start"
+                   : "estimated, one is inside of the other at the start";
+  if (s == STATUS_UNDECIDED)
+    reason = "nearer than triangles are stored, or more work than --work allows";
+  snprintf(out, size, "%s", reason);
+  if (job->answer.by == NSVCD_BY_NETWORK && !job->answer.inside)
+    snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.opinion.logit);
+}
+
+// "hit at t = 0.4, the first contact: proven, two triangles meet".
+static void sweep_verdict(const sweep_job *job, const settings *options, char *out, size_t size) {
+  const nsvcd_answer *a = &job->answer;
+  const float clearance = options->sweep.clearance;
+  const int collides = collides_of(a);
+  const char *word = collides ? "hit" : "free";
+  char when[60] = "";
+  char near_by[60] = "";
+  char reason[120];
+  if (collides)
+    snprintf(when, sizeof when, " at t = %.4f%s", (double)contact_time_of(a),
+             wants_first(options) ? ", the first contact" : "");
+  if (hides_first(a))
+    snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->time.high,
+             (double)a->time.low);
+  if (a->verdict == NSVCD_UNDECIDED) {
+    word = collides ? "undecided, taken as a hit" : "undecided, taken as free";
+    snprintf(when, sizeof when, "; free until t = %.4f", (double)a->time.low);
+  }
+  if (clearance > 0)
+    snprintf(near_by, sizeof near_by, ", %s %g m", collides ? "as near as" : "never as near as",
+             (double)clearance);
+  sweep_reason(job, options, reason, sizeof reason);
+  snprintf(out, size, "%s%s%s: %s", word, when, near_by, reason);
+}
+
+// size: what is less than a millionth of it is rounding, and printed as 0.
+static void print_vector(const char *name, const float *v, double size, const char *unit) {
+  printf("%-10s", name);
+  for (int k = 0; k < 3; k++)
+    printf(" %.5g", fabs((double)v[k]) < 1e-6 * size ? 0.0 : (double)v[k]);
+  printf("%s\n", unit);
+}
+
+static void print_answer(const sweep_job *job, const settings *options) {
+  const nsvcd_answer *a = &job->answer;
+  char verdict[320];
+  double size = 0;
+  for (int k = 0; k < 3; k++) size = fmax(size, job->b.high[k] - job->b.low[k]);
+  sweep_verdict(job, options, verdict, sizeof verdict);
+  printf("%s\n", verdict);
+  const int is_proven = a->verdict == NSVCD_HIT && a->by == NSVCD_BY_PROOF;
+  if (is_proven) print_vector("point", a->nearest.point, size, " m");
+  if (a->contact_count > 0) {
+    // what is met of a sheet has a normal by its winding, on whichever side A is
+    const int sure = is_solid(&job->a) && is_solid(&job->b);
+    print_vector("normal", a->contacts[0].normal, 1, sure ? ", from B to A" : "");
+    printf("triangles  %lu of A, %lu of B, counted from 0\n",
+           (unsigned long)a->contacts[0].triangle_a, (unsigned long)a->contacts[0].triangle_b);
+  }
+  if (job->nearest.distance.high > 0)
+    printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.distance.low,
+           (double)job->nearest.distance.high, (double)job->nearest.nearest.time);
+  print_motion(&job->motion);
+  printf("time       %.1f us", job->microseconds);
+  if (job->microseconds_first > 0)
+    printf(", and %.1f us for the first contact", job->microseconds_first);
+  printf(" (median of %zu)", options->repeat);
+  if (job->a.taken + job->b.taken > 0)
+    printf("; encoding %.1f ms", 1e3 * (job->a.taken + job->b.taken));
+  printf("\n");
+  fflush(stdout);
+}
+
+static void json_range(json_out *j, const char *key, const nsvcd_range *range) {
+  json_open(j, key, '{');
+  json_float(j, "low", (double)range->low);
+  json_float(j, "high", (double)range->high);
+  json_close(j, '}');
+}
+
+static void print_json(const sweep_job *job, const settings *options) {
+  const nsvcd_answer *a = &job->answer;
+  json_out j = {stdout, 0};
+  json_open(&j, NULL, '{');
+  json_text(&j, "verdict", nsvcd_verdict_string(a->verdict));
+  json_text(&j, "status", status_string(hides_first(a) ? STATUS_UNDECIDED : status_of(a)));
+  json_flag(&j, "collides", collides_of(a));
+  json_flag(&j, "proven", a->by == NSVCD_BY_PROOF && a->verdict != NSVCD_UNDECIDED);
+  json_range(&j, "time", &a->time);
+  json_range(&j, "distance",
+             job->nearest.distance.high > 0 ? &job->nearest.distance : &a->distance);
+  json_float(&j, "depth", (double)a->depth);
+  if (a->opinion.asked) json_float(&j, "logit", (double)a->opinion.logit);
+  json_open(&j, "contacts", '[');
+  for (size_t n = 0; n < a->contact_count; n++) {
+    const nsvcd_contact *contact = &a->contacts[n];
+    json_open(&j, NULL, '{');
+    json_floats(&j, "point", contact->point, 3);
+    json_floats(&j, "normal", contact->normal, 3);
+    json_count(&j, "triangle_a", contact->triangle_a);
+    json_count(&j, "triangle_b", contact->triangle_b);
+    json_close(&j, '}');
+  }
+  json_close(&j, ']');
+  json_open(&j, "poses", '[');
+  for (size_t n = 0; n < job->motion.count; n++) {
+    float pose[7];
+    memcpy(pose, job->poses[n].position, 3 * sizeof *pose);
+    memcpy(pose + 3, job->poses[n].rotation, 4 * sizeof *pose);
+    json_floats(&j, NULL, pose, 7);
+  }
+  json_close(&j, ']');
+  json_digits(&j, "microseconds", job->microseconds, 4);
+  if (job->microseconds_first > 0)
+    json_digits(&j, "microseconds_first", job->microseconds_first, 4);
+  json_count(&j, "repeat", options->repeat);
+  json_digits(&j, "milliseconds_encoding", 1e3 * (job->a.taken + job->b.taken), 4);
+  json_end_line(&j);
+  fflush(stdout);
+}
+
+// ------------------------------------------------------------------------------------- its picture
+
+// The mesh, or, of a .body file, the balls of its patches. Returns 0 after a complaint.
+static int picture_body(const thing *t, sweep_body *out) {
+  shapes_mesh balls;
+  float centre[3], radius;
+  memset(&balls, 0, sizeof balls);
+  out->name = t->path;
+  out->pale = t->is_body ? 0.12 : 0.35;  // balls overlap
+  out->sheet = !t->is_body && !is_solid(t);
+  for (uint32_t i = 0; t->is_body && nsvcd_body_patch(t->body, i, centre, &radius); i++) {
+    const size_t first = balls.vertices;
+    shapes_ellipsoid(&balls, (double)radius, (double)radius, (double)radius, 6);
+    shapes_place(&balls, first, NULL, (double)centre[0], (double)centre[1], (double)centre[2]);
+  }
+  for (size_t i = 0; !t->is_body && i < t->mesh.vertex_count; i++) {
+    const float *p = t->mesh.positions + 3 * i;
+    shapes_vertex(&balls, (double)p[0], (double)p[1], (double)p[2]);
+  }
+  const int good =
+      !balls.failed &&
+      oracle_mesh_init(&out->mesh, balls.positions, balls.vertices,
+                       t->is_body ? balls.indices : t->mesh.indices,
+                       t->is_body ? balls.triangles : t->mesh.triangle_count, (double)t->scale);
+  shapes_free(&balls);
+  return good ? 1 : complain("out of memory");
+}
+
+static int draw_job(const sweep_job *job, const settings *options) {
+  const nsvcd_answer *a = &job->answer;
+  sweep_picture p;
+  char verdict[320];
+  memset(&p, 0, sizeof p);
+  sweep_verdict(job, options, verdict, sizeof verdict);
+  const int collides = collides_of(a);
+  p.title = collides ? "A hits B" : "A is free of B";
+  if (a->verdict == NSVCD_UNDECIDED) p.title = "Undecided";
+  p.verdict = verdict;
+  p.poses = job->motion.poses;
+  p.count = job->motion.count;
+  p.collides = collides;
+  p.shown = collides ? (double)contact_time_of(a) : 0.5;
+  p.shown_as = collides ? "contact" : "half way";
+  if (job->nearest.distance.high > 0) {
+    p.shown = (double)job->nearest.nearest.time;
+    p.shown_as = "nearest";
+  }
+  if (a->contact_count > 0) {
+    p.point = a->contacts[0].point;
+    p.normal = a->contacts[0].normal;
+  }
+  const int good = picture_body(&job->a, &p.a) && picture_body(&job->b, &p.b) &&
+                   sweep_draw(options->picture, &p);
+  oracle_mesh_free(&p.a.mesh);
+  oracle_mesh_free(&p.b.mesh);
+  if (good && !options->json) printf("picture    %s\n", options->picture);
+  return good;
+}
+
+// One of them may be in millimetres, and the other not. Of no body file is it known.
+static void warn_of_sizes(const sweep_job *job, const float *scales) {
+  const thing *t[2] = {&job->a, &job->b};
+  double extents[2];
+  for (int i = 0; i < 2; i++) {
+    extents[i] = 0;
+    for (int k = 0; k < 3; k++) extents[i] = fmax(extents[i], t[i]->high[k] - t[i]->low[k]);
+  }
+  const int large = extents[1] > extents[0];
+  const double times = extents[large] / extents[!large];
+  if (times < 1000 || t[large]->is_body || t[large]->grave) return;
+  complain("warning: %s is %.0f times as large as %s: is it in millimetres? try --scale %g,%g",
+           t[large]->path, times, t[!large]->path, (double)scales[0] * (large ? 1 : 0.001),
+           (double)scales[1] * (large ? 0.001 : 1));
+}
+
+static int sweep_run(sweep_job *job, settings *options, const float *scales) {
+  const motion_told told = {options->from, options->to, options->rotate};
+  if (!open_thing(options->paths[0], &job->a) || !open_thing(options->paths[1], &job->b))
+    return REFUSED;
+  if (options->certificate && (job->a.is_body || job->b.is_body))
+    return usage_error("--certificate", "of meshes alone");
+  if (options->sweep.method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
+  // a body may hold no triangles: then the network answers
+  options->encode.latents = job->a.is_body || job->b.is_body;
+  if (!take_thing(&job->a, scales[0], &options->encode) ||
+      !take_thing(&job->b, scales[1], &options->encode))
+    return REFUSED;
+  warn_of_sizes(job, scales);
+  if (!take_motion(&told, &job->a, &job->b, &job->motion)) return USAGE;
+  const int status = sweep_method(job, options);
+  if (status != DONE) return status;
+  if (!sweep_ask(job, options)) return REFUSED;
+  (options->json ? print_json : print_answer)(job, options);
+  if (options->certificate) {
+    if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
+                     options->sweep.clearance, &job->answer))
+      return REFUSED;
+    if (!options->json)
+      printf("certificate  %s, of the problem in %.*stxt\n", options->certificate,
+             (int)strlen(options->certificate) - 4, options->certificate);
+  }
+  return !options->picture || draw_job(job, options) ? DONE : REFUSED;
+}
+
+static int sweep(settings *options) {
+  float scales[2];
+  if (options->path_count != 2)
+    return usage_error("sweep", "two files are wanted, A and B ('svcd sweep --help')");
+  const int piped = is_standard_input(options->paths[0]) + is_standard_input(options->paths[1]);
+  if (piped == 2) return usage_error("sweep", "one of both files may be -, standard input");
+  if (!options->is_first_given) options->first[0] = 0.001f;
+  if (options->picture && !ends_with(options->picture, ".svg"))
+    return complain("--picture: %s does not end in .svg", options->picture), USAGE;
+  if (options->certificate &&
+      (!ends_with(options->certificate, ".cert") || options->sweep.skin > 0 || piped))
+    return usage_error("--certificate", "a file that ends in .cert; without --skin, of files");
+  if (!take_scales(options->scale, 2, scales)) return USAGE;
+  if (options->picture && !draw_may_write(options->picture)) return REFUSED;
+  sweep_job *job = (sweep_job *)allocate(sizeof *job);
+  memset(job, 0, sizeof *job);
+  job->workspace = allocate(nsvcd_sweep_workspace_size(NULL));
+  const int status = sweep_run(job, options, scales);
+  free_thing(&job->a);
+  free_thing(&job->b);
+  free(job->workspace);
+  free(job);
+  return status;
+}
+
+#endif
