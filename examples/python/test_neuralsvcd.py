@@ -650,12 +650,12 @@ class Meshes(unittest.TestCase):
 
     def test_what_files_refuse(self) -> None:
         for data, name, code, said in (
-                (b"v 0 0 0\nf 1\n", "a.obj", Code.SYNTAX, r"^a.obj \(OBJ\): line 2: "),
-                (b"ply\nnot\n", "a.ply", Code.SYNTAX, r"^a.ply \(PLY\): line 2: "),
-                (b"glTF", "a.glb", Code.SYNTAX, r"^a.glb \(GLB\): "),
-                (b"", "a.stl", Code.SYNTAX, r"^a.stl \(STL\): "),
+                (b"v 0 0 0\nf 1\n", "a.obj", Code.SYNTAX, "^a.obj: line 2: [^(]*$"),
+                (b"ply\nnot\n", "a.ply", Code.SYNTAX, "^a.ply: line 2: "),
+                (b"glTF", "a.glb", Code.SYNTAX, "^a.glb: "),
+                (b"", "a.stl", Code.SYNTAX, "^a.stl: "),
                 (b"", "a.step", Code.SYNTAX, "OBJ, STL, PLY and GLB are read, and no other"),
-                (b"", "", Code.EMPTY, "^OBJ: ")):
+                (b"", "", Code.EMPTY, r"^there is .* \(read as OBJ\)$")):
             error = raised(nsvcd.parse_mesh, data, name)
             self.assertRegex(str(error), said)
             self.assertEqual(error.code, code)

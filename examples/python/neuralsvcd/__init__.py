@@ -507,9 +507,10 @@ def parse_mesh(data: Any, where: str = "") -> Mesh:
     why = _library.neuralsvcd_mesh_parse(name, given, len(given), byref(mesh), byref(form), byref(line))
     if why is None:
         return _taken(mesh)
-    reason = why.decode()
-    told = f"{where} ({(form.value or b'').decode()})" if where else (form.value or b"").decode()
-    raise Error(_CODES.get(reason, Code.SYNTAX), told, line.value, reason=reason)
+    reason, taken_for = why.decode(), (form.value or b"").decode()
+    is_plain = where.lower().endswith("." + taken_for.lower())
+    raise Error(_CODES.get(reason, Code.SYNTAX), where, line.value,
+                reason=reason if is_plain else f"{reason} (read as {taken_for})")
 
 
 def load_mesh(path: FilePath, scale: float = 1) -> Mesh:
