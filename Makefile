@@ -103,6 +103,13 @@ $(SHARED): build/library.o
 	$(CC) -shared $(SONAME) -o $@ $< -lm
 build/libneuralsvcd.a: build/library.o
 	$(AR) rcs $@ $<
+# For any machine, as the library is. A program called `verify` would be too much in a folder of all programs.
+build/installed/svcd: examples/svcd.c $(SCENERY) $(LIBRARY)
+build/installed/svcd-verify: examples/verify/verify.c $(VERIFIER)
+PROGRAMS = build/installed/svcd build/installed/svcd-verify
+$(PROGRAMS):
+	@mkdir -p $(@D)
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -o $@ $< -lm
 shared: $(SHARED)  ## a shared library, build/libneuralsvcd.so
 static: build/libneuralsvcd.a  ## a static one
 # The name must stay: the header takes itself in.
@@ -112,7 +119,9 @@ build/release/neuralsvcd.h: $(LIBRARY)
 	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
 
 # DESTDIR=folder is put before PREFIX.
-install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config, a CMake package
+# What svcd says of itself, and where that is looked for.
+MANUALS = man:man/man1/svcd.1 bash:bash-completion/completions/svcd zsh:zsh/site-functions/_svcd fish:fish/vendor_completions.d/svcd.fish
+install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd and its manual, pkg-config, a CMake package
 	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
 	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd
 	cp $(LIBRARY) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
@@ -126,10 +135,14 @@ install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config
 	cp packages/installed/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
 	sed 's|@VERSION@|$(VERSION)|' packages/installed/neuralsvcdConfigVersion.cmake.in \
 	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
+	mkdir -p $(DESTDIR)$(PREFIX)/bin && cp $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin/
+	for manual in $(MANUALS); do file=$(DESTDIR)$(PREFIX)/share/$${manual#*:}; \
+	  mkdir -p $$(dirname $$file) && build/installed/svcd --manual $${manual%%:*} >$$file || exit 1; done
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
 	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
-	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc
+	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
+	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done
 
 # ------------------------------------------------------------------------------------------------------------- tests
 

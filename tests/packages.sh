@@ -27,6 +27,9 @@ minor=${version%.*}
 prefix=$dir/usr
 ${MAKE:-make} -s install PREFIX="$prefix" LIBRARY_CFLAGS=-O0 CC="$CC" || fail "make install"
 export LD_LIBRARY_PATH="$prefix/lib"
+case $("$prefix/bin/svcd" --version) in *"$version"*) ;; *) fail "svcd --version: $("$prefix/bin/svcd" --version)" ;; esac
+head -1 "$prefix/share/man/man1/svcd.1" | grep -q '^\.TH' || fail "svcd.1 is no manual"
+test -s "$prefix/share/bash-completion/completions/svcd" && test -x "$prefix/bin/svcd-verify" || fail "make install: no completions, or no svcd-verify"
 
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
@@ -84,7 +87,7 @@ if command -v cmake >/dev/null; then
     cmake --build "$dir/own" >>"$dir/own.txt" 2>&1 && cmake --install "$dir/own" >>"$dir/own.txt" 2>&1 || { cat "$dir/own.txt" >&2; fail "cmake --install"; }
   cmake_runs "find_package after cmake --install" -DCMAKE_PREFIX_PATH="$dir/cmake_usr"
   versions "$dir/cmake_usr"
-  "$dir/cmake_usr/bin/svcd" --help >/dev/null && test -x "$dir/cmake_usr/bin/verify" || fail "no svcd, or no verify"
+  "$dir/cmake_usr/bin/svcd" --version >/dev/null && test -x "$dir/cmake_usr/bin/svcd-verify" || fail "cmake --install: no svcd, or no svcd-verify"
   # The portfile, as far as it goes without vcpkg: what that gives it, in short, on what is built already.
   cat >"$dir/port.cmake" <<'END'
 function(vcpkg_cmake_configure)

@@ -232,17 +232,14 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
 static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
   robot_in_room in;
   int good = 1;
-  progress_bar working = {is_path ? "paths" : "plans", file->task_count, 0, 0};
   memset(&in, 0, sizeof in);
   for (size_t i = 0; i < file->task_count && good; i++) {
     const robot_task *task = &file->tasks[i];
-    progress_step(&working, i);
     if ((task->points > 0) != is_path || !is_listed(options->only, task->id)) continue;
     // a plan does not depend on those before: a checker remembers what was hit
     if (!is_path || in.room != &file->rooms[task->room]) good = enter_room(file, task->room, &in);
     if (good) good = (is_path ? path_one : plan_one)(&in, task, options, out);
   }
-  progress_end(&working);
   leave_room(&in);
   return good;
 }
