@@ -4,7 +4,10 @@
 set -eu
 CC=${CC:-cc}
 dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
+# What is compiled in haste here must not be what `make install` finds afterwards.
+hasty="build/installed build/library.o build/libneuralsvcd.a build/libneuralsvcd.so build/libneuralsvcd.dylib"
+rm -rf $hasty
+trap 'rm -rf "$dir" $hasty' EXIT
 here=$(pwd)
 main=$here/packages/project/main.c
 mug=$here/examples/assets/mug.obj
