@@ -1,4 +1,5 @@
 // neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
+// SPDX-License-Identifier: MIT
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
 // surfaces never do, at any time, rotation included. Where memory is short, or a gradient is
@@ -1089,8 +1090,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 // What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
 // extents and of places in the world), stays UNDECIDED.
 //   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
-//   looked
-//              at and may be NULL
+//              looked at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // verify_files.h - of verify.c: reads OBJ and STL files and problem files (examples/FORMATS.md), as
 // neuralsvcd.h and svcd do, by code of its own.
 #ifndef NSVCD_VERIFY_FILES_H
