@@ -533,10 +533,10 @@ expect 0 '' build/svcd plan "$dir/way_out.txt"
 grep -q '^out	certified' "$dir/out" || fail "the way out: $(cat "$dir/out")"
 # those of the URDF but what its SRDF takes to meet never, which is asked; and one that touches always
 expect 0 '' build/svcd pairs "$dir/robot.txt"
-for command in plan path pairs; do json $command "$dir/robot.txt"; done
 grep '^pair' "$dir/out" | grep -v 'wrist_a palm' | sort >"$dir/found_pairs"
 grep '^pair' "$dir/arm.txt" | sort | cmp -s - "$dir/found_pairs" || fail "svcd pairs says: $(diff "$dir/arm.txt" "$dir/found_pairs")"
 grep -q '^# always touching: base shoulder$' "$dir/out" || fail "svcd pairs says: $(cat "$dir/out")"
+for command in plan path pairs; do json $command "$dir/robot.txt"; done
 robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
   { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
   expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"
