@@ -35,7 +35,7 @@ endif
 
 .PHONY: all demo preview assets header api help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
+.PHONY: test check-text check-rooms check-header check-examples check-newcomer check-gradient check-tiles check-fast-math check-levels
 .PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-certificates bench-asks bench-casts bench-flags bench-level bench-scale bench-plan race profile instructions sizes
@@ -188,6 +188,10 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
+# What README holds, word by word (Debian: mmdebstrap); README_LINES=130: and how long it may be.
+check-newcomer:  # README's commands on a bare Debian, one by one; and are mistakes in a README noticed?
+	tests/newcomer.sh
+	tests/newcomer.sh --mutants
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
 	+CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd build/verify  # every set that the generator can make
