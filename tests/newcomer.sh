@@ -307,14 +307,14 @@ END
     fi
   done <<'END'
 none||
-a command that is not there|not found|s,^    make build/verify,    meson build/verify,
+a command that is not there|not found|s,^    make build/verify,    maek build/verify,
 a target that is not there|No rule to make target|s,build/verify CF,build/verifier CF,
 a target in the text that is not there|knows no .make bench-flag|s,make bench-flags,make bench-flag,
 a program in the text that is not there|knows no .build/problem|s,build/problems,build/problem,
 a typo in the program|pust|s,puts,puts + pust,
 a program that says nothing|says nothing|s,puts("free") < 0,0 \* sizeof(puts("")),
 a program that no command compiles|compiled by no command|s,`cc main.c`,cc main.c,
-python3, not named|python3: not found|s,^    make build/verify,    python3 --version,
+python3, not named|python3: not found|s,^    make build/verify,    python3 --version\n&,
 an option that is not there|no such option|s,sweep A.obj,sweep --frobnicate A.obj,
 a file that is not there|No such file|s,examples/svcd.c,svcd.c,
 a mesh that is not there|missing|s,A.obj B.obj,A.obj C.obj,
