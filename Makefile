@@ -184,7 +184,8 @@ build/loop_replay: tests/bench/loop/replay.c $(wildcard tests/bench/loop/*.h) te
 
 check-rooms:  # each compiles by itself, with what it includes and nothing else
 	CC="$(CC)" tests/rooms.sh
-check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
+check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace; as Microsoft's compiler would see it
+	tests/msvc.sh
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
