@@ -7,7 +7,7 @@
 # 3. There are gcc, libc6-dev, make, and what a line with `needs` or `apt-get install` names of $OFFERED (no command before).
 # 4. The newcomer has A and B, .obj and binary .stl, that meet; problems.txt about them; folders `proofs` and `folder`.
 # 5. `make X`, `build/X` in backticks are not run, but must exist. What takes long is in `instead`, below, with the reason.
-# 6. The first `svcd sweep A.` must say hit, for .stl too, within FIRST=60 s of all before. README_LINES=130: no more lines.
+# 6. The first `svcd sweep A.` must say hit, for .stl too, within 60 s of a processor, with all before. README_LINES=130: no more lines.
 set -uo pipefail
 OFFERED='python3 python3-numpy g++ clang cmake pkg-config git xxd'
 FIRST=${FIRST:-60}
@@ -171,12 +171,12 @@ run() {
 }
 # step LINE COMMAND [NOTE]: runs it, and adds a row to the table.
 step() {
-  local begin seconds why=
-  begin=$(now)
-  run "$2"
-  local status=$?
-  seconds=$(since "$begin")
+  local seconds user system status why= TIMEFORMAT='%1R %1U %1S'
+  { time run "$2"; } 2>"$dir/time"
+  status=$?
+  read -r seconds user system <"$dir/time"
   sum=$(awk -v a="$sum" -v b="$seconds" 'BEGIN { printf "%.1f", a + b }')
+  busy=$(awk -v a="$busy" -v b="$user" -v c="$system" 'BEGIN { printf "%.1f", a + b + c }')
   test $status = 0 || why=" FAILED: $status"
   printf '%7s  %5s  %s\n' "$seconds" "$1" "$2${3:-}$why"
   test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 4 "$dir/said")"
@@ -194,7 +194,7 @@ known() {
 }
 
 follow() {  # README
-  readme=$1 sum=0
+  readme=$1 sum=0 busy=0
   root= copy=$dir/neuralsvcd.h
   local begin packages why kind line text other verdict='' was_there=''
   rm -f "$dir/main.c"
@@ -237,7 +237,7 @@ follow() {  # README
           *) step "$line" "${text//.obj/.stl}" " (his own STL)" && head -1 "$dir/said" | grep -q '^hit' ||
               fail "$readme:$line: no hit of STL: $(head -1 "$dir/said")" ;;
         esac
-        first=$sum ;;
+        first=$sum first_busy=$busy ;;
       *main.c*)
         local program=./a.out
         case $text in *' -o '*) program=./$(echo "$text" | sed 's/.* -o *\([^ ]*\).*/\1/') ;; esac
@@ -248,8 +248,8 @@ follow() {  # README
   ! test -f "$dir/main.c" || grep -q '^run.*main\.c' "$dir/parts" || fail "$readme: its program is compiled by no command"
   echo "newcomer: $(grep -c '^run' "$dir/parts") commands of $readme, $sum s"
   if test -n "$verdict"; then
-    echo "newcomer: first verdict on one's own STL: $first s after the clone"
-    awk -v a="$first" -v b="$FIRST" 'BEGIN { exit !(a < b) }' || fail "the first verdict takes $first s, not below $FIRST"
+    echo "newcomer: first verdict on one's own STL: $first s after the clone, $first_busy s of a processor"
+    awk -v a="$first_busy" -v b="$FIRST" 'BEGIN { exit !(a < b) }' || fail "the first verdict takes $first_busy s, not below $FIRST"
   else
     fail "$readme: no command 'svcd sweep A...': no verdict on one's own mesh"
   fi
@@ -300,7 +300,7 @@ END
       bare=$(grep -v 'no bare root' "$dir/mutant" | grep 'a bare ')
     elif test $status = 0 && test "$text" = 'python3: not found' && test -z "$bare"; then
       echo "newcomer: no bare root: not tested: $name"
-    elif test $status = 0 || ! grep -qE "$text" "$dir/mutant"; then
+    elif test $status = 0 || ! grep -qE -- "$text" "$dir/mutant"; then
       echo "newcomer: not noticed: $name"; cat "$dir/mutant"; ends=1
     else
       echo "newcomer: noticed: $name"
@@ -315,9 +315,9 @@ a typo in the program|pust|s,puts,puts + pust,
 a program that says nothing|says nothing|s,puts("free") < 0,0 \* sizeof(puts("")),
 a program that no command compiles|compiled by no command|s,`cc main.c`,cc main.c,
 python3, not named|python3: not found|s,^    make build/verify,    python3 --version\n&,
-an option that is not there|no such option|s,sweep A.obj,sweep --frobnicate A.obj,
+an option that is not there|--frobnicate A.obj B.obj: ends with|s,sweep A.obj,sweep --frobnicate A.obj,
 a file that is not there|No such file|s,examples/svcd.c,svcd.c,
-a mesh that is not there|missing|s,A.obj B.obj,A.obj C.obj,
+a mesh that is not there|A.obj C.obj: ends with|s,A.obj B.obj,A.obj C.obj,
 no verdict|no verdict on one|s,sweep A.obj,info A.obj #,
 a program before it is built|build/verify: not found|s,^    make build/verify.*,    build/verify problems.txt proofs,
 END
