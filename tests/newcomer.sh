@@ -42,10 +42,19 @@ instead() {
 read_readme() {
   awk -v main="$2" '
     function comment_off(s) { sub(/(^|[ \t]+)#( .*|$)/, "", s); sub(/[ \t]+$/, "", s); return s }
+    function names(s, line,  inline) {
+      while (match(s, /`[^`]+`/)) {
+        inline = substr(s, RSTART + 1, RLENGTH - 2)
+        s = substr(s, RSTART + RLENGTH)
+        if (inline ~ /^cc .*\.c( |$)/) print "run\t" line "\t" inline
+        else if (inline ~ /^(make [a-z]|build\/[a-z])/) print "name\t" line "\t" inline
+      }
+    }
     function flush(  i, is_code, s, from) {
       for (i = 1; i <= held; i++) if (block[i] ~ /[;{}][ \t]*$/) is_code = 1
       if (is_code) print "code\t" at[1] "\t" block[1]
       for (i = 1; i <= held && !is_code; i++) {
+        if (block[i] ~ /#/) names(block[i], at[i])
         s = s comment_off(block[i])
         if (!from) from = at[i]
         if (sub(/\\$/, "", s)) continue
@@ -72,14 +81,7 @@ read_readme() {
     held && $0 ~ /^[ \t]*$/ { flush() }
     held { flush() }
     { blank = $0 ~ /^[ \t]*$/ }
-    { rest = $0
-      while (match(rest, /`[^`]+`/)) {
-        inline = substr(rest, RSTART + 1, RLENGTH - 2)
-        rest = substr(rest, RSTART + RLENGTH)
-        if (inline ~ /^cc .*\.c( |$)/) print "run\t" NR "\t" inline
-        else if (inline ~ /^(make [a-z]|build\/[a-z])/) print "name\t" NR "\t" inline
-      }
-    }
+    { names($0, NR) }
     END { flush(); if (mains > 1) print "bad\t" NR "\tmore than one program with a main" }' "$1"
 }
 
@@ -286,7 +288,7 @@ On your own files:
       examples/svcd.c -o svcd -lm
     ./svcd sweep A.obj B.obj     # do they hit?
     ./svcd check --certificates proofs problems.txt && build/verify problems.txt proofs
-    make test     # all
+    make test     # all; `make help`
 END
   local ends=0 bare=
   while IFS='|' read -r name text change; do
@@ -311,6 +313,7 @@ a command that is not there|not found|s,^    make build/verify,    maek build/ve
 a target that is not there|No rule to make target|s,build/verify CF,build/verifier CF,
 a target in the text that is not there|knows no .make bench-flag|s,make bench-flags,make bench-flag,
 a program in the text that is not there|knows no .build/problem|s,build/problems,build/problem,
+a target in a comment that is not there|knows no .make halp|s,make help,make halp,
 a typo in the program|pust|s,puts,puts + pust,
 a program that says nothing|says nothing|s,puts("free") < 0,0 \* sizeof(puts("")),
 a program that no command compiles|compiled by no command|s,`cc main.c`,cc main.c,
