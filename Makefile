@@ -191,7 +191,7 @@ check-examples: all build/make_assets  # they run, and they say no as examples/F
 	tests/examples.sh
 # What README holds, word by word (Debian: mmdebstrap); README_LINES=130: and how long it may be.
 check-newcomer:  # README's commands on a bare Debian, one by one; and are mistakes in a README noticed?
-	tests/newcomer.sh
+	README_LINES=130 tests/newcomer.sh
 	tests/newcomer.sh --mutants
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
 	+CC="$(CC)" tests/packages.sh
@@ -387,7 +387,7 @@ check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
+CHECKS = text rooms header packages newcomer gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
