@@ -267,7 +267,7 @@ check-python:
 # The examples for Windows, where MinGW is there (Debian: gcc-mingw-w64-x86-64).
 MINGW = x86_64-w64-mingw32-gcc
 $(EXAMPLES:%=%.exe): build/%.exe: examples/%.c $(wildcard examples/*.h) $(SCENERY) $(LIBRARY) | build
-	$(MINGW) -O0 -std=c99 $(WARNINGS) -Werror -Wno-unused-function -o $@ $< -lm
+	$(MINGW) -O0 -std=c99 $(WARNINGS) -Werror -Wno-unused-function $(if $(filter %/svcd.exe,$@),,-DNSVCD_NO_DISPATCH) -o $@ $< -lm
 check-mingw:
 	@if command -v $(MINGW) >/dev/null; then $(MAKE) $(EXAMPLES:%=%.exe); \
 	else echo "check-mingw: no $(MINGW): not tested"; fi
