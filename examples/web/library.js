@@ -5,9 +5,9 @@ const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict
 const BY = {PROOF: 0, NETWORK: 1};  // nsvcd_by
 const WHY = {NOTHING: 0, TOO_NEAR: 1, WORK: 2};  // nsvcd_why
 
-// Compiles the module. What it returns throws an Error with `line` where the library says no.
-async function createLibrary(bytes) {
-  const {instance} = await WebAssembly.instantiate(bytes);
+// Compiles the module, from a promise of a Response. What it returns throws an Error with `line` where the library says no.
+async function createLibrary(response) {
+  const {instance} = await WebAssembly.instantiateStreaming(response);
   const c = instance.exports;
   // Views are made anew each time: those of memory that has grown are void.
   const floats = (at, count) => new Float32Array(c.memory.buffer, at, count);

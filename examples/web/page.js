@@ -14,14 +14,12 @@ const UNLIKE = 100;  // and hardly ones that differ by this factor
 async function moduleBytes() {
   const packed = await fetch(`data:;base64,${find('module').textContent.trim()}`);
   const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  return new Response(plain).arrayBuffer();
+  return new Response(plain, {headers: {'content-type': 'application/wasm'}});
 }
 
 const canvas = find('canvas');
-const compiling = moduleBytes().then(createLibrary);
-compiling.catch(() => {});  // it is looked at below
-const scene = createScene(canvas);
-const library = await compiling.catch((error) => {
+let scene = null;  // comes after the first answer, because a graphics card takes its time
+const library = await createLibrary(moduleBytes()).catch((error) => {
   find('verdict-title').textContent = 'Not possible';
   find('verdict-text').textContent = `This browser cannot run the module: ${error.message}`;
   throw error;
@@ -122,7 +120,8 @@ function showAnswer() {
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
   show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` : null);
-  show('free-until', known ? `t = ${answer.time.low.toFixed(3)}` : null);
+  // Of a robot's hit it is not told whether it is the first.
+  show('free-until', known && !(isArm() && timed) ? `t = ${answer.time.low.toFixed(3)}` : null);
   show('apart', known && answer.distance.low > 0 && Number.isFinite(answer.distance.low) ?
     `${(1000 * answer.distance.low).toPrecision(2)} mm` : null);
   show('point', witness ? numbers(answer.nearest.point, 3) : null);
@@ -430,6 +429,28 @@ function draw() {
   scene.draw(from, solids, ghosts(time), marks());
 }
 
+// ---- playing it
+
+let playing = 0;
+function play() {
+  cancelAnimationFrame(playing);
+  const begin = performance.now();
+  const end = find('follow').checked && answer ? contactTime(answer) : 1;
+  find('follow').checked = false;
+  const step = (now) => {
+    const time = Math.min(end, Math.max(0, now - begin) / 3000);
+    find('time').value = time;
+    find('follow').checked = time === end;
+    changed(false);
+    playing = time < end ? requestAnimationFrame(step) : 0;
+  };
+  playing = requestAnimationFrame(step);
+}
+function stopPlaying() {
+  cancelAnimationFrame(playing);
+  playing = 0;
+}
+
 // ---- when something changes
 
 let asking = false;  // the question has changed
@@ -464,6 +485,10 @@ function frame() {
   draw();
 }
 function changed(isQuestion) {
+  if (isQuestion && playing) {
+    stopPlaying();
+    find('follow').checked = true;
+  }
   asking ||= isQuestion;
   if (!waiting)
     requestAnimationFrame(frame);
@@ -941,6 +966,15 @@ function keyDown(event) {
 
 // ---- all of it
 
+// All that there is by now.
+function loadScene() {
+  bodies.forEach((body, which) => body.indices && scene.loadMesh(`body-${which}`, body));
+  robot?.parts.forEach((part, i) => scene.loadMesh(`part-${i}`, part));
+  if (!isArm())
+    loadGround();
+  changed(false);
+}
+
 function showOptions() {
   find('first').disabled = find('clearance').disabled = question().method !== 'proof';
 }
@@ -958,7 +992,9 @@ function listen() {
     event.preventDefault();
     zoom(Math.exp(0.001 * event.deltaY));
   }, {passive: false});
+  find('play').addEventListener('click', play);
   find('time').addEventListener('input', () => {
+    stopPlaying();
     find('follow').checked = false;
     changed(false);
   });
@@ -1014,6 +1050,9 @@ listen();
 for (const which of [0, 1])
   makeDrop(which);
 openAddress();
-frame();  // the first answer does not wait for a picture
-if (!scene)
+frame();
+scene = createScene(canvas);
+if (scene)
+  loadScene();
+else
   find('view').append('This browser has no WebGL 2: answers, but no picture.');

@@ -379,7 +379,7 @@ class Page(Hands):
                   f"{taken} us, in build/svcd at best {alone}", flush=True)
             self.assertLess(taken, SLOWEST)
             if flags:
-                self.browser.set_window_size(1280, 860)
+                self.browser.set_window_size(1180, 800)
                 self.click("#reset-view")
                 self.browser.save_screenshot(str(PICTURE))
                 self.browser.set_window_size(1000, 800)
@@ -417,6 +417,9 @@ class Page(Hands):
         self.assertFalse(self.find("follow").is_selected())
         self.click("#follow")
         self.assertEqual(self.text("time-text"), contact)
+        self.find("play").click()
+        self.until(lambda: 0 < float(self.text("time-text")) < float(contact))
+        self.until(lambda: self.text("time-text") == contact and self.find("follow").is_selected())
 
     def test_picture(self):
         self.set_poses(*HIGH)
@@ -839,6 +842,7 @@ class Page(Hands):
         marks = []
         for _ in range(5):
             self.browser.get("about:blank")
+            time.sleep(0.5)
             self.open(self.address)
             marks.append(self.browser.execute_script("""
                 const at = (name) => performance.getEntriesByName(name)[0].startTime;
@@ -890,6 +894,7 @@ class Firefox(unittest.TestCase):
         self.socket.close()
         self.firefox.terminate()
         self.firefox.wait(20)
+        self.firefox.stderr.close()
         self.profile.cleanup()
 
     def test_gallery(self):
