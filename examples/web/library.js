@@ -32,9 +32,11 @@ async function createLibrary(response) {
   }
 
   // Body 0 or 1, from a file: OBJ, STL, PLY or GLB; which of them it is.
-  function encode(which, name, file) {
+  // baked: null, or the body that `svcd encode` makes of it.
+  function encode(which, name, file, baked) {
     const named = give(new TextEncoder().encode(`${name}\0`));
-    if (c.web_encode(which, named, give(file), file.length))
+    const body = baked ? give(baked) : 0;
+    if (c.web_encode(which, named, give(file), file.length, body, baked?.length ?? 0))
       throw Object.assign(new Error(text(c.web_fault_reason())), {line: c.web_fault_line()});
     return text(c.web_fault_format());
   }

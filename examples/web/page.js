@@ -10,20 +10,24 @@ const GHOSTS = 9;    // start and end among them
 const LARGE = 30, SMALL = 0.001;  // metres: bodies beyond these are hardly meant
 const UNLIKE = 100;  // and hardly ones that differ by this factor
 
-// The module as it stands in the page: base64 of gzip, which the browser undoes faster than code.
-async function moduleBytes() {
-  const packed = await fetch(`data:;base64,${find('module').textContent.trim()}`);
+// What stands in the page as base64 of gzip, which the browser undoes faster than code.
+async function unpacked(id) {
+  const packed = await fetch(`data:;base64,${find(id).textContent.trim()}`);
   const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
   return new Response(plain, {headers: {'content-type': 'application/wasm'}});
 }
 
 const canvas = find('canvas');
 let scene = null;  // comes after the first answer, because a graphics card takes its time
-const library = await createLibrary(moduleBytes()).catch((error) => {
+// The first scene's bodies, because to encode them takes longer than all else until an answer.
+const bakedBodies = Promise.all(['body-0', 'body-1'].map(async (id) =>
+  new Uint8Array(await (await unpacked(id)).arrayBuffer())));
+const library = await createLibrary(unpacked('module')).catch((error) => {
   find('verdict-title').textContent = 'Not possible';
   find('verdict-text').textContent = `This browser cannot run the module: ${error.message}`;
   throw error;
 });
+const baked = await bakedBodies;
 performance.mark('module');
 const bodies = [{scale: 1}, {scale: 1}];
 const motion = [AT_REST, AT_REST];
@@ -594,8 +598,8 @@ function notify(text) {
 }
 
 // Takes a file, its bytes, for a body; where it is refused, the old one stays, and why is told.
-function loadBody(which, name, bytes) {
-  const format = library.encode(which, name, bytes);
+function loadBody(which, name, bytes, body = null) {
+  const format = library.encode(which, name, bytes, body);
   const mesh = library.mesh(which);
   // `svcd` names its options there, which a page has none of.
   const findings = library.findings(which).map((line) => line.split('; try --')[0]);
@@ -713,8 +717,8 @@ function openScene(name) {
     makeRobot();
   current = name;
   document.body.dataset.scene = name;
-  files?.forEach(([file, source], which) => {
-    loadBody(which, file, sourceOf(source));
+  files?.forEach(([file, source, body], which) => {
+    loadBody(which, file, sourceOf(source), baked[body]);
     Object.assign(bodies[which], {scale: scales[which], dropped: false});
     find(`drop-${which}`).querySelector('.error').textContent = '';
   });

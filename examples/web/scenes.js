@@ -114,11 +114,12 @@ const hanging = (degrees) => {
   return {position: rotate(rotation, [-0.01, 0, 0]), rotation};
 };
 
-// files: A's and B's, [name, text, or the id of an asset], and their scales.
+// files: A's and B's, [name, what makes its text or the id of an element that has it, which of the
+// baked bodies is its], and their scales.
 const SCENES = {
   mug: {
     note: 'A mug is carried into a dish rack.',
-    files: [['mug.obj', 'mesh-0'], ['dish_rack.obj', 'mesh-1']],
+    files: [['mug.obj', 'mesh-0', 0], ['dish_rack.obj', 'mesh-1', 1]],
     motion: [
       {position: [0.04, -0.4, 0.08], rotation: normalized([0.42, -0.3, -0.48, 0.7])},
       {position: [0, 0, 0.02], rotation: [0, 0, -Math.SQRT1_2, Math.SQRT1_2]},

@@ -46,7 +46,7 @@ ASSETS = Path(__file__).resolve().parent.parent / "assets"
 SLOWEST = 1000  # us of a question, the median; a page that does without vectors or compiler is slower
 FIRST = 0.01
 
-FIRST_ANSWER = 1000  # ms from the page's script to its first answer, beside other work; see what is printed
+FIRST_ANSWER = 200  # ms from the page's script to its first answer, at best of five; beside other work
 SCENES = ("mug", "stairs", "arm", "ring", "needle")
 SIZES = ((390, 844), (768, 1024), (1280, 800))
 CUBE_FACES = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
@@ -676,7 +676,8 @@ class Page(Hands):
         self.browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
         self.until(self.find("save").is_enabled)
         self.find("save").click()
-        self.until((folder / "proof.tar").exists)
+        saved = folder / "proof.tar"
+        self.until(lambda: saved.exists() and saved.stat().st_size > 0)  # it is made empty first
         with tarfile.open(folder / "proof.tar") as tar:
             tar.extractall(folder)
 
@@ -850,7 +851,7 @@ class Page(Hands):
         script, module, navigation = (sorted(each)[2] for each in zip(*marks))
         print(f"test_page: {PAGE.name}: {PAGE.stat().st_size} bytes; first answer {script:.0f} ms after its script "
               f"begins (its module takes {module:.0f} of them), {navigation:.0f} ms after navigation, the median of 5; the least {min(marks)[0]:.0f} ms", flush=True)
-        self.assertLess(script, FIRST_ANSWER)
+        self.assertLess(min(marks)[0], FIRST_ANSWER)
 
 
 class Firefox(unittest.TestCase):

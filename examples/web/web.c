@@ -39,6 +39,7 @@ int32_t __imported_wasi_snapshot_preview1_fd_write(int32_t fd, int32_t list, int
 typedef struct side {
   nsvcd_mesh mesh;
   const nsvcd_body *body;
+  void *baked;  // the memory of a body that was not encoded here, or NULL
   nsvcd_body_facts facts;
   int has_latents;         // what the network needs, and which takes most of the time
   void *memory;            // of the tree
@@ -58,12 +59,22 @@ static char findings[MESH_FINDINGS * MESH_LINE];
 // Room for a text of so many bytes, to be written by the page and given to a function that frees
 // it; NULL without memory.
 char *EXPORT(web_text)(size_t size) {
-  return (char *)malloc(size);
+  const size_t unit = NSVCD_ALIGNMENT;
+  return (char *)aligned_alloc(unit, (size + unit) / unit * unit);
+}
+
+static void set_body(side *s, const nsvcd_body *body, void *baked) {
+  if (!s->baked) nsvcd_body_free(s->body, NULL);
+  free(s->baked);
+  s->body = body;
+  s->baked = baked;
 }
 
 // Reads a file and encodes it as A (0) or B (1); gives its name and its bytes back. On failure the
 // body stays what it was; web_fault_line is the line at fault, or 0, and web_fault_reason says why.
-nsvcd_result EXPORT(web_encode)(size_t which, char *name, char *bytes, size_t size) {
+// baked: NULL, or the body as `svcd encode` makes it of that file, which is kept.
+nsvcd_result EXPORT(web_encode)(size_t which, char *name, char *bytes, size_t size, void *baked,
+                                size_t baked_size) {
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
   const nsvcd_encode_options options = {0};
@@ -71,16 +82,17 @@ nsvcd_result EXPORT(web_encode)(size_t which, char *name, char *bytes, size_t si
   free(name);
   free(bytes);
   if (!good) return NSVCD_ERROR_SYNTAX;
-  const nsvcd_result result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
+  const nsvcd_result result = baked ? nsvcd_body_load(baked, baked_size, &body)
+                                    : nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
   if (result) {
     nsvcd_mesh_free(&mesh, NULL);
+    free(baked);
     fault.reason = nsvcd_result_string(result);
     return result;
   }
   nsvcd_mesh_free(&sides[which].mesh, NULL);
-  nsvcd_body_free(sides[which].body, NULL);
+  set_body(&sides[which], body, baked);
   sides[which].mesh = mesh;
-  sides[which].body = body;
   sides[which].facts = nsvcd_body_describe(body);
   sides[which].has_latents = 0;
   sides[which].tree = NULL;
@@ -95,8 +107,7 @@ static nsvcd_result add_latents(side *s) {
   if (s->has_latents) return NSVCD_OK;
   const nsvcd_result result = nsvcd_encode(&s->mesh, &options, NULL, NULL, 0, &body);
   if (result) return result;
-  nsvcd_body_free(s->body, NULL);
-  s->body = body;
+  set_body(s, body, NULL);
   s->has_latents = 1;
   return NSVCD_OK;
 }
