@@ -33,9 +33,9 @@ ifeq ($(BENCH),quick)
 COUNT ?= 200
 endif
 
-.PHONY: all demo preview assets header help format clean firmware web weights problems accuracy
+.PHONY: all demo preview assets header api help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-rooms check-header check-examples check-gradient check-tiles check-fast-math check-levels
+.PHONY: test check-text check-rooms check-header check-examples check-newcomer check-gradient check-tiles check-fast-math check-levels
 .PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
 .PHONY: bench bench-certificates bench-asks bench-casts bench-flags bench-level bench-scale bench-plan race profile instructions sizes
@@ -54,6 +54,8 @@ build:
 
 header:  ## writes neuralsvcd.h from the rooms of src/
 	python3 src/make_header.py
+api: | build  ## build/api.html: what a program sees, as a page
+	python3 src/make_api.py
 
 # ---------------------------------------------------------------------------------------------------------- examples
 
@@ -65,12 +67,12 @@ build/game build/fly_through: WARNINGS += -Wno-unused-function  # of problem_fil
 build/verify: examples/verify/verify.c $(VERIFIER) | build
 	$(CC) $(ALL_CFLAGS) -o $@ $< -lm
 
-# What the module of examples/python opens.
-build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) | build
-	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
-# What nsvcd_verify.py opens: the checker alone.
+# What the modules of examples/python open.
+build/_neuralsvcd.so: examples/python/_neuralsvcd.c $(LIBRARY) $(SCENERY) | build
+	$(CC) $(ALL_CFLAGS) -I. -fPIC -shared -o $@ $< -lm
+# What the module nsvcd_verify opens: the checker alone.
 build/_nsvcd_verify.so: examples/python/_nsvcd_verify.c $(VERIFIER) | build
-	$(CC) $(ALL_CFLAGS) -fPIC -shared -o $@ $< -lm
+	$(CC) $(ALL_CFLAGS) -I. -fPIC -shared -o $@ $< -lm
 python: build/_neuralsvcd.so build/_nsvcd_verify.so  ## the libraries for examples/python
 
 demo: $(DEMOS)  ## the examples, seconds each: what they find, and a picture each in build/
@@ -95,13 +97,19 @@ SHARED = build/libneuralsvcd.so
 SONAME = -Wl,-soname,libneuralsvcd.so.$(VERSION)
 endif
 
-build/library.o: $(LIBRARY) | build
-	printf '#define NEURALSVCD_IMPLEMENTATION\n#include "neuralsvcd.h"\n' >build/library.c
-	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ build/library.c
+build/library.o: packages/neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ $<
 $(SHARED): build/library.o
 	$(CC) -shared $(SONAME) -o $@ $< -lm
 build/libneuralsvcd.a: build/library.o
 	$(AR) rcs $@ $<
+# For any machine, as the library is. A program called `verify` would be too much in a folder of all programs.
+build/installed/svcd: examples/svcd.c $(SCENERY) $(LIBRARY)
+build/installed/svcd-verify: examples/verify/verify.c $(VERIFIER)
+PROGRAMS = build/installed/svcd build/installed/svcd-verify
+$(PROGRAMS):
+	@mkdir -p $(@D)
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -o $@ $< -lm
 shared: $(SHARED)  ## a shared library, build/libneuralsvcd.so
 static: build/libneuralsvcd.a  ## a static one
 # The name must stay: the header takes itself in.
@@ -111,7 +119,9 @@ build/release/neuralsvcd.h: $(LIBRARY)
 	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
 
 # DESTDIR=folder is put before PREFIX.
-install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config, a CMake package
+# What svcd says of itself, and where that is looked for.
+MANUALS = man:man/man1/svcd.1 bash:bash-completion/completions/svcd zsh:zsh/site-functions/_svcd fish:fish/vendor_completions.d/svcd.fish
+install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd and its manual, pkg-config, a CMake package
 	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
 	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd
 	cp $(LIBRARY) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
@@ -120,15 +130,19 @@ install: shared static  ## PREFIX=/usr/local: the headers, libraries, pkg-config
 	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
 	  ln -sf libneuralsvcd.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so; fi
 	for name in neuralsvcd neuralsvcd-library; do \
-	  sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' examples/packages/$$name.pc.in \
+	  sed 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|lib|; s|@VERSION@|$(VERSION)|' packages/installed/$$name.pc.in \
 	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
-	cp examples/packages/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
-	sed 's|@VERSION@|$(VERSION)|' examples/packages/neuralsvcdConfigVersion.cmake.in \
+	cp packages/installed/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
+	sed 's|@VERSION@|$(VERSION)|' packages/installed/neuralsvcdConfigVersion.cmake.in \
 	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
+	mkdir -p $(DESTDIR)$(PREFIX)/bin && cp $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin/
+	for manual in $(MANUALS); do file=$(DESTDIR)$(PREFIX)/share/$${manual#*:}; \
+	  mkdir -p $$(dirname $$file) && build/installed/svcd --manual $${manual%%:*} >$$file || exit 1; done
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
 	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
-	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc
+	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
+	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done
 
 # ------------------------------------------------------------------------------------------------------------- tests
 
@@ -170,10 +184,15 @@ build/loop_replay: tests/bench/loop/replay.c $(wildcard tests/bench/loop/*.h) te
 
 check-rooms:  # each compiles by itself, with what it includes and nothing else
 	CC="$(CC)" tests/rooms.sh
-check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace
+check-header: | build  # as C99 to C++17, strictly, and what it leaves in the namespace; as Microsoft's compiler would see it
+	tests/msvc.sh
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
+# What README holds, word by word (Debian: mmdebstrap); README_LINES=130: and how long it may be.
+check-newcomer:  # README's commands on a bare Debian, one by one; and are mistakes in a README noticed?
+	README_LINES=130 tests/newcomer.sh
+	tests/newcomer.sh --mutants
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
 	+CC="$(CC)" tests/packages.sh
 check-problems: build/problems build/svcd build/verify  # every set that the generator can make
@@ -368,7 +387,7 @@ check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-CHECKS = text rooms header packages gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
+CHECKS = text rooms header packages newcomer gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
 test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
 	build/tests
 run-tests: build/tests
@@ -555,14 +574,14 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/packages/project examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web tests tests/bench
+WRITTEN = examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
 check-text:  ## the rooms as a text; that neuralsvcd.h is made of them, the tests of tests/PROMISES.md are there, all is formatted
 	@if command -v python3 >/dev/null; then python3 src/make_header.py --check && python3 tests/make_header_test.py && \
-	  python3 tests/text.py && python3 tests/promises.py; \
+	  python3 tests/make_api_test.py && python3 tests/text.py && python3 tests/promises.py; \
 	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \

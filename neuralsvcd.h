@@ -1,4 +1,5 @@
 // neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
+// SPDX-License-Identifier: MIT
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
 // surfaces never do, at any time, rotation included. Where memory is short, or a gradient is
@@ -436,7 +437,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
 // nsvcd_obj_parse on what a file holds.
-//   path       not NULL, as fopen takes it
+//   path       not NULL, as fopen takes it; on Windows in the code page of the process
 //   errors     those of nsvcd_obj_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
@@ -1089,8 +1090,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 // What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
 // extents and of places in the world), stays UNDECIDED.
 //   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
-//   looked
-//              at and may be NULL
+//              looked at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to
@@ -1750,7 +1750,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 // NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #include <float.h>
-#if defined(__FAST_MATH__) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
     "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
 #endif
@@ -2435,6 +2436,8 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 #endif
 #if defined(NSVCD_NO_SIMD)
 #define NSVCD__SLICE 1
+#elif defined(_MSC_VER) && defined(_M_IX86) && !defined(__clang__)
+#define NSVCD__SLICE 1  // cl passes no vectors by value on 32 bits: C2719
 #elif defined(__AVX512F__) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 16
@@ -3220,8 +3223,13 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 // What a file holds; in the arena.
 static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
                                      size_t *size) {
+#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
+  FILE *file = NULL;
+  if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
+#else
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
+#endif
   // No fseek, so that pipes work and a directory is an error.
   size_t capacity = 32768;
   *text = NULL;
@@ -16393,9 +16401,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 // Their private names are changed: nsvcd__prove is nsvcd__prove_avx2 there.
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
-#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#if defined(__clang__) && defined(_MSC_VER)
+// clang-cl's <immintrin.h> has what the flags allow and no more: /arch:AVX2
+#elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
 #define NSVCD__DISPATCH
-#elif defined(_M_X64) && !defined(__clang__)
+#elif defined(_M_X64) && !defined(_M_ARM64EC)
 #include <intrin.h>
 #define NSVCD__DISPATCH
 #endif
@@ -17004,9 +17014,10 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int keeps_registers = first[2] >> 27 & 1;
   const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
   const int fma = first[2] >> 12 & 1;
-  const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
-  const int avx2 = (kept & 6) == 6 && fma && bmi && seventh[1] >> 5 & 1;
-  const int vnni = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  const unsigned has = (unsigned)seventh[1];
+  const unsigned bmi = has >> 3 & has >> 8 & 1;
+  const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
+  const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
   known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
   return (nsvcd__isa)known;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // plan.c - a gantry carries a mug from one side of a dish rack to the other, and hits nothing.
 //
 //   build/plan     ends with 0 if the way is certified free

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the
 // two motions hits?
 //

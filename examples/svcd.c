@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // svcd.c - neuralsvcd.h on the command line: does this body, moving so, hit that one? What is wrong
 // with a mesh? Encodes meshes, answers whole files of problems, plans motions of robots.
 //

@@ -1,4 +1,5 @@
 // neuralsvcd.h - v0.3.0 - does this body, moving along this trajectory, hit that body?
+// SPDX-License-Identifier: MIT
 //
 // The answer is proven: a witness (two triangles that meet, and when) or a certificate that the
 // surfaces never do, at any time, rotation included. Where memory is short, or a gradient is

@@ -211,6 +211,8 @@ printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nver
 expect 0 '' build/svcd info "$dir/x.stl"
 line 'x.stl: an STL: 1 triangle'
 line 'wrong: a body of 9 m: are these millimetres? try --scale 0.001'
+cp "$dir/cube.obj" "$dir/a cube.obj"
+expect 2 'no blank' build/svcd sweep "$dir/a cube.obj" "$dir/cube.obj" --certificate "$dir/x.cert"
 expect 1 'certificates are of OBJ and STL' build/svcd sweep "$dir/x.ply" "$dir/cube.obj" --certificate "$dir/x.cert"
 expect 0 '' build/svcd info "$dir/cube.obj" "$dir/x.ply" "$dir/x.glb"
 test "$(grep -c ' vertices$' "$dir/out")" = 3 || fail "info of three files: $(cat "$dir/out")"
@@ -533,10 +535,10 @@ expect 0 '' build/svcd plan "$dir/way_out.txt"
 grep -q '^out	certified' "$dir/out" || fail "the way out: $(cat "$dir/out")"
 # those of the URDF but what its SRDF takes to meet never, which is asked; and one that touches always
 expect 0 '' build/svcd pairs "$dir/robot.txt"
-for command in plan path pairs; do json $command "$dir/robot.txt"; done
 grep '^pair' "$dir/out" | grep -v 'wrist_a palm' | sort >"$dir/found_pairs"
 grep '^pair' "$dir/arm.txt" | sort | cmp -s - "$dir/found_pairs" || fail "svcd pairs says: $(diff "$dir/arm.txt" "$dir/found_pairs")"
 grep -q '^# always touching: base shoulder$' "$dir/out" || fail "svcd pairs says: $(cat "$dir/out")"
+for command in plan path pairs; do json $command "$dir/robot.txt"; done
 robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
   { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
   expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"
@@ -601,6 +603,9 @@ expect 2 'ends in .cert' build/svcd sweep a.obj b.obj --certificate x.txt
 expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
 expect 1 'No such file' build/svcd check "$dir/proofs.txt" --certificates "$dir/no folder"
 expect 2 'FILE.txt FOLDER' build/verify
+expect 2 'FILE.txt FOLDER' build/verify "$dir/proofs.txt" "$dir/certs" --only
+expect 2 'FILE.txt FOLDER' build/verify "$dir/proofs.txt" "$dir/certs" --none 1
+expect 2 'none of these' build/verify "$dir/proofs.txt" "$dir/certs" --only none
 printf 'nsvcd-problems 1\nmesh m bad_index.obj\n' >"$dir/bad_index.txt"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$dir/bad_index.obj"
 expect 2 'none.txt: No such file' build/verify "$dir/none.txt" "$dir"

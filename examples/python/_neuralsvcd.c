@@ -1,11 +1,13 @@
-// _neuralsvcd.c - the library as neuralsvcd.py loads it, with ctypes, which knows nothing of the
-// header. So that a changed header cannot break it silently, prototypes are compared here, and the
-// layout of structs is told to neuralsvcd.py, which compares it on import.
+// SPDX-License-Identifier: MIT
+// _neuralsvcd.c - the library as the module neuralsvcd loads it, with ctypes, which knows nothing of
+// the header. So that a changed header cannot break it silently, prototypes are compared here, and
+// the layout of structs is told to the module, which compares it on import.
 #define NSVCD_NO_STDIO  // Python reads the files
 #define NEURALSVCD_IMPLEMENTATION
-#include "../../neuralsvcd.h"
+#include "neuralsvcd.h"
+#include "examples/scenery/mesh_files.h"
 
-// As neuralsvcd.py calls them. Where the header says otherwise, this does not compile.
+// As the module calls them. Where the header says otherwise, this does not compile.
 const char *nsvcd_result_string(nsvcd_result);
 nsvcd_result nsvcd_obj_parse(const char *, size_t, const nsvcd_allocator *, nsvcd_mesh *, size_t *);
 nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *, const float[3], const float[3],
@@ -50,6 +52,19 @@ size_t nsvcd_certify_workspace_size(const nsvcd_question *, const nsvcd_tree *, 
 nsvcd_result nsvcd_certify(const nsvcd_question *, const nsvcd_tree *, const nsvcd_tree *,
                            const nsvcd_certify_options *, void *, size_t, uint8_t *, size_t,
                            nsvcd_certificate *);
+
+// A mesh from the bytes of a file, of which the name may be "". Returns why there is none, or NULL.
+extern const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t size,
+                                         nsvcd_mesh *mesh, const char **format, size_t *line);
+
+const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t size, nsvcd_mesh *mesh,
+                                  const char **format, size_t *line) {
+  mesh_fault fault;
+  (void)mesh_parse(name, data, size, NULL, mesh, &fault);
+  *format = fault.format;
+  *line = fault.line;
+  return fault.reason;
+}
 
 // A struct is at 0, a field at its offset; a constant has its value for the place, and no size.
 typedef struct neuralsvcd_layout {

@@ -1,6 +1,7 @@
-// _nsvcd_verify.c - the checker of certificates as nsvcd_verify.py loads it, with ctypes. It has
+// SPDX-License-Identifier: MIT
+// _nsvcd_verify.c - the checker of certificates as the module nsvcd_verify loads it, with ctypes. It has
 // nothing of neuralsvcd.h. What is prepared lies in memory of Python's, which does not look into it.
-#include "../verify/nsvcd_verify.h"
+#include "examples/verify/nsvcd_verify.h"
 
 // Rays write to the sums of a mesh. So that threads may share one, a mover has a copy with its own.
 typedef struct verifier_mover {

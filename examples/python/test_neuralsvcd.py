@@ -1,4 +1,4 @@
-"""Tests of neuralsvcd.py: `make check-python`, or, after `make python build/svcd`, `python3 -m unittest` here."""
+"""Tests of the modules: `make check-python`, or, after `make python build/svcd`, `python3 -m unittest` here."""
 from __future__ import annotations
 
 import copy
@@ -9,6 +9,7 @@ import os
 import pickle
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ import threading
 import time
 import types
 import unittest
+import warnings
 import weakref
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
@@ -446,6 +448,46 @@ class Arrays(unittest.TestCase):
             self.assertEqual(bytes(body), bytes(MUG))
         self.assertEqual(bytes(Body(vertices.tolist(), faces.tolist(), latents=True)), bytes(MUG))
 
+    def test_matrices(self) -> None:
+        """Rigid ones are poses, in every place where poses are."""
+        random = np.random.default_rng(3)
+        poses = np.concatenate([random.normal(size=(50, 3)), random.normal(size=(50, 4))], 1)
+        poses[:5, 3:] = np.eye(4)[[0, 1, 2, 3, 3]]  # half turns, where three of the four ways divide by 0
+        poses[:, 3:] /= np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
+        x, y, z, w = poses[:, 3:].T
+        matrices = np.zeros((50, 4, 4))
+        matrices[:, :3, 3], matrices[:, 3, 3] = poses[:, :3], 1
+        matrices[:, 0, :3] = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], 1)
+        matrices[:, 1, :3] = np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], 1)
+        matrices[:, 2, :3] = np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], 1)
+        back = nsvcd.poses_from_matrices(matrices)
+        back[:, 3:] *= np.sign(np.sum(back[:, 3:] * poses[:, 3:], axis=1, keepdims=True))
+        self.assertLess(np.abs(back - poses).max(), 1e-12)
+        self.assertEqual(nsvcd.poses_from_matrices(np.eye(4)).tolist(), REST[0])
+
+        low = np.tile(np.eye(4), (2, 1, 1))
+        low[:, :3, 3] = np.array(LOW)[:, :3]
+        self.assertEqual(nsvcd.sweep(MUG, RACK, low), nsvcd.sweep(MUG, RACK, LOW))
+        self.assertEqual(nsvcd.sweep(MUG, RACK, low[0].tolist()), nsvcd.sweep(MUG, RACK, LOW[:1]))
+        answers = nsvcd.sweep_batch(MUG, RACK, np.stack([low, low[::-1]]))
+        self.assertEqual(str(answers), str(nsvcd.sweep_batch(MUG, RACK, [LOW, LOW[::-1]])))
+        robots = [nsvcd.Robot([nsvcd.Joint(0, origin)], [nsvcd.Part(BOX, 1, origin), nsvcd.Part(BOX)])
+                  for origin in (low[0], LOW[0])]
+        self.assertEqual(*(robot.place([0.3]).tolist() for robot in robots))
+
+        def refused(change, words: str) -> None:
+            matrix = np.eye(4)
+            change(matrix)
+            with self.assertRaisesRegex(ValueError, "poses_a: .*" + words):
+                nsvcd.sweep(MUG, RACK, np.stack([np.eye(4), matrix]))
+        refused(lambda m: m.__setitem__((slice(3), slice(3)), 0.001 * np.eye(3)), "scales, by 0.001: .*scale_a")
+        refused(lambda m: m.__setitem__((0, 0), 1.001), "must be rigid")
+        refused(lambda m: m.__setitem__((0, 1), 0.001), "must be rigid")
+        refused(lambda m: m.__setitem__((0, 0), -1), "mirrors")
+        refused(lambda m: m.__setitem__((slice(3), slice(3)), 0), "must be rigid")
+        refused(lambda m: m.__setitem__((3, 0), 0.1), "last row.*transpose")
+        refused(lambda m: m.__setitem__((0, 3), np.nan), "not finite")
+
     def test_what_is_given_stays_as_it_is(self) -> None:
         vertices, faces = CUBE.astype(np.float32), FACES.astype(np.uint32)
         body, before = Body(vertices, faces), bytes(BOX)
@@ -564,6 +606,60 @@ class Meshes(unittest.TestCase):
                 nsvcd.load_obj(Path(folder) / "none.obj")
             with self.assertRaises(OSError):
                 nsvcd.load_obj(folder)
+
+    def test_files(self) -> None:
+        """One cube as OBJ, PLY, STL and GLB, by name and by what they are."""
+        corners, faces = CUBE.astype("<f4"), FACES.astype("<u4")
+        obj = "".join("v {} {} {}\n".format(*row) for row in CUBE) + "".join("f {} {} {}\n".format(*row) for row in FACES + 1)
+        ply = (b"ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+               b"property float z\nelement face 12\nproperty list uchar uint vertex_indices\nend_header\n"
+               + corners.tobytes() + b"".join(b"\3" + row.tobytes() for row in faces))
+        stl = bytes(80) + struct.pack("<I", 12) + b"".join(bytes(12) + corners[row].tobytes() + bytes(2) for row in FACES)
+        json = (b'{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":'
+                b'[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":8,'
+                b'"type":"VEC3"},{"bufferView":1,"componentType":5125,"count":36,"type":"SCALAR"}],"bufferViews":[{"buffer":0,'
+                b'"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":144}],"buffers":[{"byteLength":240}]}')
+        json += b" " * (-len(json) % 4)
+        glb = (struct.pack("<4sIIII", b"glTF", 2, 28 + len(json) + 240, len(json), 0x4E4F534A) + json
+               + struct.pack("<II", 240, 0x004E4942) + corners.tobytes() + faces.tobytes())
+        with tempfile.TemporaryDirectory() as folder:
+            for ending, data in (("obj", obj.encode()), ("ply", ply), ("STL", stl), ("glb", glb)):
+                mesh = nsvcd.parse_mesh(data)
+                self.assertEqual(mesh.vertices[mesh.triangles].tolist(), CUBE[FACES].tolist(), ending)
+                path = Path(folder) / f"cube ö.{ending}"
+                path.write_bytes(data)
+                self.assertEqual(nsvcd.load_mesh(path).triangles.shape, (12, 3))
+                self.assertEqual(bytes(Body(path)), bytes(Body(*mesh)))
+                self.assertEqual(bytes(Body(str(path), scale=0.5)), bytes(Body(mesh.vertices * 0.5, mesh.triangles)))
+            with self.assertWarnsRegex(UserWarning, r"cube ö.obj: a body of 2000 m: .* millimetres\? try scale=1$") as warned:
+                Body(path.with_suffix(".obj"), scale=1000)
+            self.assertEqual(warned.filename, __file__)
+            with self.assertWarnsRegex(UserWarning, r"a body of 0.0002 m: .*try scale=0.1$"):
+                nsvcd.load_mesh(path, 1e-4)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                Body(path, scale=0.001)
+            for scale in (0, -1, float("nan"), float("inf")):
+                with self.assertRaisesRegex(ValueError, "scale"):
+                    Body(path, scale=scale)
+            for arguments, named in (((path, FACES), {}), ((CUBE,), {}), ((CUBE, FACES), {"scale": 0.1})):
+                with self.assertRaises(TypeError):
+                    Body(*arguments, **named)
+            with self.assertRaises(FileNotFoundError):
+                Body(Path(folder) / "none.ply")
+
+    def test_what_files_refuse(self) -> None:
+        for data, name, code, said in (
+                (b"v 0 0 0\nf 1\n", "a.obj", Code.SYNTAX, "^a.obj: line 2: [^(]*$"),
+                (b"ply\nnot\n", "a.ply", Code.SYNTAX, "^a.ply: line 2: "),
+                (b"glTF", "a.glb", Code.SYNTAX, "^a.glb: "),
+                (b"", "a.stl", Code.SYNTAX, "^a.stl: "),
+                (b"", "a.step", Code.SYNTAX, "OBJ, STL, PLY and GLB are read, and no other"),
+                (b"", "", Code.EMPTY, r"^there is .* \(read as OBJ\)$")):
+            error = raised(nsvcd.parse_mesh, data, name)
+            self.assertRegex(str(error), said)
+            self.assertEqual(error.code, code)
+            self.assertEqual(str(pickle.loads(pickle.dumps(error))), str(error))
 
     def test_cut(self) -> None:
         part = nsvcd.cut_mesh(CUBE, FACES, [-2, -2, -2], [0, 2, 2])
@@ -1218,7 +1314,7 @@ class Readme(unittest.TestCase):
 
 class Wheel(unittest.TestCase):
     def test_from_a_clean_checkout(self) -> None:
-        """Only what the build needs is copied; the wheel runs in an environment of its own, far from the sources."""
+        """Only what the build needs is copied, into an sdist; a wheel of that runs in an environment of its own."""
         tools = subprocess.run([sys.executable, "-c", "import setuptools, wheel, pip, venv"], capture_output=True)
         if tools.returncode or not (ROOT / "neuralsvcd.h").exists():
             self.skipTest("no setuptools, wheel, pip or venv: not tested")
@@ -1226,12 +1322,15 @@ class Wheel(unittest.TestCase):
             folder = Path(name)
             sources = folder / "checkout" / "examples" / "python"
             sources.mkdir(parents=True)
-            shutil.copytree(HERE.parent / "verify", folder / "checkout" / "examples" / "verify")
+            for part in ("verify", "scenery"):
+                shutil.copytree(HERE.parent / part, folder / "checkout" / "examples" / part,
+                                ignore=lambda _, names: [name for name in names if not name.endswith(".h")])
             for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
                 shutil.copy(ROOT / file, folder / "checkout")
-            for file in ("neuralsvcd.py", "_neuralsvcd.c", "nsvcd_verify.py", "_nsvcd_verify.c", "setup.py",
-                         "pyproject.toml", "README.md"):
+            for file in ("_neuralsvcd.c", "_nsvcd_verify.c", "setup.py", "pyproject.toml", "README.md"):
                 shutil.copy(HERE / file, sources)
+            for package in ("neuralsvcd", "nsvcd_verify"):
+                shutil.copytree(HERE / package, sources / package, ignore=shutil.ignore_patterns("__pycache__"))
 
             def run(*command: object, cwd: Path = folder, **variables: str) -> str:
                 environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
@@ -1240,22 +1339,25 @@ class Wheel(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 return done.stdout
             pip = ["-m", "pip", "--disable-pip-version-check"]
-            run(sys.executable, *pip, "wheel", ".", "--no-deps", "--no-build-isolation", "--no-index", "-w", folder,
-                cwd=sources, CFLAGS="-O1")
+            run(sys.executable, "setup.py", "-q", "sdist", "-d", folder, cwd=sources)
+            shutil.rmtree(folder / "checkout")
+            archive, = folder.glob("*.tar.gz")
+            run(sys.executable, *pip, "wheel", archive, "--no-deps", "--no-build-isolation", "--no-index", "-w", folder,
+                CFLAGS="-O1")
             wheel, = folder.glob("*.whl")
             self.assertIn("-abi3-", wheel.name)
             names = zipfile.ZipFile(wheel).namelist()
-            for part in ("neuralsvcd.py", "_neuralsvcd.abi3.so", "nsvcd_verify.py", "_nsvcd_verify.abi3.so"):
+            for part in ("neuralsvcd/__init__.py", "neuralsvcd/_neuralsvcd.abi3.so", "neuralsvcd/py.typed",
+                         "nsvcd_verify/__init__.py", "nsvcd_verify/_nsvcd_verify.abi3.so", "nsvcd_verify/py.typed"):
                 self.assertIn(part, names)
             self.assertTrue(any(part.endswith("LICENSE") for part in names))
             run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", "own")
             python = folder / "own" / "bin" / "python"
             run(python, *pip, "install", "--no-deps", "--no-index", wheel)
-            shutil.rmtree(folder / "checkout")
             shutil.copy(ASSETS / "mug.obj", folder)
             printed = run(python, "-c", "import nsvcd_verify, neuralsvcd as n; mug = n.Body(*n.load_obj('mug.obj'));"
                           "print(n.__file__, n.sweep(mug, mug, [[0.01, 0, 0, 0, 0, 0, 1]]).verdict)")
-            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd\.py hit\n$")
+            self.assertRegex(printed, rf"^{re.escape(str(folder.resolve() / 'own'))}/\S*neuralsvcd/__init__\.py hit\n$")
 
 
 if __name__ == "__main__":

@@ -16,6 +16,9 @@
 #include <fcntl.h>
 #include <io.h>
 #include <shellapi.h>
+#if defined(_MSC_VER)
+#pragma comment(lib, "shell32")
+#endif
 #else
 #include <unistd.h>
 #endif

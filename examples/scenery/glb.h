@@ -1,5 +1,5 @@
 // glb.h - a mesh from a GLB file (glTF 2.0, Khronos): the triangles of all nodes of its scene, where
-// the nodes place them. Skins and morphs are left at rest. Metres; glTF's y is up, and stays y.
+// the nodes place them. Skins and morphs are not applied. Metres; glTF's y is up, and stays y.
 // Include neuralsvcd.h first.
 #ifndef NSVCD_SCENERY_GLB_H
 #define NSVCD_SCENERY_GLB_H

@@ -340,6 +340,9 @@ static int sweep(settings *options) {
   if (options->certificate &&
       (!ends_with(options->certificate, ".cert") || options->sweep.skin > 0 || piped))
     return usage_error("--certificate", "a file that ends in .cert; without --skin, of files");
+  for (int i = 0; i < 2 && options->certificate; i++)
+    if (strpbrk(options->paths[i], " \t#"))
+      return usage_error("--certificate", "its problem file holds no blank and no # in names");
   if (!take_scales(options->scale, 2, scales)) return USAGE;
   if (options->picture && !draw_may_write(options->picture)) return REFUSED;
   sweep_job *job = (sweep_job *)allocate(sizeof *job);

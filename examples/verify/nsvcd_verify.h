@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // nsvcd_verify.h - checks a certificate that two moving bodies never meet, or that they do. It
 // shares no line with neuralsvcd.h, which makes certificates (nsvcd_certify): who doubts that one
 // reads this one, with nsvcd_verify_scene.h (meshes, motions) and nsvcd_verify_rays.h (what is

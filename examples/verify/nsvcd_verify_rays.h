@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // nsvcd_verify_rays.h - of nsvcd_verify.h: how a certificate is read, and what it shows of one
 // time: rays, by which something is inside of something or not, and triangles that meet.
 #ifndef NSVCD_VERIFY_RAYS_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // nsvcd_verify_robot.h - of nsvcd_verify.h: the motion of what a robot's joints carry, for
 // certificates of nsvcd_certify_pair. What is proven is the joints' own motion, at all times.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // nsvcd_verify_scene.h - what nsvcd_verify.h speaks of: meshes with their trees, and motions.
 #ifndef NSVCD_VERIFY_SCENE_H
 #define NSVCD_VERIFY_SCENE_H

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 // verify.c - checks a folder of certificates against a problem file. It shares no code with
 // neuralsvcd.h. To be believed are nsvcd_verify.h and its files, and of what is read, which mesh,
 // motion and pair it is, verify_files.h and verify_plans.h.
 //
-//   verify FILE.txt FOLDER [--clearance METRES]
+//   verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]
 //
 // FILE.txt is a problem file or a planning file (examples/FORMATS.md); FOLDER holds a certificate
 // ID.cert for each problem or plan, as `svcd check --certificates FOLDER` and `svcd plan
@@ -47,13 +48,12 @@ static const nsvcd_verify_mesh *mesh_named(const char *path, const list *meshes,
 }
 
 // Checks one certificate, and writes its line. 1: it is accepted.
-static int check(const char *folder, const char *id, const side *a, const side *b,
-                 float clearance) {
+static int check(request *asked, const char *id, const side *a, const side *b) {
   static const char *const kinds[] = {"", "free", "hit", "near", "inside"};
   char path[4096];
   nsvcd_verify_report report;
   size_t size;
-  snprintf(path, sizeof path, "%s/%s.cert", folder, id);
+  snprintf(path, sizeof path, "%s/%s.cert", asked->folder, id);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", id), 0;
   const size_t room = NSVCD_VERIFY_WORKSPACE_BYTES(a->path.count + b->path.count + 2);
@@ -61,7 +61,8 @@ static int check(const char *folder, const char *id, const side *a, const side *
   int accepted = 0;
   const clock_t start = clock();
   for (int k = 0; k < REPEAT; k++)
-    accepted = nsvcd_verify(&a->mover, &b->mover, clearance, bytes, size, workspace, room, &report);
+    accepted =
+        nsvcd_verify(&a->mover, &b->mover, asked->clearance, bytes, size, workspace, room, &report);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC / REPEAT;
   if (accepted) printf("%s\taccepted\t%s\t%zu\t%.1f\n", id, kinds[report.kind], size, taken);
   if (!accepted)
@@ -74,7 +75,7 @@ static int check(const char *folder, const char *id, const side *a, const side *
 
 // problem ID MOVING SCALE FIXED SCALE  x y z qx qy qz qw  LABEL MARGIN COUNT [FIXED_COUNT]
 static int check_problem(const char *path, char **text, char **words, size_t count,
-                         const list *meshes, const char *folder, float clearance) {
+                         const list *meshes, request *asked) {
   side a, b;
   const size_t poses_a = strtoul(words[15], NULL, 10);
   const size_t poses_b = count > 16 ? strtoul(words[16], NULL, 10) : 0;
@@ -92,41 +93,56 @@ static int check_problem(const char *path, char **text, char **words, size_t cou
       nsvcd_verify_path_init(mesh_named(path, meshes, words[2]), scales[0], &a.path, &a.mover);
   if (!why)
     why = nsvcd_verify_path_init(mesh_named(path, meshes, words[4]), scales[1], &b.path, &b.mover);
-  if (why) printf("%s\trefused\t%s\t0\t0\n", words[1], why);
-  const int accepted = !why && check(folder, words[1], &a, &b, clearance);
+  const int wanted = is_wanted(asked, words[1]);
+  if (wanted && why) printf("%s\trefused\t%s\t0\t0\n", words[1], why);
+  const int accepted = !wanted || (!why && check(asked, words[1], &a, &b));
   free(poses);
   return accepted;
 }
 
-int main(int argc, char **argv) {
-  const int asked = argc == 5 && strcmp(argv[3], "--clearance") == 0;
-  if (argc != 3 && !asked) {
-    fprintf(stderr, "verify FILE.txt FOLDER [--clearance METRES]\n");
-    return 2;
-  }
-  const char *path = argv[1];
-  const float clearance = asked ? (float)number_of("--clearance", argv[4]) : 0;
+static int check_problems(const char *path, char *text, request *asked) {
   list meshes = {NULL, 0, 0};
   char *words[80];
-  size_t size;
   int all = 1;
-  char *text = read_file(path, &size);
-  if (!text) fail(path, strerror(errno));
-  no_zero(path, text, size);
-  char *next = text;
-  expect(path, &next, words, 2);
-  if (strcmp(words[0], "nsvcd-plans") == 0) return !check_plans(path, next, argv[2], clearance);
-  if (strcmp(words[0], "nsvcd-problems") != 0) fail(path, "its first line is not nsvcd-problems 1");
-  for (size_t n = next_words(&next, words, 80); n > 0; n = next_words(&next, words, 80)) {
+  for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
     if (n == 3 && strcmp(words[0], "mesh") == 0) {
       named *mesh = (named *)add(&meshes, sizeof *mesh);
       mesh->name = words[1];
       mesh->mesh = mesh_of_file(path, words[2]);
     } else if (n >= 16 && strcmp(words[0], "problem") == 0) {
-      all &= check_problem(path, &next, words, n, &meshes, argv[2], clearance);
+      all &= check_problem(path, &text, words, n, &meshes, asked);
     } else {
       fail(path, "a line is neither a mesh nor a problem");
     }
   }
+  return all;
+}
+
+int main(int argc, char **argv) {
+  request asked = {argc > 2 ? argv[2] : NULL, NULL, 0, 0};
+  int known = argc > 2 && argc % 2 == 1;
+  for (int i = 3; i < argc && known; i += 2) {
+    const int is_only = strcmp(argv[i], "--only") == 0;
+    known = is_only || strcmp(argv[i], "--clearance") == 0;
+    if (is_only) asked.only = argv[i + 1];
+    if (known && !is_only) asked.clearance = (float)number_of("--clearance", argv[i + 1]);
+  }
+  if (!known) {
+    fprintf(stderr, "verify FILE.txt FOLDER [--clearance METRES] [--only ID,ID]\n");
+    return 2;
+  }
+  const char *path = argv[1];
+  char *words[80];
+  size_t size;
+  char *text = read_file(path, &size);
+  if (!text) fail(path, strerror(errno));
+  no_zero(path, text, size);
+  char *next = text;
+  expect(path, &next, words, 2);
+  const int is_plans = strcmp(words[0], "nsvcd-plans") == 0;
+  if (!is_plans && strcmp(words[0], "nsvcd-problems") != 0)
+    fail(path, "its first line is not nsvcd-problems 1");
+  const int all = (is_plans ? check_plans : check_problems)(path, next, &asked);
+  if (asked.only && !asked.found) fail("--only", "the file has none of these");
   return all ? 0 : 1;
 }

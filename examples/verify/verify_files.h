@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // verify_files.h - of verify.c: reads OBJ and STL files and problem files (examples/FORMATS.md), as
 // neuralsvcd.h and svcd do, by code of its own.
 #ifndef NSVCD_VERIFY_FILES_H
@@ -323,4 +324,22 @@ static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name)
   read_mesh(path, mesh);
   return mesh;
 }
+// Which certificates, and of what.
+typedef struct request {
+  const char *folder;
+  const char *only;  // ID,ID: these alone; NULL: all
+  float clearance;
+  size_t found;  // of those
+} request;
+
+static int is_wanted(request *asked, const char *id) {
+  const size_t length = strlen(id);
+  for (const char *at = asked->only; at && *at;) {
+    const size_t word = strcspn(at, ",");
+    if (word == length && strncmp(at, id, word) == 0) return ++asked->found, 1;
+    at += word + (at[word] == ',');
+  }
+  return !asked->only;
+}
+
 #endif  // NSVCD_VERIFY_FILES_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // verify_plans.h - of verify.c: planning files (examples/FORMATS.md), and the certificates of their
 // plans: a motion, and a proof for each pair of bodies that must not meet. Not looked at are limits
 // of joints, of speeds and accelerations, and pairs that the file does not name.
@@ -165,15 +166,15 @@ static const char *check_motion(const robot *r, char *const *words, float cleara
   return why;
 }
 
-static int check_plan(const robot *r, char *const *words, const char *folder, float clearance) {
+static int check_plan(const robot *r, char *const *words, request *asked) {
   char path[4096];
   size_t size;
   size_t at = 0;
-  snprintf(path, sizeof path, "%s/%s.cert", folder, words[1]);
+  snprintf(path, sizeof path, "%s/%s.cert", asked->folder, words[1]);
   uint8_t *bytes = (uint8_t *)read_file(path, &size);
   if (!bytes) return printf("%s\trefused\tthere is no certificate\t0\t0\n", words[1]), 0;
   const clock_t start = clock();
-  const char *why = check_motion(r, words, clearance, bytes, size, &at);
+  const char *why = check_motion(r, words, asked->clearance, bytes, size, &at);
   const double taken = 1e6 * (double)(clock() - start) / (double)CLOCKS_PER_SEC;
   if (!why) printf("%s\taccepted\tfree\t%zu\t%.1f\n", words[1], size, taken);
   if (why) printf("%s\trefused\t%s, at byte %zu\t%zu\t%.1f\n", words[1], why, at, size, taken);
@@ -194,12 +195,12 @@ static void pair_with_obstacles(robot *r) {
 
 // All plans of a planning file: the robot, then a scene, its obstacles, and plans and paths in it,
 // and perhaps another scene. 1: all are accepted.
-static int check_plans(const char *path, char *text, const char *folder, float clearance) {
+static int check_plans(const char *path, char *text, request *asked) {
   robot r;
   char *words[80];
   const char *scene = NULL;
   size_t own_pairs = 0;
-  int asked = 0;  // 1: a plan or a path stands above
+  int has_tasks = 0;  // 1: a plan or a path stands above
   int all = 1;
   memset(&r, 0, sizeof r);
   r.path = path;
@@ -216,17 +217,17 @@ static int check_plans(const char *path, char *text, const char *folder, float c
     } else if (strcmp(word, "scene") == 0 && n == 2) {
       if (!scene) own_pairs = r.pairs.count;
       scene = words[1];
-      asked = 0;
+      has_tasks = 0;
       r.bodies.count = r.own;
       r.pairs.count = own_pairs;
-    } else if (strcmp(word, "obstacle") == 0 && n == 10 && scene && !asked) {
+    } else if (strcmp(word, "obstacle") == 0 && n == 10 && scene && !has_tasks) {
       add_body(&r, words[1], words[2], 0, words + 3);
     } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
                                           : strcmp(word, "path") == 0 && n == 4) &&
                scene && strcmp(words[2], scene) == 0) {
-      if (!asked) pair_with_obstacles(&r);
-      asked = 1;
-      if (word[1] == 'l') all &= check_plan(&r, words, folder, clearance);
+      if (!has_tasks) pair_with_obstacles(&r);
+      has_tasks = 1;
+      if (word[1] == 'l' && is_wanted(asked, words[1])) all &= check_plan(&r, words, asked);
       for (size_t k = word[1] == 'l' ? 0 : strtoul(words[3], NULL, 10); k > 0; k--)
         if (next_words(&text, words, 80) == 0) fail(path, "a path ends early");
     } else {

@@ -11,9 +11,11 @@
 #include "../gradient/gradient.h"
 
 #if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
-#if defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
+#if defined(__clang__) && defined(_MSC_VER)
+// clang-cl's <immintrin.h> has what the flags allow and no more: /arch:AVX2
+#elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))
 #define NSVCD__DISPATCH
-#elif defined(_M_X64) && !defined(__clang__)
+#elif defined(_M_X64) && !defined(_M_ARM64EC)
 #include <intrin.h>
 #define NSVCD__DISPATCH
 #endif
@@ -96,9 +98,10 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
   const int keeps_registers = first[2] >> 27 & 1;
   const unsigned long long kept = keeps_registers ? _xgetbv(0) : 0;
   const int fma = first[2] >> 12 & 1;
-  const int bmi = seventh[1] >> 3 & seventh[1] >> 8 & 1;
-  const int avx2 = (kept & 6) == 6 && fma && bmi && seventh[1] >> 5 & 1;
-  const int vnni = seventh[1] >> 16 & (unsigned)seventh[1] >> 31 & seventh[2] >> 11 & 1;
+  const unsigned has = (unsigned)seventh[1];
+  const unsigned bmi = has >> 3 & has >> 8 & 1;
+  const int avx2 = (kept & 6) == 6 && fma && bmi && has >> 5 & 1;
+  const unsigned vnni = has >> 16 & has >> 31 & (unsigned)seventh[2] >> 11 & 1;
   known = !avx2 ? NSVCD__SSE2 : (kept & 0xe0) == 0xe0 && vnni ? NSVCD__AVX512 : NSVCD__AVX2;
   return (nsvcd__isa)known;
 }

@@ -15,7 +15,8 @@
 // NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #include <float.h>
-#if defined(__FAST_MATH__) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
     "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
 #endif

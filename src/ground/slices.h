@@ -31,6 +31,8 @@
 #endif
 #if defined(NSVCD_NO_SIMD)
 #define NSVCD__SLICE 1
+#elif defined(_MSC_VER) && defined(_M_IX86) && !defined(__clang__)
+#define NSVCD__SLICE 1  // cl passes no vectors by value on 32 bits: C2719
 #elif defined(__AVX512F__) && !defined(NSVCD__NARROW)
 #include <immintrin.h>
 #define NSVCD__SLICE 16

@@ -59,8 +59,7 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 // What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
 // extents and of places in the world), stays UNDECIDED.
 //   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
-//   looked
-//              at and may be NULL
+//              looked at and may be NULL
 //   a, b       trees of the meshes of question->a and question->b, not NULL
 //   options    NULL: the defaults
 //   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to

@@ -31,7 +31,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       size_t *error_line);
 #ifndef NSVCD_NO_STDIO
 // nsvcd_obj_parse on what a file holds.
-//   path       not NULL, as fopen takes it
+//   path       not NULL, as fopen takes it; on Windows in the code page of the process
 //   errors     those of nsvcd_obj_parse, and IO
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);

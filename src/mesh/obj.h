@@ -285,8 +285,13 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
 // What a file holds; in the arena.
 static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
                                      size_t *size) {
+#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
+  FILE *file = NULL;
+  if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
+#else
   FILE *file = fopen(path, "rb");
   if (!file) return NSVCD_ERROR_IO;
+#endif
   // No fseek, so that pipes work and a directory is an error.
   size_t capacity = 32768;
   *text = NULL;

@@ -1,11 +1,13 @@
+# SPDX-License-Identifier: MIT
 """Does this body, moving along this trajectory, hit that body? neuralsvcd.h for Python, by ctypes.
 
-    rack = Body(*load_obj("dish_rack.obj"))
-    answer = sweep(mug, rack, path)          # path: (k, 7)
+    rack = Body("dish_rack.obj")             # or STL, PLY, GLB; scale=0.001: of millimetres
+    answer = sweep(mug, rack, path)          # path: (k, 7), or matrices (k, 4, 4)
     if answer.verdict == "hit": print(answer.time.high)
 
 Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
 motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
+Wherever there are poses, rigid 4x4 matrices may be instead: poses_from_matrices.
 Arrays may be of any numeric type and stride: they are copied, as float32. What an answer is worth,
 and what each option and field means in full, is said in neuralsvcd.h under the same names.
 
@@ -24,6 +26,7 @@ import operator
 import os
 import struct
 import threading
+import warnings
 from collections.abc import Callable, Sequence
 from ctypes import byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
@@ -37,11 +40,13 @@ __all__ = [
     "Answer", "Ask", "Body", "By", "Certificate", "Checked", "Code", "Contact", "Error", "Facts", "Gradient", "Joint",
     "JointKind", "LEAVE_OUT", "Mesh", "Method", "Model", "NO_TRIANGLE", "Opinion", "Options", "Part", "Plan",
     "PlanOptions", "PlanStatus", "Precision", "Progress", "Range", "Robot", "Route", "RouteStatus", "SafePlace",
-    "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_obj", "load_stl", "parse_obj", "parse_stl", "plan",
-    "spline", "sweep", "sweep_batch", "sweep_gradient",
+    "Stage", "Tree", "Verdict", "Why", "certify", "cut_mesh", "load_mesh", "load_obj", "load_stl",
+    "parse_mesh", "parse_obj", "parse_stl", "plan", "poses_from_matrices", "spline", "sweep", "sweep_batch", "sweep_gradient",
 ]
 
 Floats = NDArray[np.float32]
+FilePath = Union[str, os.PathLike[str]]
+Doubles = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 # ---------------------------------------------------------------------------------- enumerations, as in neuralsvcd.h
@@ -281,6 +286,7 @@ _PROTOTYPES = {
     "nsvcd_tree_build": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_certify_workspace_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_certify": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
 
@@ -303,7 +309,7 @@ def _expected_layouts() -> dict[str, tuple[int, int]]:
 def _load_library() -> ctypes.CDLL:
     """The library beside this file, as a wheel has it, or the one that `make python` has built."""
     here = Path(__file__).resolve().parent
-    places = [here / "_neuralsvcd.abi3.so", here.parent.parent / "build" / "_neuralsvcd.so"]
+    places = [here / "_neuralsvcd.abi3.so", here.parents[2] / "build" / "_neuralsvcd.so"]
     path = next((place for place in places if place.exists()), None)
     if path is None:
         raise ImportError(f"neuralsvcd: the library is not built: make python; looked for {places[0]}, {places[1]}")
@@ -319,7 +325,7 @@ def _load_library() -> ctypes.CDLL:
     expected = _expected_layouts()
     wrong = sorted(name for name in {*found, *expected} if found.get(name) != expected.get(name))
     if wrong:
-        raise ImportError(f"neuralsvcd: {path} is of another neuralsvcd.h than neuralsvcd.py: {', '.join(wrong)}")
+        raise ImportError(f"neuralsvcd: {path} is of another neuralsvcd.h than this module: {', '.join(wrong)}")
     return library
 
 
@@ -333,16 +339,19 @@ class Error(Exception):
 
     code   why
     where  of a file its name, of an argument that, or ""
-    line   of OBJ text, from 1; 0: none is at fault
+    line   of a file that is text, from 1; 0: none is at fault
     index  of sweep_batch: the first motion at fault, else None
+    reason in words, where a reader knows more than the code says, else ""
     """
 
-    def __init__(self, code: int, where: str = "", line: int = 0, index: Optional[int] = None) -> None:
-        super().__init__(code, where, line, index)
+    def __init__(self, code: int, where: str = "", line: int = 0, index: Optional[int] = None,
+                 reason: str = "") -> None:
+        super().__init__(code, where, line, index, reason)
         self.code = Code(code)
         self.where = where
         self.line = line
         self.index = index
+        self.reason = reason
 
     def __str__(self) -> str:
         place = [self.where] if self.where else []
@@ -350,7 +359,7 @@ class Error(Exception):
             place.append(f"line {self.line}")
         if self.index is not None:
             place.append(f"motion {self.index}")
-        return ": ".join([*place, _library.nsvcd_result_string(self.code).decode()])
+        return ": ".join([*place, self.reason or _library.nsvcd_result_string(self.code).decode()])
 
 
 def _check(code: int) -> None:
@@ -487,12 +496,50 @@ def parse_stl(data: Union[str, bytes], where: str = "") -> Mesh:
     return _parsed(_library.nsvcd_stl_parse, data, where)
 
 
-def load_stl(path: Union[str, os.PathLike[str]]) -> Mesh:
+_CODES = {_library.nsvcd_result_string(code).decode(): code for code in Code}
+
+
+def parse_mesh(data: Any, where: str = "") -> Mesh:
+    """The mesh in the bytes of an OBJ, STL, PLY or GLB file, as svcd reads it: by what they are, and by the name."""
+    given = memoryview(data).tobytes()
+    mesh, form, line = _Mesh(), c_char_p(), c_size_t()
+    name = os.fsencode(where).replace(b"\0", b"")
+    why = _library.neuralsvcd_mesh_parse(name, given, len(given), byref(mesh), byref(form), byref(line))
+    if why is None:
+        return _taken(mesh)
+    reason, taken_for = why.decode(), (form.value or b"").decode()
+    is_plain = where.lower().endswith("." + taken_for.lower())
+    raise Error(_CODES.get(reason, Code.SYNTAX), where, line.value,
+                reason=reason if is_plain else f"{reason} (read as {taken_for})")
+
+
+def load_mesh(path: FilePath, scale: float = 1) -> Mesh:
+    """The mesh in an OBJ, STL, PLY or GLB file, to metres: scale=0.001 of millimetres. OSError if it cannot be read."""
+    return _scaled(parse_mesh(Path(path).read_bytes(), os.fspath(path)), scale, os.fspath(path))
+
+
+def _scaled(mesh: Mesh, scale: float, where: str) -> Mesh:
+    """In metres. What is larger than 30 m or smaller than 1 mm is hardly meant: warned of as by `svcd info`."""
+    if not 0 < scale < math.inf:
+        raise ValueError(f"scale: {scale}")
+    with np.errstate(over="ignore"):  # the library refuses infinity
+        vertices = mesh.vertices if scale == 1 else mesh.vertices * np.float32(scale)
+    extent = float(np.ptp(vertices, axis=0).max())
+    if extent > 30:
+        warnings.warn(f"{where}: a body of {extent:.4g} m: are these millimetres? try scale={scale / 1000:g}",
+                      stacklevel=3)
+    elif extent < 0.001:
+        warnings.warn(f"{where}: a body of {extent:.4g} m: is it too small by a thousand? try scale={scale * 1000:g}",
+                      stacklevel=3)
+    return Mesh(vertices, mesh.triangles)
+
+
+def load_stl(path: FilePath) -> Mesh:
     """The mesh in an STL file. OSError if it cannot be read."""
     return parse_stl(Path(path).read_bytes(), os.fspath(path))
 
 
-def load_obj(path: Union[str, os.PathLike[str]]) -> Mesh:
+def load_obj(path: FilePath) -> Mesh:
     """The mesh in an OBJ file. OSError if it cannot be read."""
     return parse_obj(Path(path).read_bytes(), os.fspath(path))
 
@@ -536,8 +583,9 @@ class Facts(NamedTuple):
 class Body:
     """An encoded mesh. It does not change; threads may share it; it can be pickled and copied.
 
-    vertices      (n, 3) metres
+    vertices      (n, 3) metres; or a path, without triangles, of an OBJ, STL, PLY or GLB file: see load_mesh
     triangles     (m, 3) integers
+    scale         of a file, to metres: 0.001 of millimetres
     patches       1 to 65536; 0: by the number of triangles
     patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
     round         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
@@ -553,10 +601,19 @@ class Body:
     _memory: NDArray[np.uint8]
     _address: int
 
-    def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, patches: int = 0, patch_radius: float = 0,
-                 round: float = 0, open: bool = False, latents: bool = False, no_triangles: bool = False,
+    def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
+                 scale: float = 1, patches: int = 0, patch_radius: float = 0, round: float = 0, open: bool = False,
+                 latents: bool = False, no_triangles: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
-        mesh = _c_mesh(vertices, triangles)
+        if isinstance(vertices, (str, os.PathLike)):
+            if triangles is not None:
+                raise TypeError("triangles: a file has its own")
+            path = os.fspath(vertices)
+            mesh = _c_mesh(*_scaled(parse_mesh(Path(path).read_bytes(), path), scale, path))
+        elif triangles is None or scale != 1:
+            raise TypeError("triangles are missing" if triangles is None else "scale: only of a file")
+        else:
+            mesh = _c_mesh(vertices, triangles)
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
                           latents=latents, no_triangles=no_triangles)
         caught: list[BaseException] = []
@@ -581,7 +638,7 @@ class Body:
 
     @classmethod
     def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
-        return cls([start, end], [[0, 1, 1]], round=radius)
+        return cls(np.array([start, end]), [[0, 1, 1]], round=radius)
 
     @classmethod
     def cloud(cls, points: ArrayLike, radius: float) -> Body:
@@ -606,11 +663,11 @@ class Body:
         return self
 
     @classmethod
-    def load(cls, path: Union[str, os.PathLike[str]]) -> Body:
+    def load(cls, path: FilePath) -> Body:
         """A body from a file of save, or of `svcd encode`."""
         return cls.from_bytes(Path(path).read_bytes())
 
-    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+    def save(self, path: FilePath) -> None:
         """Writes the body into a file."""
         Path(path).write_bytes(self._memory.data)
 
@@ -848,6 +905,44 @@ def _answer_of(c: Any) -> Answer:
                   _contact_of(v[28:41]), opinion, v[48])
 
 
+def poses_from_matrices(matrices: ArrayLike) -> Doubles:
+    """Poses (..., 7) of rigid matrices (..., 4, 4), which take points as columns; nsvcd_verify is to be given these too.
+
+    ValueError where one is not rigid to 1e-4.
+    """
+    return np.asarray(_posed(_numeric(matrices, (None,) * (np.ndim(matrices) - 2) + (4, 4), "matrices"), "matrices"))
+
+
+def _posed(poses: Any, name: str) -> Any:
+    """Poses, also where they are given as matrices."""
+    given = np.asarray(poses)
+    if given.shape[-2:] != (4, 4) or given.dtype.kind not in "fiu":
+        return given
+    m = given.astype(np.float64)
+    if not np.isfinite(m).all() or (np.abs(m[..., 3, :] - [0, 0, 0, 1]) > 1e-4).any():
+        raise ValueError(f"{name}: not finite, or a last row that is not 0 0 0 1: are points rows here? transpose it")
+    r = m[..., :3, :3]
+    metric = np.swapaxes(r, -1, -2) @ r
+    square = np.trace(metric, axis1=-2, axis2=-1) / 3  # of the scale
+    even = np.abs(metric - square[..., None, None] * np.eye(3)).max((-2, -1)) <= 1e-4 * square
+    if not even.all() or (np.linalg.det(r) <= 0).any():
+        raise ValueError(f"{name}: a matrix that shears, mirrors or stretches: it must be rigid")
+    if (np.abs(square - 1) > 1e-4).any():
+        worst = math.sqrt(square.flat[np.abs(square - 1).argmax()])
+        raise ValueError(f"{name}: a matrix that scales, by {worst:.6g}: give the scale as scale_a, scale_b or to the body")
+    # The products of a quaternion's numbers, times 4: its row with the largest square is that quaternion, scaled.
+    products = np.empty((*m.shape[:-2], 4, 4))
+    products[..., :3, :3] = r + np.swapaxes(r, -1, -2)
+    trace = np.trace(r, axis1=-2, axis2=-1)
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        products[..., i, i] = 1 + 2 * r[..., i, i] - trace
+        products[..., i, 3] = products[..., 3, i] = r[..., k, j] - r[..., j, k]
+    products[..., 3, 3] = 1 + trace
+    largest = np.diagonal(products, axis1=-2, axis2=-1).argmax(-1)
+    rotation = np.take_along_axis(products, largest[..., None, None], -2)[..., 0, :]
+    return np.concatenate([m[..., :3, 3], rotation / np.linalg.norm(rotation, axis=-1, keepdims=True)], -1)
+
+
 class _Motion(NamedTuple):
     """(k, 7), and (k) or None; of a batch there may be (n, k, 7) and (n, k). poses None: at rest at the origin."""
     poses: Optional[Floats]
@@ -859,8 +954,11 @@ def _motion(poses: Optional[ArrayLike], times: Optional[ArrayLike], side: str, b
         if times is not None:
             raise ValueError(f"times_{side}: there are no poses")
         return _Motion(None, None)
-    each = (None,) if batch and np.ndim(poses) != 2 else ()
-    kept = _floats(poses, (*each, None, 7), f"poses_{side}")
+    given = np.asarray(poses)
+    if given.shape[-2:] == (4, 4):
+        given = _posed(given if given.ndim > 2 else given[None], f"poses_{side}")
+    each = (None,) if batch and given.ndim != 2 else ()
+    kept = _floats(given, (*each, None, 7), f"poses_{side}")
     if not kept.shape[-2]:
         raise ValueError(f"poses_{side}: no pose; None is at rest at the origin")
     if times is None:
@@ -964,7 +1062,7 @@ class Certificate(NamedTuple):
     why      ... since the visits were spent, or they come too near to tell
     inside   a hit, for a corner of one is inside of the other
     time     in [0, 1], of a hit
-    bytes    the proof, for nsvcd_verify.py and examples/verify
+    bytes    the proof, for nsvcd_verify and examples/verify
     visits   steps that were taken
     """
     verdict: Verdict
@@ -1283,7 +1381,7 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
     def call(function: Callable[[Floats], ArrayLike], name: str, given: int, out: int, *shape: int) -> None:
         target = _view(out, *shape)
         try:
-            target[:] = np.nan if caught else _numeric(function(_view(given, joints).copy()), shape, name)
+            target[:] = np.nan if caught else _numeric(_posed(function(_view(given, joints).copy()), name), shape, name)
         except BaseException as error:  # ctypes would swallow it
             caught.append(error)
             target[:] = np.nan
@@ -1319,7 +1417,6 @@ def plan(bodies: Sequence[Optional[Body]], pairs: ArrayLike, place: Callable[[Fl
 
 # -------------------------------------------------------------------------------------------------------------- robots
 
-Doubles = NDArray[np.float64]
 _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
@@ -1428,7 +1525,7 @@ def _index_or_none(index: int) -> Optional[int]:
 def _checked(c: Any) -> Checked:
     is_hit = _VERDICTS[c.verdict] is Verdict.HIT
     return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.share,
-                   tuple(c.contact.point) if is_hit else None, tuple(c.contact.normal) if is_hit else None,
+                   _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
                    _index_or_none(c.joint), c.placed, c.sweeps)
 
 
@@ -1444,7 +1541,7 @@ class Robot:
 
     def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None) -> None:
         def pose_of(pose: ArrayLike, name: str) -> Any:
-            row = _floats(pose, (7,), name).tolist()
+            row = _floats(_posed(pose, name), (7,), name).tolist()
             return _Pose((c_float * 3)(*row[:3]), (c_float * 4)(*row[3:]))
         self.joint_count, self.part_count = len(joints), len(parts)
         self._joints = (_Joint * max(len(joints), 1))(*(
@@ -1490,8 +1587,8 @@ class Robot:
         count = c_size_t()
         options = _filled(_GapOptions, within=within, to=to, deepest=deepest, work=work)
         _check(_library.nsvcd_gaps(self._checker, _address(row), byref(options), rows, len(self._pairs), byref(count)))
-        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, tuple(g.contact.point),
-                    tuple(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
+        return [Gap(g.pair, _VERDICTS[g.verdict], _WHYS[g.why], Range(g.distance.low, g.distance.high), g.depth, _vector(g.contact.point),
+                    _vector(g.contact.normal), np.array(g.slope[:self.joint_count])) for g in rows[:count.value]]
 
     def escape(self, joints: ArrayLike, *, clearance: float = 0, farthest: float = 0, seed: int = 0) -> Optional[Doubles]:
         """A configuration near by that is proven free, or None: nsvcd_escape."""

@@ -1,9 +1,10 @@
+# SPDX-License-Identifier: MIT
 """Checks certificates that bodies never meet, or that they do: examples/verify for Python, by ctypes.
 
     report = verify(certificate, Mesh(vertices, triangles), rack, path)   # as given to neuralsvcd.certify
     if report.kind == "free": ...
 
-Nothing here is shared with neuralsvcd.py or neuralsvcd.h, which make certificates. Poses, times and scales are as
+Nothing here is shared with the module neuralsvcd or with neuralsvcd.h, which make certificates. Poses, times and scales are as
 there, and copied as float32; what is proven is about these. Threads may share meshes. Wrong input is raised as
 ValueError and TypeError; a certificate may be any bytes.
 """
@@ -51,7 +52,7 @@ _PROTOTYPES = {
 def _load_library() -> ctypes.CDLL:
     """The library beside this file, as a wheel has it, or the one that `make python` has built."""
     here = Path(__file__).resolve().parent
-    places = [here / "_nsvcd_verify.abi3.so", here.parent.parent / "build" / "_nsvcd_verify.so"]
+    places = [here / "_nsvcd_verify.abi3.so", here.parents[2] / "build" / "_nsvcd_verify.so"]
     path = next((place for place in places if place.exists()), None)
     if path is None:
         raise ImportError(f"nsvcd_verify: the library is not built: make python; looked for {places[0]}, {places[1]}")

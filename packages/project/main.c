@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mug falls on another: a program for any build system. The build says whether this file holds
 // the implementation (NEURALSVCD_IMPLEMENTATION) or a library does.
 //   falling_mug MESH.obj
