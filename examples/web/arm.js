@@ -72,7 +72,8 @@ function createArm(robot) {
     const hit = found.verdict === VERDICT.HIT;
     const named = found.verdict !== VERDICT.FREE && pairs[found.pair];
     const {piece, share} = found;
-    const at = named ? (way.times[piece] * (1 - share) + way.times[piece + 1] * share) / duration : 1;
+    const [from, to] = [way.times[piece], way.times[piece + 1]];
+    const at = named ? (from * (1 - share) + to * share) / duration : 1;
     return {
       verdict: found.verdict,
       by: BY.PROOF,

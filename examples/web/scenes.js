@@ -62,10 +62,13 @@ function bar([x, y], half, heights) {
     }
   return [places, faces];
 }
-const circle = (radius, count, from = 0, to = 2 * Math.PI) => Array.from({length: count}, (_, i) => {
-  const angle = from + (to - from) * i / (to - from < 6 ? count - 1 : count);
-  return [radius * Math.cos(angle), radius * Math.sin(angle)];
-});
+// All of it, or an arc with both its ends.
+function circle(radius, count, from = 0, to = 2 * Math.PI) {
+  return Array.from({length: count}, (_, i) => {
+    const angle = from + (to - from) * i / (to - from < 6 ? count - 1 : count);
+    return [radius * Math.cos(angle), radius * Math.sin(angle)];
+  });
+}
 
 function capsule(radius, height) {  // stands on z = 0
   const quarter = Math.PI / 2;
@@ -137,7 +140,7 @@ const SCENES = {
     yaw: -2.5,
   },
   ring: {
-    note: 'A ring in the hole of a key swings round: their boxes overlap, their surfaces never meet.',
+    note: 'A ring in the hole of a key swings round: their boxes overlap, surfaces never meet.',
     files: [['ring.obj', () => ring(10, 1.2)], ['key.obj', key]],
     scales: [0.001, 0.001],
     motion: [hanging(-35), hanging(35)],
@@ -145,7 +148,7 @@ const SCENES = {
     pitch: 0.7,
   },
   needle: {
-    note: 'A needle at 100 m/s, at bars of 2 mm: start and end are two pictures of a game, 1/60 s apart.',
+    note: 'A needle at 100 m/s, at bars of 2 mm: from one picture of a game to the next, 1/60 s.',
     files: [['needle.obj', needle], ['grating.obj', () => grating(12, 0.02, 0.002)]],
     motion: [{position: [-0.835, -0.04, 0.02], rotation: still},
       {position: [0.835, 0.04, -0.02], rotation: still}],

@@ -611,6 +611,7 @@ class Page(Hands):
         self.assertEqual([self.name(0), self.name(1)], ["A: 7.obj", "B: 8.obj"])
         self.assertIn("two", self.text("notice"))
         self.open(self.address + "#v=1&scene=arm")
+        self.until_scene("arm")
         self.drop_on(self.browser.find_element(By.TAG_NAME, "h1"), [["one.obj", cube(0.1)]])
         self.assertEqual([self.name(0), self.name(1)], ["A: one.obj", "B: dish_rack.obj"])
 
@@ -655,7 +656,7 @@ class Page(Hands):
         for link in self.browser.find_elements(By.CSS_SELECTOR, "#gallery a[href^='#']"):
             name = link.get_attribute("href").split("scene=")[1]
             link.click()
-            self.frames()
+            self.until_scene(name)
             self.assertEqual(self.find("notice").is_displayed(), False)
             titles[name] = self.text("verdict-title")
             with tempfile.TemporaryDirectory() as folder, self.subTest(scene=name):
@@ -670,6 +671,11 @@ class Page(Hands):
                     self.assertEqual(self.part(which, "findings").text, "", "nothing is wrong with its meshes")
         self.assertEqual(tuple(titles), SCENES)
         self.assertEqual(titles, {"mug": "Hit", "stairs": "Hit", "arm": "Free", "ring": "Free", "needle": "Hit"})
+
+    def until_scene(self, name: str):
+        """A link is followed a while after it is clicked."""
+        self.until(lambda: self.browser.execute_script("return document.body.dataset.scene") == name)
+        self.frames()
 
     def save_files(self, folder: Path):
         folder.mkdir()
@@ -689,6 +695,7 @@ class Page(Hands):
     def test_arm(self):
         """Bent, it is free with a proof of its own, or hits as build/svcd says of many points on its way."""
         self.open(self.address + "#v=1&scene=arm")
+        self.until_scene("arm")
         self.assertEqual(self.text("verdict-title"), "Free")
         seen = set()
         with tempfile.TemporaryDirectory() as name:
@@ -735,10 +742,12 @@ class Page(Hands):
     def test_links(self):
         """A link opens what it was made of."""
         self.click("#gallery a[href$=stairs]")
+        self.until_scene("stairs")
         self.find("grip-1").send_keys(Keys.ARROW_UP * 3)
         self.set("clearance", 20)
         stairs = self.link(), self.poses(), self.text("verdict-title")
         self.open(self.address + "#v=1&scene=arm")
+        self.until_scene("arm")
         self.set(self.browser.find_elements(By.CSS_SELECTOR, "#bends input")[1], 40)
         arm = self.link(), self.text("verdict-title")
         self.assertEqual(arm[1], "Hit")
