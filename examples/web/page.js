@@ -1,28 +1,42 @@
 // page.js - the page: what is asked, what is shown of the answer, what mouse, fingers and keys do.
 
+performance.mark('script');
 const find = (id) => document.getElementById(id);
-const bytesOf = (id) =>
-  Uint8Array.from(atob(find(id).textContent.trim()), (letter) => letter.charCodeAt(0));
+const encoded = (text) => new TextEncoder().encode(text);
 
 const AT_REST = {position: [0, 0, 0], rotation: [0, 0, 0, 1]};
 const FIRST = 0.01;  // tolerance of first contacts, a share of the motion
 const GHOSTS = 9;    // start and end among them
-const CARRIED = [    // the mug, from beside the dish rack into it
-  {position: [0.04, -0.4, 0.08], rotation: normalized([0.42, -0.3, -0.48, 0.7])},
-  {position: [0, 0, 0.02], rotation: [0, 0, -Math.SQRT1_2, Math.SQRT1_2]},
-];
+const LARGE = 30, SMALL = 0.001;  // metres: bodies beyond these are hardly meant
+const UNLIKE = 100;  // and hardly ones that differ by this factor
+
+// What stands in the page as base64 of gzip, which the browser undoes faster than code.
+async function unpacked(id) {
+  const packed = await fetch(`data:;base64,${find(id).textContent.trim()}`);
+  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
+  return new Response(plain, {headers: {'content-type': 'application/wasm'}});
+}
 
 const canvas = find('canvas');
-const scene = createScene(canvas);
-const library = await createLibrary(bytesOf('module')).catch((error) => {
+let scene = null;  // comes after the first answer, because a graphics card takes its time
+// The first scene's bodies, because to encode them takes longer than all else until an answer.
+const bakedBodies = Promise.all(['body-0', 'body-1'].map(async (id) =>
+  new Uint8Array(await (await unpacked(id)).arrayBuffer())));
+const library = await createLibrary(unpacked('module')).catch((error) => {
   find('verdict-title').textContent = 'Not possible';
   find('verdict-text').textContent = `This browser cannot run the module: ${error.message}`;
   throw error;
 });
+const baked = await bakedBodies;
+performance.mark('module');
 const bodies = [{scale: 1}, {scale: 1}];
-const motion = structuredClone(CARRIED);
+const motion = [AT_REST, AT_REST];
 const view = {yaw: -0.42, pitch: 0.3, distance: 1, target: [0, 0, 0]};
 let answer = null;  // null where the question was refused
+let current = 'mug';  // of SCENES
+let robot = null;  // made when its scene is opened first
+let bends = [];  // degrees, of its joints
+const isArm = () => current === 'arm';
 
 // ---- asking
 
@@ -110,7 +124,8 @@ function showAnswer() {
     showVerdict(...answer.description);
   showTime(answer && answer.microseconds);
   show('contact-time', timed ? `t = ${contactTime(answer).toFixed(3)}` : null);
-  show('free-until', known ? `t = ${answer.time.low.toFixed(3)}` : null);
+  // Of a robot's hit it is not told whether it is the first.
+  show('free-until', known && !(isArm() && timed) ? `t = ${answer.time.low.toFixed(3)}` : null);
   show('apart', known && answer.distance.low > 0 && Number.isFinite(answer.distance.low) ?
     `${(1000 * answer.distance.low).toPrecision(2)} mm` : null);
   show('point', witness ? numbers(answer.nearest.point, 3) : null);
@@ -119,13 +134,43 @@ function showAnswer() {
     show(`triangle-${which}`, witness ? answer.nearest.triangles[which] : null);
 }
 
+// How long the page takes until then is what test_page.py prints.
+let marked = false;
+function markFirst() {
+  if (!marked)
+    performance.mark('first-answer');
+  marked = true;
+}
+
+// Of a robot's motion: what hits what, by their names.
+function describeArm({verdict, inside, pair}) {
+  const named = pair?.map((part) => robot.parts[part].name.replace('_', ' ')).join(' and ');
+  if (verdict === VERDICT.FREE)
+    return ['free', 'Free', `Proven: none of ${robot.pairs.length} pairs ever meets.`];
+  if (verdict === VERDICT.UNDECIDED)
+    return ['doubt', 'Undecided', named ? `${named} come too near to tell.` : 'Too much work.'];
+  return ['hit', 'Hit', inside ? `Proven: of ${named}, one is inside the other.` :
+    `Proven: ${named} meet; perhaps not for the first time.`];
+}
+function askArm() {
+  const start = performance.now();
+  answer = robot.ask(1);
+  markFirst();
+  answer.microseconds = 1000 * (performance.now() - start);
+  answer.description = describeArm(answer);
+  showAnswer();
+}
+
 function ask(milliseconds, batches) {
+  if (isArm())
+    return askArm();
   const asked = question();
   try {
     const start = performance.now();
     library.sweep(asked, 1);
     const taken = performance.now() - start;
     answer = library.answer();
+    markFirst();
     answer.description = describe(answer, asked);
     batch = Math.max(1, Math.min(batch, Math.ceil(milliseconds / taken)));
     answer.microseconds = taken > 10 ? 1000 * taken : microseconds(asked, milliseconds, batches);
@@ -139,8 +184,6 @@ function ask(milliseconds, batches) {
 // ---- the proof, to take away
 
 let proofFiles = null;  // [name, bytes] each; null where there is no proof of the answer
-
-const encoded = (text) => new TextEncoder().encode(text);
 
 function showProof(why) {
   find('save').disabled = !proofFiles;
@@ -156,8 +199,33 @@ function asRead(numbers) {
   return {position: numbers.slice(0, 3), rotation: rotation.map((x) => x / length)};
 }
 
+// What a proof holds of a body: its file, or, of another format, the same mesh as OBJ.
+function objFile({format, file, positions, indices}) {
+  if (format === 'OBJ')
+    return file;
+  const lines = [];
+  for (let i = 0; i < positions.length; i += 3)
+    lines.push(`v ${[...positions.subarray(i, i + 3)].map((x) => +x.toPrecision(9)).join(' ')}`);
+  for (let i = 0; i < indices.length; i += 3)
+    lines.push(`f ${[...indices.subarray(i, i + 3)].map((corner) => corner + 1).join(' ')}`);
+  return encoded(`${lines.join('\n')}\n`);
+}
+
+function proveArm() {
+  if (answer.verdict !== VERDICT.FREE)
+    return 'Only a motion that is free can be saved with its proof';
+  try {
+    proofFiles = robot.prove();
+  } catch (error) {
+    return error.message;
+  }
+  return 'proof.tar: the robot, its motion and a certificate of each pair, for build/verify';
+}
+
 // Makes it, and says what it is, or why there is none.
 function prove() {
+  if (isArm())
+    return proveArm();
   if (answer?.by !== BY.PROOF || answer.verdict === VERDICT.UNDECIDED)
     return 'Only what is proven, free or a hit, can be saved';
   const poses = motion.map(written);
@@ -179,7 +247,7 @@ function prove() {
     `problem proof A ${a} B ${b}  0 0 0  0 0 0 1  -1 nan 2`,
     ...poses.map((numbers) => numbers.join(' '))];
   proofFiles = [['proof.cert', made.bytes], ['proof.txt', encoded(`${lines.join('\n')}\n`)],
-    ['a.obj', bodies[0].obj], ['b.obj', bodies[1].obj]];
+    ['a.obj', objFile(bodies[0])], ['b.obj', objFile(bodies[1])]];
   return 'proof.tar: a certificate for build/verify, the motion and both meshes. That of a hit ' +
     'proves one, not that it is the first';
 }
@@ -233,7 +301,17 @@ function colourAt(t) {
   return proven ? colours.free : colours[answer?.description[0] ?? 'doubt'];
 }
 
+function armThings(time, alpha) {
+  const poses = robot.poses(time);
+  return robot.parts.map(({moves}, i) => ({
+    mesh: `part-${i}`, pose: poses[i], size: 1, alpha,
+    colour: moves ? colourAt(time) : colours['body-b'],
+  }));
+}
+
 function ghosts(time) {
+  if (isArm())
+    return [0, 1].flatMap((end) => armThings(end, 0.2).filter((_, i) => robot.parts[i].moves));
   const list = [];
   for (let i = 0; i < GHOSTS; i++) {
     const t = i / (GHOSTS - 1);
@@ -247,6 +325,14 @@ function ghosts(time) {
   return list;
 }
 
+// What meets, A (0) or B (1), and its pose at a time.
+function sideAt(which, time) {
+  if (!isArm())
+    return {...bodies[which], pose: which ? AT_REST : poseAt(time)};
+  const part = answer.pair[which];
+  return {...robot.parts[part], scale: 1, pose: robot.poses(time)[part]};
+}
+
 // The witness: two triangles with their edges, the point where they meet, and the normal.
 function marks() {
   if (!isWitnessed(answer))
@@ -254,7 +340,7 @@ function marks() {
   const list = [];
   const {point, normal, triangles, time} = answer.nearest;
   for (const which of [1, 0]) {
-    const {positions, indices, scale} = bodies[which];
+    const {positions, indices, scale, pose} = sideAt(which, time);
     const [a, b, c] = [0, 1, 2].map((k) => {
       const at = 3 * indices[3 * triangles[which] + k];
       return [...positions.subarray(at, at + 3)];
@@ -264,7 +350,7 @@ function marks() {
     scene.loadLines(`edges-${which}`, [a, b, b, c, c, a]);
     for (const mesh of ['triangle', 'edges'])
       list.push({
-        mesh: `${mesh}-${which}`, pose: which ? AT_REST : poseAt(time), size: scale,
+        mesh: `${mesh}-${which}`, pose, size: scale,
         colour: colours[which ? 'witness-b' : 'witness-a'], alpha: 1,
       });
   }
@@ -292,11 +378,15 @@ function loadGround() {
 }
 
 function loadPath() {
-  const points = Array.from({length: 80}, (_, i) => centreAt(poseAt(i / 79)));
+  const points = Array.from({length: 80}, (_, i) => isArm() ?
+    robot.poses(i / 79)[robot.parts.findLastIndex(({moves}) => moves)].position :
+    centreAt(poseAt(i / 79)));
   scene.loadLines('path', points);  // every other line: dashes
 }
 
 function placeGrips(from) {
+  if (isArm())
+    return;
   const places = motion.map((pose) => toScreen(from, centreAt(pose)));
   motion.forEach((pose, i) => {
     const grip = find(`grip-${i}`);
@@ -333,13 +423,36 @@ function draw() {
   if (canvas.width !== size[0] || canvas.height !== size[1])  // what is set is cleared
     [canvas.width, canvas.height] = size;
   loadPath();
-  const solids = [
+  const path = {mesh: 'path', pose: AT_REST, size: 1, colour: colourAt(1), alpha: 1};
+  const solids = isArm() ? [path, ...armThings(time, 1)] : [
     {mesh: 'ground', pose: AT_REST, size: 1, colour: colours.grid, alpha: 1},
-    {mesh: 'path', pose: AT_REST, size: 1, colour: colourAt(1), alpha: 1},
+    path,
     {mesh: 'body-1', pose: AT_REST, size: bodies[1].scale, colour: colours['body-b'], alpha: 1},
     {mesh: 'body-0', pose: poseAt(time), size: bodies[0].scale, colour: colourAt(time), alpha: 1},
   ];
   scene.draw(from, solids, ghosts(time), marks());
+}
+
+// ---- playing it
+
+let playing = 0;
+function play() {
+  cancelAnimationFrame(playing);
+  const begin = performance.now();
+  const end = find('follow').checked && answer ? contactTime(answer) : 1;
+  find('follow').checked = false;
+  const step = (now) => {
+    const time = Math.min(end, Math.max(0, now - begin) / 3000);
+    find('time').value = time;
+    find('follow').checked = time === end;
+    changed(false);
+    playing = time < end ? requestAnimationFrame(step) : 0;
+  };
+  playing = requestAnimationFrame(step);
+}
+function stopPlaying() {
+  cancelAnimationFrame(playing);
+  playing = 0;
 }
 
 // ---- when something changes
@@ -350,6 +463,8 @@ let settled = 0;
 // Nothing moves any more: there is time to look at the clock. Again, because a browser compiles
 // what it runs often once more.
 function settle(rounds) {
+  if (rounds === 0)
+    return;
   ask(1.5, 31);
   if (rounds > 1)
     settled = setTimeout(settle, 250, rounds - 1);
@@ -363,7 +478,8 @@ function frame() {
     clearTimeout(settled);
     settled = setTimeout(() => {
       showProof(prove());
-      settle(3);
+      writeLink();
+      settle(isArm() ? 0 : 3);
     }, 250);
   }
   asking = false;
@@ -373,6 +489,10 @@ function frame() {
   draw();
 }
 function changed(isQuestion) {
+  if (isQuestion && playing) {
+    stopPlaying();
+    find('follow').checked = true;
+  }
   asking ||= isQuestion;
   if (!waiting)
     requestAnimationFrame(frame);
@@ -389,12 +509,20 @@ function motionChanged() {
 const corners = ({low, high, scale}, pose) => [0, 1, 2, 3, 4, 5, 6, 7].map((corner) =>
   apply(pose, scale, low.map((x, k) => corner >> k & 1 ? high[k] : x)));
 
+// Of a robot, at its ends and midway; but for the floor, which is larger than the rest.
+const armCorners = () => [0, 0.25, 0.5, 0.75, 1].flatMap((share) => {
+  const poses = robot.poses(share);
+  return robot.parts.flatMap((part, i) =>
+    length(subtract(part.high, part.low)) > 2 ? [] : corners(part, poses[i]));
+});
+
 // So near that B, and A at both ends, just fit into the picture.
 function resetView() {
-  Object.assign(view, {yaw: -0.42, pitch: 0.3});
+  const {yaw = -0.42, pitch = 0.3} = SCENES[current];
+  Object.assign(view, {yaw, pitch});
   const {right, up, back, aspect} = camera();
-  const points = [...motion.flatMap((pose) => corners(bodies[0], pose)),
-    ...corners(bodies[1], AT_REST)];
+  const points = isArm() ? armCorners() :
+    [...motion.flatMap((pose) => corners(bodies[0], pose)), ...corners(bodies[1], AT_REST)];
   const middle = (axis) => {
     const along = points.map((point) => dot(point, axis));
     return scaled(axis, (Math.min(...along) + Math.max(...along)) / 2);
@@ -408,71 +536,153 @@ function resetView() {
   changed(false);
 }
 
-// The assets' own motion, or one past B's centre.
+// The scene's own motion, or, of other bodies, one past B's centre.
 function resetMotion() {
-  const known = bodies.every(({name, scale}, i) =>
-    scale === 1 && name === find(`mesh-${i}`).dataset.name);
+  if (isArm()) {
+    setBends(robot.joints.map(() => 0));
+    return;
+  }
+  const {motion: own, scales = [1, 1]} = SCENES[current];
+  const known = bodies.every(({dropped, scale}, i) => !dropped && scale === scales[i]);
   const [a, b] = bodies.map(({centre, scale}) => scaled(centre, scale));
   const reach = 1.2 * (bodies[0].radius * bodies[0].scale + bodies[1].radius * bodies[1].scale);
   const ends = [-reach, reach].map((y) =>
     ({position: add(subtract(b, a), [0, y, 0]), rotation: [0, 0, 0, 1]}));
-  motion.splice(0, 2, ...structuredClone(known ? CARRIED : ends));
+  motion.splice(0, 2, ...structuredClone(known ? own : ends));
   motionChanged();
+}
+
+function refit() {
+  if (scene && !isArm())
+    loadGround();
+  resetMotion();
+  resetView();
 }
 
 // ---- bodies
 
+const extentOf = ({low, high, scale}) => scale * Math.max(...subtract(high, low));
+
+// A scale that is likely meant, and why; null where the size may be right.
+function unitsOffer(which) {
+  const [mine, other] = [extentOf(bodies[which]), extentOf(bodies[1 - which])];
+  const to = (factor) => +(bodies[which].scale * factor).toPrecision(6);
+  if (mine > LARGE || mine > UNLIKE * other && other >= SMALL)
+    return [to(0.001), `These look like millimetres: use ${to(0.001)}`];
+  return mine > 0 && mine < SMALL ? [to(1000), `Too small by a thousand? Use ${to(1000)}`] : null;
+}
+
 function showBody(which) {
-  const {low, high, scale, name, indices, patches, size} = bodies[which];
+  const {low, high, scale, name, format, indices, patches, size, findings} = bodies[which];
   const drop = find(`drop-${which}`);
-  const extent = scaled(subtract(high, low), scale).map((x) => x.toFixed(3)).join(' × ');
-  drop.querySelector('.name').textContent = `${'AB'[which]}: ${name}`;
-  drop.querySelector('.facts').textContent =
-    `${indices.length / 3} triangles, ${patches} patches, ${Math.round(size / 1000)} KB`;
-  drop.querySelector('.size').textContent = `${extent} m`;
+  const part = (selector) => drop.querySelector(selector);
+  const extent = scaled(subtract(high, low), scale).map((x) => +x.toPrecision(3)).join(' × ');
+  part('.name').textContent = `${'AB'[which]}: ${name}`;
+  part('.facts').textContent =
+    `${format}, ${indices.length / 3} triangles, ${patches} patches, ${Math.round(size / 1000)} KB`;
+  part('.size').textContent = `${extent} m`;
+  part('.scale').value = scale;
+  part('.findings').replaceChildren(...findings.map((text) => {
+    const item = document.createElement('li');
+    item.textContent = text;
+    return item;
+  }));
+  const offer = unitsOffer(which);
+  part('.units').hidden = !offer;
+  part('.units').textContent = offer?.[1] ?? '';
 }
 
-// Takes an OBJ file, its bytes, for a body; where it is refused, the old one stays.
-function loadBody(which, name, bytes) {
-  const message = find(`drop-${which}`).querySelector('.error');
-  message.textContent = '';
-  try {
-    library.encode(which, bytes);
-  } catch (error) {
-    const line = error.line ? new TextDecoder().decode(bytes).split('\n')[error.line - 1] : '';
-    message.textContent = error.line ?
-      `${name}, line ${error.line}: ${error.message}: “${line.trim().slice(0, 60)}”` :
-      `${name}: ${error.message}`;
-    showBody(which);
-    return;
-  }
+function notify(text) {
+  show('notice', text);
+  find('notice').hidden = !text;
+}
+
+// Takes a file, its bytes, for a body; where it is refused, the old one stays, and why is told.
+function loadBody(which, name, bytes, body = null) {
+  const format = library.encode(which, name, bytes, body);
   const mesh = library.mesh(which);
-  const extreme = (pick, start) => [0, 1, 2].map((k) => {
-    let most = start;
-    for (let i = k; i < mesh.positions.length; i += 3)
-      most = pick(most, mesh.positions[i]);
-    return most;
-  });
-  Object.assign(bodies[which], mesh, library.facts(which),
-    {name, obj: bytes, low: extreme(Math.min, Infinity), high: extreme(Math.max, -Infinity)});
+  // `svcd` names its options there, which a page has none of.
+  const findings = library.findings(which).map((line) => line.split('; try --')[0]);
+  Object.assign(bodies[which], mesh, library.facts(which), boxOf(mesh),
+    {name, format, file: bytes, findings});
   scene?.loadMesh(`body-${which}`, mesh);
-  showBody(which);
-  if (bodies.every(({indices}) => indices)) {
-    if (scene)
-      loadGround();
-    resetMotion();
-    resetView();
-  }
 }
 
-async function loadFiles(which, files) {
-  for (const [i, file] of [...files].slice(0, 2).entries()) {
-    const to = (which + i) % 2;
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    find(`drop-${to}`).querySelector('.facts').textContent = `reading ${file.name} ...`;
-    await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
-    loadBody(to, file.name, bytes);
+function boxOf({positions, indices}) {
+  const low = [Infinity, Infinity, Infinity];
+  const high = low.map((x) => -x);
+  for (const vertex of indices)
+    for (let k = 0; k < 3; k++) {
+      const x = positions[3 * vertex + k];
+      low[k] = Math.min(low[k], x);
+      high[k] = Math.max(high[k], x);
+    }
+  return {low, high};
+}
+
+// What is wrong with a file, and where.
+function faultOf(name, bytes, error) {
+  if (!error.line)
+    return `${name}: ${error.message}`;
+  const line = new TextDecoder().decode(bytes).split('\n')[error.line - 1] ?? '';
+  return `${name}, line ${error.line}: ${error.message}: “${line.trim().slice(0, 60)}”`;
+}
+
+async function loadFile(which, file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const drop = find(`drop-${which}`);
+  drop.querySelector('.facts').textContent = `reading ${file.name} ...`;
+  await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
+  let fault = '';
+  try {
+    loadBody(which, file.name, bytes);
+    Object.assign(bodies[which], {scale: 1, dropped: true});
+    refit();
+  } catch (error) {
+    fault = faultOf(file.name, bytes, error);
   }
+  drop.querySelector('.error').textContent = fault;
+  return fault;
+}
+
+// One file becomes that body, two become A and B.
+async function loadFiles(which, files) {
+  const list = [...files];
+  if (list.length === 0)
+    return;
+  if (isArm())
+    openScene('mug');
+  const faults = list.length > 2 ? ['Of more than two files the first two are taken'] : [];
+  for (const [i, file] of list.slice(0, 2).entries())
+    faults.push(await loadFile(list.length === 1 ? which : i, file));
+  bodies.forEach((_, i) => showBody(i));
+  notify(faults.filter((fault) => fault).join('. '));
+}
+
+// Which body a file becomes that is dropped there: the one that is under it, else the first one
+// that has not been dropped.
+function bodyAt(event) {
+  const card = event.target.closest?.('.drop');
+  const under = event.target.closest?.('#view') && !isArm() ?
+    bodyUnder(event.clientX, event.clientY) : null;
+  if (card)
+    return Number(card.id.slice(-1));
+  return under ?? (!isArm() && bodies[0].dropped && !bodies[1].dropped ? 1 : 0);
+}
+function dragOver(event) {
+  const two = event.dataTransfer?.items.length > 1;
+  find('dropping').hidden = false;
+  show('dropping', two ? 'The first becomes A, the second B' : `Becomes ${'AB'[bodyAt(event)]}`);
+}
+const dragEnd = () => {
+  find('dropping').hidden = true;
+};
+
+function setScale(which, scale) {
+  bodies[which].scale = scale;
+  bodies.forEach((_, i) => showBody(i));
+  if (scene)
+    loadGround();
 }
 
 function makeDrop(which) {
@@ -484,18 +694,158 @@ function makeDrop(which) {
     });
   });
   drop.querySelector('.scale').addEventListener('input', ({target}) => {
-    bodies[which].scale = Number(target.value) || bodies[which].scale;  // 0. is on the way to 0.001
-    showBody(which);
-    if (scene)
-      loadGround();
+    const typed = target.value;  // 0. is on the way to 0.001
+    setScale(which, Number(typed) || bodies[which].scale);
+    target.value = typed;
     changed(true);
   });
-  drop.addEventListener('dragover', () => drop.classList.add('over'));
-  drop.addEventListener('dragleave', () => drop.classList.remove('over'));
-  drop.addEventListener('drop', (event) => {
-    drop.classList.remove('over');
-    loadFiles(which, event.dataTransfer.files);
+  drop.querySelector('.units').addEventListener('click', () => {
+    setScale(which, unitsOffer(which)[0]);
+    refit();
   });
+}
+
+// ---- scenes, and links to them
+
+// A file of the gallery: text that is made, or that stands in the page, behind a line's end.
+const sourceOf = (source) =>
+  encoded(typeof source === 'string' ? find(source).textContent.slice(1) : source());
+
+function openScene(name) {
+  const {files, scales = [1, 1], note} = SCENES[name];
+  if (name === 'arm' && !robot)
+    makeRobot();
+  current = name;
+  document.body.dataset.scene = name;
+  files?.forEach(([file, source, body], which) => {
+    loadBody(which, file, sourceOf(source), baked[body]);
+    Object.assign(bodies[which], {scale: scales[which], dropped: false});
+    find(`drop-${which}`).querySelector('.error').textContent = '';
+  });
+  if (files)
+    bodies.forEach((_, which) => showBody(which));
+  for (const link of document.querySelectorAll('#gallery a'))
+    link.toggleAttribute('aria-current', link.hash === `#v=1&scene=${name}`);
+  show('note', note);
+  find('follow').checked = true;
+  refit();
+}
+
+function makeRobot() {
+  robot = createArm(library.robot);
+  robot.parts.forEach((part, i) => {
+    Object.assign(part, boxOf(part), {scale: 1});
+    scene?.loadMesh(`part-${i}`, part);
+  });
+  find('bends').replaceChildren(...robot.joints.map((joint, i) => {
+    const row = find('bend').content.cloneNode(true).firstElementChild;
+    row.querySelector('span').textContent = joint.replace('_', ' ');
+    row.querySelector('input').addEventListener('input', ({target}) =>
+      setBends(bends.with(i, Number(target.value))));
+    return row;
+  }));
+}
+function setBends(degrees) {
+  bends = degrees;
+  robot.bend(bends.map((x) => x * Math.PI / 180));
+  [...find('bends').children].forEach((row, i) => {
+    row.querySelector('input').value = bends[i];
+    row.querySelector('output').textContent = `${bends[i]}°`;
+  });
+  changed(true);
+}
+
+// The page's state as a link has it.
+function writeLink() {
+  const words = {v: 1, scene: current};
+  if (isArm()) {
+    words.bend = bends;
+  } else {
+    motion.forEach((pose, i) => words[['start', 'end'][i]] = written(pose));
+    const {method} = question();
+    Object.assign(words, {scales: bodies.map(({scale}) => scale), method,
+      first: Number(find('first').checked), clearance: Number(find('clearance').value)});
+    bodies.forEach(({dropped, name}, i) => {
+      if (dropped)
+        words['ab'[i]] = name;
+    });
+  }
+  const text = Object.entries(words).map(([key, value]) =>
+    `${key}=${encodeURIComponent(value).replaceAll('%2C', ',')}`);
+  history.replaceState(null, '', `#${text.join('&')}`);
+}
+
+// What a link says, checked; throws an Error with the reason.
+const LINK_WORDS =
+  ['v', 'scene', 'bend', 'start', 'end', 'scales', 'method', 'first', 'clearance', 'a', 'b'];
+function readLink(hash) {
+  const words = new URLSearchParams(hash.slice(1));
+  const refuse = (why) => {
+    throw new Error(why);
+  };
+  const short = (text) => `“${text.slice(0, 40)}”`;
+  for (const key of words.keys()) {
+    if (!LINK_WORDS.includes(key))
+      refuse(`${short(key)} means nothing`);
+    if (words.getAll(key).length > 1)
+      refuse(`${key} is there twice`);
+  }
+  if (words.get('v') !== '1')
+    refuse(`it is of version ${short(words.get('v') ?? '')}, and this page reads 1`);
+  const name = words.get('scene') ?? '';
+  if (!Object.hasOwn(SCENES, name))
+    refuse(`there is no scene ${short(name)}`);
+  for (const key of ['a', 'b'])
+    if (words.has(key))
+      refuse(`${short(words.get(key))} was dropped, and no link holds a file: drop it again`);
+  const read = (key, count, low, high) => {
+    const list = words.get(key)?.split(',').map((text) => text.trim() ? Number(text) : NaN);
+    if (list && (list.length !== count || !list.every((x) => x >= low && x <= high)))
+      refuse(`${key} is not ${count} number${count > 1 ? 's' : ''} from ${low} to ${high}`);
+    return list;
+  };
+  const method = words.get('method') ?? 'proof';
+  if (!Object.hasOwn(METHODS, method))
+    refuse(`there is no method ${short(method)}`);
+  const poses = ['start', 'end'].map((key) => read(key, 7, -1e6, 1e6));
+  for (const pose of poses)
+    if (pose && Math.abs(Math.hypot(...pose.slice(3)) - 1) > 1e-4)
+      refuse('a rotation is no quaternion of length 1');
+  return {name, method, poses, bend: read('bend', 6, -60, 60), scales: read('scales', 2, 1e-6, 1e6),
+    first: read('first', 1, 0, 1) ?? [1], clearance: read('clearance', 1, 0, 1e6) ?? [0]};
+}
+
+function openLink(hash) {
+  const {name, method, poses, bend, scales, first, clearance} = readLink(hash);
+  openScene(name);
+  find('first').checked = first[0] === 1;
+  find('clearance').value = clearance[0];
+  document.querySelector(`[name=method][value=${method}]`).checked = true;
+  showOptions();
+  if (isArm())
+    return bend && setBends(bend);
+  scales?.forEach((scale, which) => setScale(which, scale));
+  if (scales)
+    refit();
+  poses.forEach((pose, i) => {
+    if (pose)
+      motion[i] = {position: pose.slice(0, 3), rotation: pose.slice(3)};
+  });
+  library.sweep(question(), 1);  // throws what it thinks of these numbers
+  motionChanged();
+  resetView();
+}
+
+// The link that the page was opened with; one that is refused gives way to the first scene.
+function openAddress() {
+  const {hash} = location;
+  notify('');
+  try {
+    openLink(hash.length > 1 ? hash : '#v=1&scene=mug');
+  } catch (error) {
+    openLink('#v=1&scene=mug');
+    notify(`This link is not opened: ${error.message}.`);
+  }
 }
 
 // ---- moving the start and the end, and the view
@@ -536,6 +886,18 @@ function zoom(factor) {
   changed(false);
 }
 
+// 0 or 1: A or B is under a place of the window; null: neither is.
+function bodyUnder(x, y) {
+  const from = camera();
+  const {left, top} = canvas.getBoundingClientRect();
+  const ray = rayThrough(from, x - left, y - top);
+  const meets = (body, pose) => rayMeets(body, pose, body.scale, from.eye, ray);
+  const now = poseAt(Number(find('time').value));
+  const a = Math.min(...[...motion, now].map((pose) => meets(bodies[0], pose)));
+  const b = meets(bodies[1], AT_REST);
+  return a === b ? null : Number(b < a);
+}
+
 // 0 or 1: A's start or end is nearest under a point of the picture; else null.
 function poseUnder(x, y) {
   const from = camera();
@@ -557,7 +919,7 @@ function pointerDown(event) {
   event.target.setPointerCapture(event.pointerId);
   if (pointers.size === 0) {
     held = grip ? Number(grip.id.slice(-1)) : poseUnder(event.offsetX, event.offsetY);
-    if (event.button !== 0)
+    if (event.button !== 0 || isArm())
       held = null;
   }
   pointers.set(event.pointerId, [event.clientX, event.clientY]);
@@ -608,6 +970,19 @@ function keyDown(event) {
 
 // ---- all of it
 
+// All that there is by now.
+function loadScene() {
+  bodies.forEach((body, which) => body.indices && scene.loadMesh(`body-${which}`, body));
+  robot?.parts.forEach((part, i) => scene.loadMesh(`part-${i}`, part));
+  if (!isArm())
+    loadGround();
+  changed(false);
+}
+
+function showOptions() {
+  find('first').disabled = find('clearance').disabled = question().method !== 'proof';
+}
+
 function listen() {
   for (const target of [canvas, find('grip-0'), find('grip-1')]) {
     target.addEventListener('pointerdown', pointerDown);
@@ -621,7 +996,9 @@ function listen() {
     event.preventDefault();
     zoom(Math.exp(0.001 * event.deltaY));
   }, {passive: false});
+  find('play').addEventListener('click', play);
   find('time').addEventListener('input', () => {
+    stopPlaying();
     find('follow').checked = false;
     changed(false);
   });
@@ -630,9 +1007,20 @@ function listen() {
   find('reset-motion').addEventListener('click', resetMotion);
   find('save').addEventListener('click', save);
   find('options').addEventListener('input', () => {
-    const proof = question().method === 'proof';
-    find('first').disabled = find('clearance').disabled = !proof;
+    showOptions();
     changed(true);
+  });
+  find('copy').addEventListener('click', async () => {
+    writeLink();
+    await navigator.clipboard?.writeText(location.href).catch(() => {});
+    notify('The link is copied, and stands in the address bar.');
+  });
+  addEventListener('hashchange', openAddress);
+  addEventListener('dragover', dragOver);
+  addEventListener('dragleave', dragEnd);
+  addEventListener('drop', (event) => {
+    dragEnd();
+    loadFiles(bodyAt(event), event.dataTransfer?.files ?? []);
   });
   motion.forEach((_, i) => find(`pose-${i}`).addEventListener('change', () => typedPose(i)));
   for (const kind of ['dragover', 'drop'])  // a file that misses does not replace the page
@@ -663,9 +1051,12 @@ function typedPose(i) {
 
 readColours();
 listen();
-for (const which of [0, 1]) {
+for (const which of [0, 1])
   makeDrop(which);
-  loadBody(which, find(`mesh-${which}`).dataset.name, bytesOf(`mesh-${which}`));
-}
-if (!scene)
+openAddress();
+frame();
+scene = createScene(canvas);
+if (scene)
+  loadScene();
+else
   find('view').append('This browser has no WebGL 2: answers, but no picture.');

@@ -1,5 +1,5 @@
 // web.c - neuralsvcd.h as a WebAssembly module for page.js: two bodies, one motion, one answer,
-// its certificate.
+// its certificate; and a robot's (arm.h).
 //
 // The module imports nothing. What page.js reads are the library's own structs in linear memory:
 // what it reads of them has four bytes on wasm32, so that a struct is an array of floats or words.
@@ -13,9 +13,25 @@
 
 #include <stdlib.h>
 
+#include "../scenery/mesh_check.h"
+#include "../scenery/mesh_files.h"
+
 // library.js counts on it.
 _Static_assert(sizeof(nsvcd_answer) == 4 * 101 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
 _Static_assert(offsetof(nsvcd_certificate, size) == 4 * 6, "behind a double");
+
+// What printf of wasi-libc would ask a host for; only snprintf is used, which does not.
+int32_t __imported_wasi_snapshot_preview1_fd_close(int32_t fd) {
+  return fd;
+}
+int32_t __imported_wasi_snapshot_preview1_fd_seek(int32_t fd, int64_t to, int32_t from,
+                                                  int32_t out) {
+  return (void)to, (void)from, (void)out, fd;
+}
+int32_t __imported_wasi_snapshot_preview1_fd_write(int32_t fd, int32_t list, int32_t count,
+                                                   int32_t out) {
+  return (void)list, (void)count, (void)out, fd;
+}
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -23,7 +39,9 @@ _Static_assert(offsetof(nsvcd_certificate, size) == 4 * 6, "behind a double");
 typedef struct side {
   nsvcd_mesh mesh;
   const nsvcd_body *body;
+  void *baked;  // the memory of a body that was not encoded here, or NULL
   nsvcd_body_facts facts;
+  int has_latents;         // what the network needs, and which takes most of the time
   void *memory;            // of the tree
   const nsvcd_tree *tree;  // of the mesh; NULL: not yet built
 } side;
@@ -35,36 +53,82 @@ static nsvcd_certificate certificate;
 static uint8_t proof[1 << 20];  // its bytes
 static void *workspace;
 static size_t workspace_size;
-static size_t error_line;
+static mesh_fault fault;  // of the last file
+static char findings[MESH_FINDINGS * MESH_LINE];
 
-// Room for a text of so many bytes, to be written by the page and read by web_encode; NULL without
-// memory.
+// Room for a text of so many bytes, to be written by the page and given to a function that frees
+// it; NULL without memory.
 char *EXPORT(web_text)(size_t size) {
-  return (char *)malloc(size);
+  const size_t unit = NSVCD_ALIGNMENT;
+  return (char *)aligned_alloc(unit, (size + unit) / unit * unit);
 }
 
-// Reads OBJ text and encodes it as A (0) or B (1); gives the text back. On failure the body stays
-// what it was, and web_error_line is the line at fault, or 0.
-nsvcd_result EXPORT(web_encode)(size_t which, char *text, size_t size) {
+static void set_body(side *s, const nsvcd_body *body, void *baked) {
+  if (!s->baked) nsvcd_body_free(s->body, NULL);
+  free(s->baked);
+  s->body = body;
+  s->baked = baked;
+}
+
+// Reads a file and encodes it as A (0) or B (1); gives its name and its bytes back. On failure the
+// body stays what it was; web_fault_line is the line at fault, or 0, and web_fault_reason says why.
+// baked: NULL, or the body as `svcd encode` makes it of that file, which is kept.
+nsvcd_result EXPORT(web_encode)(size_t which, char *name, char *bytes, size_t size, void *baked,
+                                size_t baked_size) {
   nsvcd_mesh mesh;
   const nsvcd_body *body = NULL;
-  nsvcd_encode_options options = {0};
-  nsvcd_result result = nsvcd_obj_parse(text, size, NULL, &mesh, &error_line);
-  free(text);
-  if (result) return result;
-  options.latents = 1;  // the page asks the network too
-  result = nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
+  const nsvcd_encode_options options = {0};
+  const int good = mesh_parse(name, bytes, size, NULL, &mesh, &fault);
+  free(name);
+  free(bytes);
+  if (!good) return NSVCD_ERROR_SYNTAX;
+  const nsvcd_result result = baked ? nsvcd_body_load(baked, baked_size, &body)
+                                    : nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body);
   if (result) {
     nsvcd_mesh_free(&mesh, NULL);
+    free(baked);
+    fault.reason = nsvcd_result_string(result);
     return result;
   }
   nsvcd_mesh_free(&sides[which].mesh, NULL);
-  nsvcd_body_free(sides[which].body, NULL);
+  set_body(&sides[which], body, baked);
   sides[which].mesh = mesh;
-  sides[which].body = body;
   sides[which].facts = nsvcd_body_describe(body);
+  sides[which].has_latents = 0;
   sides[which].tree = NULL;
   return NSVCD_OK;
+}
+
+// Once for each body that the network is asked about.
+static nsvcd_result add_latents(side *s) {
+  nsvcd_encode_options options = {0};
+  const nsvcd_body *body = NULL;
+  options.latents = 1;
+  if (s->has_latents) return NSVCD_OK;
+  const nsvcd_result result = nsvcd_encode(&s->mesh, &options, NULL, NULL, 0, &body);
+  if (result) return result;
+  set_body(s, body, NULL);
+  s->has_latents = 1;
+  return NSVCD_OK;
+}
+
+// What `svcd info` warns of, a line each; but for its size, which depends on the scale, and about
+// which the page asks.
+const char *EXPORT(web_findings)(size_t which) {
+  static char lines[MESH_FINDINGS][MESH_LINE];
+  const nsvcd_mesh *mesh = &sides[which].mesh;
+  mesh_report report;
+  int grave;
+  findings[0] = 0;
+  if (!mesh_check(mesh, 1, &report)) return findings;
+  const int sized = mesh_find_size(&report, lines[0]);
+  int count = mesh_findings(&report, lines, &grave);
+  count += mesh_find_large(mesh, &sides[which].facts, lines[count]);
+  for (int i = sized; i < count; i++) {
+    strcat(findings, lines[i]);
+    strcat(findings, "\n");
+  }
+  return findings;
 }
 
 static nsvcd_question make_question(float scale_a, float scale_b, float clearance) {
@@ -83,6 +147,9 @@ static nsvcd_question make_question(float scale_a, float scale_b, float clearanc
 // share of the motion the first contact is timed; 0: any contact will do.
 nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float clearance,
                                nsvcd_method method, size_t times) {
+  nsvcd_result result = NSVCD_OK;
+  if (method != NSVCD_METHOD_PROOF) result = add_latents(&sides[0]);
+  if (method != NSVCD_METHOD_PROOF && !result) result = add_latents(&sides[1]);
   nsvcd_question question = make_question(scale_a, scale_b, clearance);
   question.ask = first > 0 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
   question.to_time = first;
@@ -91,7 +158,6 @@ nsvcd_result EXPORT(web_sweep)(float scale_a, float scale_b, float first, float 
     workspace_size = nsvcd_sweep_workspace_size(NULL);
     workspace = malloc(workspace_size);
   }
-  nsvcd_result result = NSVCD_OK;
   for (size_t i = 0; i < times && !result; i++)
     result = nsvcd_sweep(&question, workspace, workspace_size, &answer);
   return result;
@@ -141,9 +207,17 @@ const nsvcd_mesh *EXPORT(web_mesh)(size_t which) {
 const nsvcd_body_facts *EXPORT(web_facts)(size_t which) {
   return &sides[which].facts;
 }
-size_t EXPORT(web_error_line)(void) {
-  return error_line;
+size_t EXPORT(web_fault_line)(void) {
+  return fault.line;
+}
+const char *EXPORT(web_fault_format)(void) {
+  return fault.format;
+}
+const char *EXPORT(web_fault_reason)(void) {
+  return fault.reason;
 }
 const char *EXPORT(web_result_string)(nsvcd_result result) {
   return nsvcd_result_string(result);
 }
+
+#include "arm.h"
