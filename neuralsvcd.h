@@ -2913,7 +2913,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
   size_t triangles;
   uint32_t most;
   if (!faces || !mesh) return NSVCD_ERROR_ARGUMENT;
-  if (faces->face_count && (!faces->positions || !faces->corners)) return NSVCD_ERROR_ARGUMENT;
+  if ((faces->vertex_count && !faces->positions) || (faces->corner_count && !faces->corners))
+    return NSVCD_ERROR_ARGUMENT;
   nsvcd_result result = nsvcd__faces_check(faces, &triangles, &most);
   if (result) return result;
   memset(&out, 0, sizeof out);

@@ -13,6 +13,7 @@ void test_math(void);
 void test_vectors(void);
 void test_memory(void);
 void test_mesh(void);
+void test_mesh_files(void);
 void test_patches(void);
 void test_regions(void);
 void test_surface(void);
@@ -53,6 +54,7 @@ static const test_file files[] = {
     OF(vectors),
     OF(memory),
     OF(mesh),
+    OF(mesh_files),
     OF(patches),
     OF(regions),
     OF(surface),

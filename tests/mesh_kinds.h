@@ -113,7 +113,7 @@ static nsvcd_mesh mesh_box(double x, double y, double z) {
 }
 
 // random triangles, some tiny, some slivers, some points
-static nsvcd_mesh mesh_soup(size_t triangles, double size) {
+static nsvcd_mesh mesh_shards(size_t triangles, double size) {
   nsvcd_mesh mesh = mesh_new(3 * triangles, triangles);
   for (size_t i = 0; i < 3 * triangles; ++i) {
     double scale = i % 9 < 3 ? 1 : 0.05;
@@ -165,7 +165,7 @@ static nsvcd_mesh mesh_kind(int kind) {
     case 3:
       return mesh_round(33, 48, 0.12, 0);  // a lumpy sphere
     case 4:
-      return mesh_soup(300, 0.15);
+      return mesh_shards(300, 0.15);
     case 5:
       return mesh_fan(200, 1, 0.05);
     case 6:

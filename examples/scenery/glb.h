@@ -14,7 +14,7 @@
 
 // Where the items of an array are.
 typedef struct glb_list {
-  size_t *items;
+  size_t *items;  // JSON_NONE: a node that was visited
   size_t count;
 } glb_list;
 
@@ -22,8 +22,9 @@ typedef struct glb {
   json j;
   const unsigned char *data;  // of the binary chunk
   size_t size;
+  int is_outside;  // the data is in another file
   glb_list accessors, views, nodes, meshes;
-  size_t visits;  // of nodes
+  size_t work, most;  // values looked at and corners made; so many of them are enough
   mesh_soup soup;
   mesh_fault *fault;
 } glb;
@@ -119,6 +120,16 @@ static inline double glb_number(const glb_rows *rows, size_t row, size_t column)
   return fmax(-1, value / (rows->is_signed ? past / 2 - 1 : past - 1));
 }
 
+// A small file may name a mesh many times, and in it what is long. Returns 0 with a reason.
+static inline int glb_afford(glb *g, size_t work) {
+  g->work += work;
+  return g->work <= g->most ||
+         mesh_refuse(g->fault, "it names the same things too many times: too large");
+}
+static inline size_t glb_extent(const json *j, size_t i) {
+  return i == JSON_NONE ? 0 : j->values[i].next - i;
+}
+
 // An accessor, every byte of which is in the file. Returns 0 with a reason.
 static inline int glb_access(glb *g, size_t index, const char *type, glb_rows *rows) {
   const json *j = &g->j;
@@ -133,7 +144,10 @@ static inline int glb_access(glb *g, size_t index, const char *type, glb_rows *r
     return mesh_refuse(g->fault, "sparse accessors are not read");
   if (view == JSON_NONE)
     return mesh_refuse(g->fault, "an accessor without data: compressed? save it without that");
-  if (json_find(j, json_find(j, view, "extensions"), "EXT_meshopt_compression") != JSON_NONE)
+  if (!glb_afford(g, glb_extent(j, accessor) + glb_extent(j, view))) return 0;
+  const size_t extensions = json_find(j, view, "extensions");
+  if (json_find(j, extensions, "EXT_meshopt_compression") != JSON_NONE ||
+      json_find(j, extensions, "KHR_meshopt_compression") != JSON_NONE)
     return mesh_refuse(g->fault, "compressed (meshopt): save it without compression");
   if (component < 5120 || component > 5126 || component == 5124)
     return mesh_refuse(g->fault, "a type of numbers that glTF does not have");
@@ -146,6 +160,10 @@ static inline int glb_access(glb *g, size_t index, const char *type, glb_rows *r
   const size_t row = rows->columns * rows->bytes;
   const size_t told = json_find(j, view, "byteStride");
   rows->stride = told == JSON_NONE ? row : json_whole(j, told);
+  if (type[0] == 'S' && (rows->is_real || rows->is_signed || rows->is_normalized))
+    return mesh_refuse(g->fault, "indices of a type that indices do not have");
+  if (json_whole(j, json_find(j, view, "buffer")) != 0 || g->is_outside)
+    return mesh_refuse(g->fault, "its data is in another file");
   const size_t places[3] = {json_find(j, accessor, "byteOffset"), json_find(j, view, "byteOffset"),
                             json_find(j, view, "byteLength")};
   size_t offsets[3];
@@ -153,8 +171,6 @@ static inline int glb_access(glb *g, size_t index, const char *type, glb_rows *r
     offsets[k] = places[k] == JSON_NONE ? 0 : json_whole(j, places[k]);
     if (offsets[k] > g->size) return mesh_refuse(g->fault, "an offset outside of the file");
   }
-  if (json_whole(j, json_find(j, view, "buffer")) != 0)
-    return mesh_refuse(g->fault, "its data is in another file");
   if (offsets[2] > g->size - offsets[1] || offsets[0] > offsets[2])
     return mesh_refuse(g->fault, "an offset outside of the file");
   const size_t left = offsets[2] - offsets[0];
@@ -197,6 +213,7 @@ static inline int glb_primitive(glb *g, size_t primitive, const glb_place *place
   const size_t corners = indices.at ? indices.count : positions.count;
   if (positions.count > 0x7fffffff - first || corners > 0x7fffffff)
     return mesh_refuse(g->fault, "more vertices than the library takes");
+  if (!glb_afford(g, positions.count + corners)) return 0;
   for (size_t i = 0; i < positions.count; i++) {
     double world[3];
     for (int r = 0; r < 3; r++) {
@@ -222,23 +239,26 @@ static inline int glb_primitive(glb *g, size_t primitive, const glb_place *place
   return 1;
 }
 
-// A node, and those below it.
+// A node, and those below it. Each has one parent, or is a root: there are no rings.
 static inline int glb_node(glb *g, size_t index, const glb_place *parent, int depth) {
   const json *j = &g->j;
   const size_t node = glb_item(&g->nodes, index);
   const size_t mesh = json_find(j, node, "mesh");
   const size_t children = json_find(j, node, "children");
   glb_place own, place;
-  if (node == JSON_NONE) return mesh_refuse(g->fault, "a node that is not there");
-  // each has one parent at most: more visits than values are a ring
-  if (depth > GLB_DEPTH || ++g->visits > j->count)
-    return mesh_refuse(g->fault, "nodes below nodes without end");
+  if (node == JSON_NONE)
+    return mesh_refuse(g->fault, "a node that is not there, or is named twice");
+  g->nodes.items[index] = JSON_NONE;
+  if (depth > GLB_DEPTH) return mesh_refuse(g->fault, "nodes below nodes, more than 64 deep");
+  if (json_find(j, json_find(j, node, "extensions"), "EXT_mesh_gpu_instancing") != JSON_NONE)
+    return mesh_refuse(g->fault, "instances of a node are not read");
   if (!glb_take_place(g, node, &own)) return mesh_refuse(g->fault, "a node with a broken place");
   place = glb_compose(parent, &own);
   if (mesh != JSON_NONE) {
     const size_t drawn = glb_item(&g->meshes, json_whole(j, mesh));
     const size_t primitives = json_find(j, drawn, "primitives");
     if (!json_is(j, primitives, '[')) return mesh_refuse(g->fault, "a mesh that is not there");
+    if (!glb_afford(g, glb_extent(j, drawn))) return 0;
     for (size_t i = primitives + 1; i < j->values[primitives].next; i = j->values[i].next) {
       if (!glb_primitive(g, i, &place)) return 0;
     }
@@ -258,6 +278,8 @@ static inline int glb_scene(glb *g) {
   const size_t scenes = json_find(j, 0, "scenes");
   const size_t scene = json_item(j, scenes, told == JSON_NONE ? 0 : json_whole(j, told));
   const size_t roots = json_find(j, scene, "nodes");
+  const size_t buffer = json_item(j, json_find(j, 0, "buffers"), 0);
+  g->is_outside = json_find(j, buffer, "uri") != JSON_NONE;
   if (!glb_open_list(j, "accessors", &g->accessors) ||
       !glb_open_list(j, "bufferViews", &g->views) || !glb_open_list(j, "nodes", &g->nodes) ||
       !glb_open_list(j, "meshes", &g->meshes))
@@ -299,6 +321,7 @@ static inline int glb_parse(const void *data, size_t size, const nsvcd_allocator
   glb g;
   memset(&g, 0, sizeof g);
   g.fault = fault;
+  g.most = ((size_t)1 << 24) + (size > SIZE_MAX / 64 ? SIZE_MAX / 2 : 32 * size);
   const int good = glb_chunks(&g, (const unsigned char *)data, size) && glb_scene(&g) &&
                    mesh_soup_finish(&g.soup, allocator, mesh, fault);
   free(g.j.values);

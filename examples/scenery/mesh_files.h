@@ -42,6 +42,23 @@ static inline const char *mesh_format(const char *name, const unsigned char *dat
   return size >= 6 && memcmp(data, "solid ", 6) == 0 ? "STL" : "OBJ";
 }
 
+// An STL. The library takes what is longer than its count says, and would lose triangles.
+static inline int mesh_take_stl(const unsigned char *data, size_t size,
+                                const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                mesh_fault *fault) {
+  const int is_binary = size >= 84 && memchr(data, 0, size);  // no text holds a NUL
+  const uint64_t needed = is_binary ? 84 + 50 * mesh_word(data + 80, 4, 0) : 0;
+  if (is_binary && size >= needed + 50)
+    return mesh_refuse(fault, "it is longer than its count of triangles says");
+  const nsvcd_result result = nsvcd_stl_parse(data, size, allocator, mesh, &fault->line);
+  if ((result == NSVCD_ERROR_SYNTAX && !fault->line) || (result && size < needed)) {
+    fault->line = 0;
+    return mesh_refuse(fault,
+                       "it is shorter than its count of triangles says; text begins with 'solid'");
+  }
+  return !result || mesh_refuse(fault, nsvcd_result_string(result));
+}
+
 // Returns 1, or 0 with a reason in *fault. data: (size), not NULL. name: of the file, or "".
 static inline int mesh_parse(const char *name, const void *data, size_t size,
                              const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
@@ -63,11 +80,9 @@ static inline int mesh_parse(const char *name, const void *data, size_t size,
       return ply_parse(bytes, size, allocator, mesh, fault);
     return mesh_refuse(fault, "it does not begin with 'ply', as a PLY does");
   }
-  const nsvcd_result result = fault->format[0] == 'S'
-                                  ? nsvcd_stl_parse(data, size, allocator, mesh, &fault->line)
-                                  : nsvcd_obj_parse(bytes, size, allocator, mesh, &fault->line);
-  if (result == NSVCD_ERROR_SYNTAX && !fault->line)
-    return mesh_refuse(fault, "it is shorter than its count of triangles says");
+  if (fault->format[0] == 'S')
+    return mesh_take_stl((const unsigned char *)data, size, allocator, mesh, fault);
+  const nsvcd_result result = nsvcd_obj_parse(bytes, size, allocator, mesh, &fault->line);
   return !result || mesh_refuse(fault, nsvcd_result_string(result));
 }
 

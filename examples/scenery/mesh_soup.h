@@ -52,6 +52,7 @@ static inline int mesh_number(const char **at, const char *end, double *out) {
     exponent += down ? -written : written;
   }
   *at = p;
+  if (mantissa == 0) exponent = 0;  // no infinity times it
   *out = (minus ? -mantissa : mantissa) * pow(10, exponent);
   if (exponent < 0) *out = (minus ? -mantissa : mantissa) / pow(10, -exponent);
   return 1;

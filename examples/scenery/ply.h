@@ -77,11 +77,13 @@ static inline int ply_type_of(ply_word word, ply_type *out) {
   return 0;
 }
 
-// One number of an element. Returns 0 with a reason.
+// One number of an element. out: NULL: it is skipped, and may be no number. Returns 0 with a reason.
 static inline int ply_value(ply_reader *r, ply_type type, double *out) {
   if (r->is_text) {
     for (; r->at < r->end && ply_blank(*r->at); r->at++) r->line += *r->at == '\n';
     if (r->at == r->end) return mesh_refuse(r->fault, "it ends before its elements do");
+    while (!out && r->at < r->end && !ply_blank(*r->at)) r->at++;
+    if (!out) return 1;
     const int good = mesh_number(&r->at, r->end, out);
     if (good && (r->at == r->end || ply_blank(*r->at))) return 1;
     return mesh_refuse(r->fault, "a number is wanted");
@@ -90,6 +92,7 @@ static inline int ply_value(ply_reader *r, ply_type type, double *out) {
     return mesh_refuse(r->fault, "it ends before its elements do");
   const uint64_t word = mesh_word((const unsigned char *)r->at, type.bytes, r->is_big);
   r->at += type.bytes;
+  if (!out) return 1;
   if (type.kind == PLY_REAL && type.bytes == 8) {
     memcpy(out, &word, sizeof *out);
   } else if (type.kind == PLY_REAL) {
@@ -120,9 +123,8 @@ static inline int ply_list(ply_reader *r, const ply_property *property) {
   uint32_t count;
   if (!ply_whole(r, property->length, &count, "a list of less than no length")) return 0;
   if (property->part != 3) {
-    double unused;
     for (uint32_t i = 0; i < count; i++) {
-      if (!ply_value(r, property->type, &unused)) return 0;
+      if (!ply_value(r, property->type, NULL)) return 0;
     }
     return 1;
   }
@@ -146,13 +148,9 @@ static inline int ply_rows(ply_reader *r, const ply_element *element) {
     double position[3] = {0, 0, 0};
     for (size_t i = 0; i < element->property_count; i++) {
       const ply_property *property = &element->properties[i];
-      double value;
-      if (property->length.bytes) {
-        if (!ply_list(r, property)) return 0;
-        continue;
-      }
-      if (!ply_value(r, property->type, &value)) return 0;
-      if (property->part >= 0) position[property->part] = value;
+      double *place = property->part >= 0 ? &position[property->part % 3] : NULL;
+      if (property->length.bytes ? !ply_list(r, property) : !ply_value(r, property->type, place))
+        return 0;
     }
     if (element->is_vertex && !mesh_soup_vertex(r->soup, position))
       return mesh_refuse(r->fault, PLY_NO_MEMORY);
@@ -176,7 +174,7 @@ static inline int ply_take_element(ply_reader *r, const ply_word *words, int cou
   element->is_face = ply_is(words[1], "face");
   for (size_t i = 0; i < words[2].length; i++) {
     const char c = words[2].at[i];
-    if (c < '0' || c > '9' || element->count > 0x7fffffff)
+    if (c < '0' || c > '9' || element->count > 0x7fffffff / 10)
       return mesh_refuse(r->fault, "a count of elements that is none");
     element->count = 10 * element->count + (size_t)(c - '0');
   }
