@@ -254,7 +254,7 @@ firmware: | build  ## Cortex-M under QEMU: answers as on the host; flash, RAM, s
 	$(MAKE) -C examples/firmware run table
 # A page with the library as WebAssembly: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32; and its test in a browser:
 # chromium-driver, python3-selenium.
-web:  ## build/web/index.html: drag a motion, drop two OBJ files, see the answer
+web:  ## build/web/index.html: drag a motion, drop files, see the answer; five scenes, an arm among them
 	@$(MAKE) --no-print-directory -C examples/web page
 check-web: build/svcd build/verify
 	@$(MAKE) --no-print-directory -C examples/web check
