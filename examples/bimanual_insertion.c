@@ -20,8 +20,8 @@ static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion
   const float *start = scene->problems[0].start;
   const float *goal = scene->problems[0].goal;
   const double m = TASK_PI / 2;
-  draw_view view = {0.35, 0.4, {0.22, 0, 0.72}, 650, 640, 520, 0.03};
-  draw_view near = {0, 0.3, {0, 0, 0}, 650, 640, 520, 0.02};
+  draw_view view = {0.35, 0.4, {0.22, 0, 0.72}, 650, 640, 520};
+  draw_view near = {0, 0.3, {0, 0, 0}, 650, 640, 520};
   draw_list list = {&view, NULL, 0, 0, 0};
   draw_panel(svg, 24, 84, &view);
   draw_still(&list, scene);

@@ -17,7 +17,7 @@ static draw_view look(const task_scene *scene, const planner_motion *motion) {
   const task_problem *problem = &scene->problems[scene->selected];
   const int rack_body = scene->held[0] - 1;
   const oracle_pose *rack = &scene->bodies[rack_body].offset;
-  draw_view view = {0, 0.5, {0, 0, 0}, 500, 496, 470, 0.07};
+  draw_view view = {0, 0.5, {0, 0, 0}, 500, 496, 470};
   double best = -HUGE_VAL;
   double azimuth = 0;
   double yaw = 2 * atan2(rack->rotation[2], rack->rotation[3]);

@@ -151,7 +151,7 @@ static double oracle_says(const flight *f, const shapes_mesh *drone, const shape
 
 // The level is drawn with fewer triangles: the same things in the same places.
 static int draw(const flight *f, const shapes_mesh *drone) {
-  const draw_view view = {-0.9, 0.75, {0, 0, 0.3}, 33, 860, 620, 0.6};
+  const draw_view view = {-0.9, 0.75, {0, 0, 0.3}, 33, 860, 620};
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   shapes_mesh ground, things;
   FILE *svg = draw_open("build/fly_through.svg", 900, 740, "A level as one body",

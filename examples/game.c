@@ -364,7 +364,7 @@ static void draw_trail(const game *g, draw_list *list) {
 
 static int draw(const game *g) {
   static const draw_colour *const colours[3] = {&draw_cream, &draw_rock, &draw_steel};
-  const draw_view view = {-1.15, 0.6, {0.4, 0, 0.3}, 125, 1060, 610, 0.5};
+  const draw_view view = {-1.15, 0.6, {0.4, 0, 0.3}, 125, 1060, 610};
   const oracle_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
   draw_list list = {&view, NULL, 0, 0, 0};
   FILE *svg = draw_open("build/game.svg", 1100, 714, "A level at 60 Hz",

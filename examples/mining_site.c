@@ -27,7 +27,7 @@ static void draw_motion(FILE *svg, const task_scene *scene, const planner_motion
   const int ghosts = 8;
   const float *start = scene->problems[0].start;
   const float *goal = scene->problems[0].goal;
-  const draw_view view = {-1.45, 0.8, {4.95, 0.25, 0.4}, 132, 1500, 540, 0.2};
+  const draw_view view = {-1.45, 0.8, {4.95, 0.25, 0.4}, 132, 1500, 540};
   draw_list list = {&view, NULL, 0, 0, 0};
   draw_panel(svg, 24, 84, &view);
   draw_floor(&list, scene);

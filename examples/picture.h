@@ -22,8 +22,8 @@
 #define PICTURE_GHOSTS 9
 
 // The camera stands at +x, 24 degrees towards -y, and looks down by 17 degrees.
-static const draw_view picture_view = {
-    -0.42, 0.30, {0, -0.1528, 0.1361}, 860, PICTURE_WIDTH, PICTURE_HEIGHT, 1};
+static const draw_view picture_view = {-0.42, 0.30,          {0, -0.1528, 0.1361},
+                                       860,   PICTURE_WIDTH, PICTURE_HEIGHT};
 static const oracle_pose picture_origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
 typedef struct picture_panel {

@@ -258,7 +258,6 @@ static int preview_draw(int task, uint64_t seed, const char *path, const draw_vi
       task_place(&scene, scene.problems[0].goal, poses);
       for (int k = 0; k < 3; k++) near.look_at[k] = (double)poses[scene.held[1]].position[k];
       near.scale *= 3.5;
-      near.cut /= 3;
     }
     const char *const steps[3] = {"start", "goal", "goal, from near"};
     const int ghosts[3] = {3, 0, 5};
@@ -298,12 +297,12 @@ static int preview_film(uint64_t seed, const char *path, const draw_view *view) 
 }
 
 int main(int argc, char **argv) {
-  const draw_view dish = {-0.9, 0.5, {0.25, 0, 0.25}, 410, 560, 520, 0.1};
-  const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640, 0.03};
-  const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520, 0.2};
+  const draw_view dish = {-0.9, 0.5, {0.25, 0, 0.25}, 410, 560, 520};
+  const draw_view bimanual = {0.5, 0.45, {0.22, 0.03, 0.72}, 700, 700, 640};
+  const draw_view mining = {-1.45, 0.8, {4.95, 0.25, 0.4}, 130, 1480, 520};
   uint64_t seed = argc > 1 ? (uint64_t)atoi(argv[1]) : 1;
   if (argc > 2) return preview_measure(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0);
-  const draw_view film = {0.5, 0.45, {0.22, 0.03, 0.72}, 560, 560, 520, 0.08};
+  const draw_view film = {0.5, 0.45, {0.22, 0.03, 0.72}, 560, 560, 520};
   return !(preview_film(seed, "build/task_film.svg", &film) &&
            preview_draw(0, seed, "build/task_dish.svg", &dish) &&
            preview_draw(1, seed, "build/task_bimanual.svg", &bimanual) &&

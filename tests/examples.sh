@@ -655,5 +655,12 @@ for option in '--points 0' '--points 65537' '--pairs 257' '--pairs x' '--model h
   expect 2 "$(echo "$option" | cut -d' ' -f1)" build/svcd check "$dir/good.txt" $option
 done
 
+# Pictures are for pages: what is seen is what they hold. A film has 40 of them.
+for picture in build/demo.svg build/game.svg build/fly_through.svg build/dish_insertion.svg build/bimanual_insertion.svg \
+  build/mining_site.svg "$dir/up.svg" "$dir/x.svg"; do
+  size=$(wc -c <"$picture")
+  test "$size" -lt 400000 || fail "$picture: $size bytes"
+done
+
 test "$failures" = 0 || exit 1
 echo "examples: the quickstart, the planners and svcd do as they should"

@@ -1,8 +1,9 @@
 // draw.h - meshes as SVG: triangles at poses, solid or as ghosts, lines that things move along,
 // panels side by side, frames one after the other.
 //
-// A parallel projection, nearer triangles over farther ones; long triangles are cut up, as
-// otherwise a wall would have only one depth. One panel:
+// A parallel projection. What is nearest is found sample by sample, and what is written are the
+// outlines of what has one colour: so a picture grows with what is seen, not with triangles. One
+// panel:
 //
 //   FILE *svg = draw_open("scene.svg", 800, 600, "title", "what is to be seen");
 //   draw_panel(svg, 20, 84, &view);
@@ -27,7 +28,6 @@ typedef struct draw_view {
   double look_at[3];          // metres; in the middle of the panel
   double scale;               // pixels per metre
   int width, height;          // pixels
-  double cut;                 // metres: edges longer than this are cut up
 } draw_view;
 
 typedef struct draw_colour {
@@ -46,10 +46,9 @@ static const draw_colour draw_red = {{132, 14, 22}, {255, 128, 116}};
 static const draw_colour draw_orange = {{160, 70, 8}, {255, 190, 110}};
 
 typedef struct draw_triangle {
-  double corners[3][2];  // pixels
-  double depth;          // of the middle, metres; greater is nearer
+  double corners[3][3];  // pixels; depth in metres, greater is nearer
   double light;          // 0 dark to 1 bright
-  double opacity;
+  double opacity;        // below 1: a ghost
   const draw_colour *colour;
 } draw_triangle;
 
@@ -99,38 +98,6 @@ DRAW_DEF int draw_is_outside(const draw_view *view, const double (*corners)[3]) 
   }
   return 0;
 }
-// Halves the longest edge until none is longer than view->cut.
-DRAW_DEF void draw_split(draw_list *list, const double (*world)[3], draw_triangle *triangle) {
-  double longest = 0;
-  double d[3], p[3][3];
-  int edge = 0;
-  for (int i = 0; i < 3; i++) {
-    draw_project(list->view, world[i], p[i]);
-    oracle_sub(world[(i + 1) % 3], world[i], d);
-    if (oracle_length(d) > longest) {
-      longest = oracle_length(d);
-      edge = i;
-    }
-  }
-  if (draw_is_outside(list->view, (const double(*)[3])p)) return;
-  if (longest > list->view->cut) {
-    double a[3][3], b[3][3];
-    memcpy(a, world, sizeof a);
-    memcpy(b, world, sizeof b);
-    for (int k = 0; k < 3; k++)
-      a[edge][k] = b[(edge + 1) % 3][k] = (world[edge][k] + world[(edge + 1) % 3][k]) / 2;
-    draw_split(list, (const double(*)[3])a, triangle);
-    draw_split(list, (const double(*)[3])b, triangle);
-    return;
-  }
-  triangle->depth = 0;
-  for (int i = 0; i < 3; i++) {
-    triangle->corners[i][0] = p[i][0];
-    triangle->corners[i][1] = p[i][1];
-    triangle->depth += p[i][2] / 3;
-  }
-  draw_push(list, triangle);
-}
 // One triangle, unless it is seen from inside.
 DRAW_DEF void draw_one(draw_list *list, const oracle_triangle *t, const oracle_pose *pose,
                        const draw_colour *colour, double opacity) {
@@ -138,14 +105,17 @@ DRAW_DEF void draw_one(draw_list *list, const oracle_triangle *t, const oracle_p
   const draw_view *view = list->view;
   const double to_viewer[3] = {cos(view->elevation) * cos(view->azimuth),
                                cos(view->elevation) * sin(view->azimuth), sin(view->elevation)};
-  draw_triangle triangle = {{{0, 0}, {0, 0}, {0, 0}}, 0, 0, opacity, colour};
-  double world[3][3], m[9], normal[3];
+  draw_triangle triangle = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 0, opacity, colour};
+  double world[3], m[9], normal[3];
   oracle_matrix(pose->rotation, m);
   oracle_rotate(m, t->normal, normal);
   if (oracle_dot(normal, to_viewer) <= 0) return;
-  for (int k = 0; k < 3; k++) oracle_transform(pose, t->v[k], world[k]);
+  for (int k = 0; k < 3; k++) {
+    oracle_transform(pose, t->v[k], world);
+    draw_project(view, world, triangle.corners[k]);
+  }
   triangle.light = 0.5 + 0.5 * oracle_dot(normal, to_light);
-  draw_split(list, (const double(*)[3])world, &triangle);
+  if (!draw_is_outside(view, (const double(*)[3])triangle.corners)) draw_push(list, &triangle);
 }
 // Opacity below 1 makes a ghost.
 DRAW_DEF void draw_solid(draw_list *list, const oracle_mesh *mesh, const oracle_pose *pose,
@@ -174,35 +144,247 @@ DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale
   draw_solid(list, &mesh, pose, colour, 1);
   oracle_mesh_free(&mesh);
 }
-DRAW_DEF int draw_compare(const void *a, const void *b) {
-  double x = ((const draw_triangle *)a)->depth;
-  double y = ((const draw_triangle *)b)->depth;
-  return (x > y) - (x < y);
+
+// ------------------------------------------------------------------------------------ what is seen
+
+#define DRAW_SAMPLES 2  // a pixel, along each axis
+#define DRAW_STEPS 24   // of light: more the eye does not see
+
+// What is seen at each sample: the fill, 0 for nothing, and how near it is.
+typedef struct draw_raster {
+  int width, height;
+  uint32_t *fills;  // (height, width)
+  float *depths;
+} draw_raster;
+
+DRAW_DEF uint32_t draw_fill(const draw_triangle *t) {
+  uint32_t fill = 1u << 24;  // so that black is something
+  const double light = floor(DRAW_STEPS * t->light) / DRAW_STEPS;
+  for (int k = 0; k < 3; k++)
+    fill |= (uint32_t)(t->colour->dark[k] + light * (t->colour->bright[k] - t->colour->dark[k]))
+            << (16 - 8 * k);
+  return fill;
 }
-// Draws the list, the farthest first, and empties it.
-DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
-  unsigned before = 0;  // a fill that triangles before this one have
-  if (list->count) qsort(list->triangles, list->count, sizeof *list->triangles, draw_compare);
-  for (size_t i = 0; i < list->count; i++) {
-    const draw_triangle *t = &list->triangles[i];
-    unsigned fill = (unsigned)(100 * t->opacity) << 24;
-    // steps that the eye does not see: neighbours become one path
-    double light = floor(32 * t->light) / 32;
-    for (int k = 0; k < 3; k++)
-      fill |= (unsigned)(t->colour->dark[k] + light * (t->colour->bright[k] - t->colour->dark[k]))
-              << (16 - 8 * k);
-    if (fill != before) {
-      fprintf(svg, "%s<path fill=\"#%06x\"", i ? "\"/>\n" : "", fill & 0xffffffu);
-      if (t->opacity < 1)
-        fprintf(svg, " fill-opacity=\"%.2f\" shape-rendering=\"crispEdges\" d=\"", t->opacity);
-      else  // the thin edge of the same colour hides the seams
-        fprintf(svg, " stroke-width=\".6\" stroke=\"#%06x\" d=\"", fill & 0xffffffu);
-    }
-    before = fill;
-    fprintf(svg, "M%.1f %.1fL%.1f %.1fL%.1f %.1fZ", t->corners[0][0], t->corners[0][1],
-            t->corners[1][0], t->corners[1][1], t->corners[2][0], t->corners[2][1]);
+
+// Twice the area of abc, in pixels.
+DRAW_DEF double draw_area(const double *a, const double *b, double x, double y) {
+  return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+}
+
+DRAW_DEF void draw_fill_in(draw_raster *r, const draw_triangle *t) {
+  const double(*p)[3] = (const double(*)[3])t->corners;
+  const uint32_t fill = draw_fill(t);
+  const double area = draw_area(p[0], p[1], p[2][0], p[2][1]);
+  const int size[2] = {r->width, r->height};
+  int first[2], last[2];
+  if (fabs(area) < 1e-9) return;
+  for (int axis = 0; axis < 2; axis++) {
+    const double low = fmin(p[0][axis], fmin(p[1][axis], p[2][axis]));
+    const double high = fmax(p[0][axis], fmax(p[1][axis], p[2][axis]));
+    first[axis] = (int)fmax(0, floor(DRAW_SAMPLES * low));
+    last[axis] = (int)fmin(size[axis] - 1, floor(DRAW_SAMPLES * high));
   }
-  if (list->count) fprintf(svg, "\"/>\n");
+  for (int y = first[1]; y <= last[1]; y++)
+    for (int x = first[0]; x <= last[0]; x++) {
+      const double at[2] = {(x + 0.5) / DRAW_SAMPLES, (y + 0.5) / DRAW_SAMPLES};
+      const double u = draw_area(p[1], p[2], at[0], at[1]) / area;
+      const double v = draw_area(p[2], p[0], at[0], at[1]) / area;
+      if (u < 0 || v < 0 || u + v > 1) continue;
+      const size_t sample = (size_t)y * (size_t)r->width + (size_t)x;
+      const float depth = (float)(u * p[0][2] + v * p[1][2] + (1 - u - v) * p[2][2]);
+      if (depth <= r->depths[sample]) continue;
+      r->depths[sample] = depth;
+      r->fills[sample] = fill;
+    }
+}
+
+// The fill of a sample; 0 beside the picture.
+DRAW_DEF uint32_t draw_at(const draw_raster *r, int x, int y) {
+  if (x < 0 || y < 0 || x >= r->width || y >= r->height) return 0;
+  return r->fills[(size_t)y * (size_t)r->width + (size_t)x];
+}
+
+// A sample that none beside it is like becomes like the one on its left: a speck costs as much as a
+// wall.
+DRAW_DEF void draw_despeckle(draw_raster *r) {
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++) {
+      const uint32_t fill = draw_at(r, x, y);
+      const uint32_t beside = draw_at(r, x - 1, y);
+      if (beside && fill && beside != fill && draw_at(r, x + 1, y) != fill &&
+          draw_at(r, x, y - 1) != fill && draw_at(r, x, y + 1) != fill)
+        r->fills[(size_t)y * (size_t)r->width + (size_t)x] = beside;
+    }
+}
+
+// ----------------------------------------------------------------------------------- its outlines
+
+typedef struct draw_outline {
+  uint32_t fill;
+  size_t first, count;  // points
+} draw_outline;
+
+typedef struct draw_outlines {
+  draw_outline *all;
+  int (*points)[2];  // in half samples
+  size_t count, point_count, room, point_room;
+  int failed;  // no memory
+} draw_outlines;
+
+DRAW_DEF void draw_put(draw_outlines *out, int x, int y) {
+  if (out->point_count == out->point_room) {
+    const size_t room = out->point_room ? 2 * out->point_room : 4096;
+    int(*grown)[2] = (int(*)[2])realloc(out->points, room * sizeof *grown);
+    out->failed |= !grown;
+    if (!grown) return;
+    out->points = grown;
+    out->point_room = room;
+  }
+  out->points[out->point_count][0] = x;
+  out->points[out->point_count++][1] = y;
+}
+
+// Goes once about a part of one fill, which lies on the right, from the top of a sample; through the
+// middles of the samples' sides, so that a slope is no staircase. done: tops that were passed.
+DRAW_DEF void draw_follow(const draw_raster *r, int left, int top, char *done, draw_outlines *out) {
+  static const int steps[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  static const int aheads[4][2] = {
+      {0, 0}, {-1, 0}, {-1, -1}, {0, -1}};  // on the right, of a corner
+  const uint32_t fill = draw_at(r, left, top);
+  int x = left;
+  int y = top;
+  int way = 0;
+  do {
+    if (way == 0) done[(size_t)y * (size_t)r->width + (size_t)x] = 1;
+    draw_put(out, 2 * x + steps[way][0], 2 * y + steps[way][1]);
+    x += steps[way][0];
+    y += steps[way][1];
+    const int *right = aheads[way];
+    const int *ahead = aheads[(way + 3) % 4];  // beyond it, on the left
+    if (draw_at(r, x + right[0], y + right[1]) != fill)
+      way = (way + 1) % 4;
+    else if (draw_at(r, x + ahead[0], y + ahead[1]) == fill)
+      way = (way + 3) % 4;
+  } while (x != left || y != top || way != 0);
+}
+
+// Leaves out the points between two that are no farther from the line than 0.6 samples (Douglas and
+// Peucker 1973). Those that stay move to the front; returns how many, without the last.
+DRAW_DEF size_t draw_thin(int (*p)[2], size_t count) {
+  const double dx = p[count - 1][0] - p[0][0];
+  const double dy = p[count - 1][1] - p[0][1];
+  const double length = hypot(dx, dy);
+  double farthest = 1.2;
+  size_t at = 0;
+  for (size_t i = 1; i + 1 < count; i++) {
+    const double x = p[i][0] - p[0][0];
+    const double y = p[i][1] - p[0][1];
+    const double away = length > 0 ? fabs(dx * y - dy * x) / length : hypot(x, y);
+    if (away <= farthest) continue;
+    farthest = away;
+    at = i;
+  }
+  if (at == 0) return 1;
+  const size_t first = draw_thin(p, at + 1);
+  const size_t second = draw_thin(p + at, count - at);
+  memmove(p + first, p + at, second * sizeof *p);
+  return first + second;
+}
+
+DRAW_DEF int draw_compare(const void *a, const void *b) {
+  const draw_outline *x = (const draw_outline *)a;
+  const draw_outline *y = (const draw_outline *)b;
+  if (x->fill != y->fill) return x->fill < y->fill ? -1 : 1;
+  return x->first < y->first ? -1 : 1;
+}
+
+// All of them, by their fills. 0 without memory.
+DRAW_DEF int draw_find_outlines(const draw_raster *r, draw_outlines *out) {
+  char *done = (char *)calloc((size_t)r->width * (size_t)r->height, 1);
+  memset(out, 0, sizeof *out);
+  for (int y = 0; y < r->height && done && !out->failed; y++)
+    for (int x = 0; x < r->width && !out->failed; x++) {
+      const uint32_t fill = draw_at(r, x, y);
+      if (!fill || draw_at(r, x, y - 1) == fill || done[(size_t)y * (size_t)r->width + (size_t)x])
+        continue;
+      const size_t first = out->point_count;
+      draw_follow(r, x, y, done, out);
+      draw_put(out, 2 * x + 1, 2 * y);  // closes it
+      if (out->failed) break;
+      out->point_count = first + draw_thin(out->points + first, out->point_count - first);
+      if (out->point_count - first < 3) out->point_count = first;
+      if (out->point_count == first) continue;
+      if (out->count == out->room) {
+        out->room = out->room ? 2 * out->room : 256;
+        draw_outline *grown = (draw_outline *)realloc(out->all, out->room * sizeof *grown);
+        out->failed |= !grown;
+        if (!grown) break;
+        out->all = grown;
+      }
+      const draw_outline outline = {fill, first, out->point_count - first};
+      out->all[out->count++] = outline;
+    }
+  if (out->count) qsort(out->all, out->count, sizeof *out->all, draw_compare);
+  free(done);
+  return done && !out->failed;
+}
+
+// A path for each fill; a thin edge of the same colour hides the seams.
+DRAW_DEF void draw_write(FILE *svg, const draw_outlines *out, double opacity) {
+  uint32_t before = 0;
+  fprintf(svg, "<g transform=\"scale(%g)\" fill=\"currentColor\" stroke=\"currentColor\"",
+          0.5 / DRAW_SAMPLES);
+  if (opacity < 1) fprintf(svg, " opacity=\"%.2f\"", opacity);
+  fprintf(svg, " stroke-width=\"%g\" stroke-linejoin=\"round\">\n", 1.6 * DRAW_SAMPLES);
+  for (size_t n = 0; n < out->count; n++) {
+    const draw_outline *outline = &out->all[n];
+    const int(*p)[2] = (const int(*)[2])out->points + outline->first;
+    if (outline->fill != before)
+      fprintf(svg, "%s<path color=\"#%06lx\" d=\"", before ? "\"/>\n" : "",
+              (unsigned long)(outline->fill & 0xffffffu));
+    before = outline->fill;
+    fprintf(svg, "M%d %dl", p[0][0], p[0][1]);
+    for (size_t i = 1; i < outline->count; i++)
+      for (int k = 0; k < 2; k++) {
+        const int step = p[i][k] - p[i - 1][k];
+        fprintf(svg, step < 0 || (i == 1 && k == 0) ? "%d" : " %d", step);
+      }
+    fputs("z", svg);
+  }
+  fprintf(svg, "%s</g>\n", before ? "\"/>\n" : "");
+}
+
+// Draws the list, and empties it: what is opaque, then the ghosts, those of one opacity together,
+// where nothing opaque is before them.
+DRAW_DEF void draw_flush(FILE *svg, draw_list *list) {
+  draw_raster r = {DRAW_SAMPLES * list->view->width, DRAW_SAMPLES * list->view->height, NULL, NULL};
+  const size_t samples = (size_t)r.width * (size_t)r.height;
+  float *opaque = (float *)malloc(samples * sizeof *opaque);
+  r.fills = (uint32_t *)malloc(samples * sizeof *r.fills);
+  r.depths = (float *)malloc(samples * sizeof *r.depths);
+  list->failed |= !opaque || !r.fills || !r.depths;
+  for (size_t i = 0; i < samples && !list->failed; i++) opaque[i] = -HUGE_VALF;
+  for (double opacity = 1; opacity > 0 && !list->failed;) {
+    double next = 0;  // the greatest that is less
+    draw_outlines outlines;
+    memset(r.fills, 0, samples * sizeof *r.fills);
+    memcpy(r.depths, opaque, samples * sizeof *r.depths);
+    for (size_t i = 0; i < list->count; i++) {
+      const draw_triangle *t = &list->triangles[i];
+      if (t->opacity < opacity) next = fmax(next, t->opacity);
+      if (t->opacity >= opacity && (t->opacity <= opacity || opacity >= 1)) draw_fill_in(&r, t);
+    }
+    if (opacity >= 1) memcpy(opaque, r.depths, samples * sizeof *opaque);
+    draw_despeckle(&r);
+    list->failed |= !draw_find_outlines(&r, &outlines);
+    if (outlines.count && !list->failed) draw_write(svg, &outlines, opacity);
+    free(outlines.all);
+    free(outlines.points);
+    opacity = next;
+  }
+  free(opaque);
+  free(r.fills);
+  free(r.depths);
   free(list->triangles);
   list->triangles = NULL;
   list->count = list->capacity = 0;

@@ -6,8 +6,6 @@
 #define ROBOT_WIDTH 912
 #define ROBOT_HEIGHT 640
 #define ROBOT_EDGE 24
-#define ROBOT_CUT 20  // pixels: longer edges are cut up, in a film those that are longer than that
-#define ROBOT_FILM_CUT 120
 #define ROBOT_BESIDE 0.2  // metres about the robot that are shown
 #define ROBOT_GROUND 1.0  // metres: obstacles of this radius lie below all others
 #define ROBOT_GHOSTS 5    // between the start and the end
@@ -172,7 +170,6 @@ static int robot_draw(const char *path, int is_film, const robot_in_room *in, co
                    : NULL;
   if (svg) {
     robot_picture_fit(&p, m);
-    p.view.cut = (is_film ? ROBOT_FILM_CUT : ROBOT_CUT) / p.view.scale;
     draw_panel(svg, ROBOT_EDGE, 84, &p.view);
     if (!is_film) robot_picture_scene(svg, &p, m, end, ROBOT_GHOSTS + 1);
     const int frames = is_film ? ROBOT_FRAMES : 0;

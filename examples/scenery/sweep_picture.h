@@ -108,7 +108,6 @@ static void sweep_fit_frame(const sweep_frame *frame, int width, int height, int
   view->width = width;
   view->height = height;
   view->scale = fmin((width - 2 * edge) / wide, (height - 2 * edge) / tall);
-  view->cut = 24 / view->scale;
   const double ca = cos(view->azimuth);
   const double sa = sin(view->azimuth);
   view->look_at[0] = -sa * right - sin(view->elevation) * ca * up;
@@ -118,7 +117,7 @@ static void sweep_fit_frame(const sweep_frame *frame, int width, int height, int
 
 // All of A's way fits into the panel, and all of B, or, where B is much larger, what is near by.
 static draw_view sweep_fit(const sweep_picture *p) {
-  draw_view view = {0, 0, {0, 0, 0}, 1, 0, 0, 0};
+  draw_view view = {0, 0, {0, 0, 0}, 1, 0, 0};
   sweep_frame frame = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
   double low[3], high[3], corner[3];
   double extent = 0;
