@@ -332,7 +332,8 @@ static ply_kinds ply_random(int whole) {
   k.corner = 2 + (int)mesh_below(6);
   k.other = (int)mesh_below(PLY_TYPES);
   k.extras = (int)mesh_below(64);
-  k.newline = mesh_below(3) ? "\n" : "\r\n";
+  static const char *const newlines[4] = {"\n", "\n", "\r\n", "\r"};
+  k.newline = newlines[mesh_below(4)];
   return k;
 }
 
@@ -344,6 +345,8 @@ static void mesh_ply_is_read(void) {
     mesh_fault fault;
     const ply_kinds kinds = ply_random(n % 2);
     polygons_random(&shape, n % 2);
+    // of three bytes' meaning as floats, and as an end of a line
+    if (n % 8 == 0) memcpy(shape.positions, "\n\n\n\x3d", 4);
     obj_write(&file, &shape.faces);
     CHECK_EQ(nsvcd_obj_parse(file.at, file.size, NULL, &of_obj, NULL), NSVCD_OK);
     ply_write(&file, &shape.faces, &kinds);
