@@ -147,7 +147,8 @@ static polygons shape;
 static void mesh_of_faces_is_that_of_obj(void) {
   mesh_rng = 11;
   for (int n = 0; n < 2000; n++) {
-    nsvcd_mesh mesh, of_obj;
+    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+    nsvcd_mesh of_obj = {NULL, NULL, 0, 0};
     polygons_random(&shape, 0);
     obj_write(&file, &shape.faces);
     CHECK_EQ(nsvcd_obj_parse(file.at, file.size, NULL, &of_obj, NULL), NSVCD_OK);
@@ -158,7 +159,7 @@ static void mesh_of_faces_is_that_of_obj(void) {
   }
   for (int kind = 0; kind < MESH_KINDS; kind++) {  // triangles need no sizes
     nsvcd_mesh made = mesh_kind(kind);
-    nsvcd_mesh mesh;
+    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
     nsvcd_faces faces = {made.positions,          made.indices,       NULL, made.vertex_count,
                          3 * made.triangle_count, made.triangle_count};
     CHECK_EQ(nsvcd_mesh_of_faces(&faces, NULL, &mesh), NSVCD_OK);
