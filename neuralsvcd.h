@@ -3367,8 +3367,8 @@ static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positio
 }
 
 // Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
-// their numbers indices. Where many steps are needed, as corners are chosen to share a hash, another
-// one is taken. The table is of zeros.
+// their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
+// another hash is taken. The table is of zeros.
 static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
   const size_t corners = mesh->vertex_count;
   float *positions = mesh->positions;
