@@ -3339,31 +3339,59 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
   return in_loop == 0 ? NSVCD_OK : NSVCD_ERROR_SYNTAX;
 }
 
+// Vertices by their places.
+typedef struct nsvcd__stl_places {
+  // (slots), a power of two: numbers + 1, 0 where none is
+  uint32_t *table;
+  size_t slots;
+  // of the hash
+  uint64_t seed;
+  // along the table, past vertices elsewhere
+  size_t steps;
+} nsvcd__stl_places;
+
+// The slot of the vertex at this place, or where it belongs.
+static uint32_t *nsvcd__stl_find(nsvcd__stl_places *places, const float *positions,
+                                 const float *corner) {
+  uint32_t bits[3];
+  uint64_t hash = places->seed;
+  memcpy(bits, corner, sizeof bits);
+  for (size_t k = 0; k < 3; k++) {
+    hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
+    hash ^= hash >> 32;
+  }
+  for (size_t slot = (size_t)hash;; slot++, places->steps++) {
+    uint32_t *at = &places->table[slot & (places->slots - 1)];
+    if (!*at || memcmp(positions + 3 * (size_t)(*at - 1), corner, sizeof bits) == 0) return at;
+  }
+}
+
 // Makes one vertex of corners at the same place: corners (3 triangles, 3) become positions, and
-// their numbers indices. table: (slots), a power of two, of numbers + 1; zeros.
-static void nsvcd__stl_weld(nsvcd_mesh *mesh, uint32_t *table, size_t slots) {
+// their numbers indices. Where it takes many steps, as of corners that are chosen to share a hash,
+// another hash is taken. The table is of zeros.
+static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
   const size_t corners = mesh->vertex_count;
   float *positions = mesh->positions;
-  mesh->vertex_count = 0;
+  size_t count = 0;
   for (size_t i = 0; i < corners; i++) {
-    uint32_t bits[3];
+    const size_t most = 8 * i + 1024;
     float corner[3];
     for (size_t k = 0; k < 3; k++) corner[k] = positions[3 * i + k] + 0.0f;  // -0 is 0
-    memcpy(bits, corner, sizeof bits);
-    uint64_t hash = bits[0];
-    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[1];
-    hash = (hash * UINT64_C(0x9e3779b97f4a7c15)) ^ bits[2];
-    hash *= UINT64_C(0x9e3779b97f4a7c15);
-    size_t slot = (size_t)(hash >> 32) & (slots - 1);
-    while (table[slot] &&
-           memcmp(positions + 3 * (size_t)(table[slot] - 1), corner, sizeof corner) != 0)
-      slot = (slot + 1) & (slots - 1);
-    if (!table[slot]) {
-      memcpy(positions + 3 * mesh->vertex_count, corner, sizeof corner);
-      table[slot] = (uint32_t)++mesh->vertex_count;
+    uint32_t *at = nsvcd__stl_find(places, positions, corner);
+    if (!*at) {
+      memcpy(positions + 3 * count, corner, sizeof corner);
+      *at = (uint32_t)++count;
     }
-    mesh->indices[i] = table[slot] - 1;
+    mesh->indices[i] = *at - 1;
+    while (places->steps > most) {
+      places->seed += UINT64_C(0xd1342543de82ef95);
+      places->steps = 0;
+      memset(places->table, 0, places->slots * sizeof *places->table);
+      for (size_t v = 0; v < count && places->steps <= most; v++)
+        *nsvcd__stl_find(places, positions, positions + 3 * v) = (uint32_t)v + 1;
+    }
   }
+  mesh->vertex_count = count;
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
@@ -3394,12 +3422,11 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
   nsvcd_mesh out;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   memset(&out, 0, sizeof out);
-  size_t slots = 16;
-  while (slots < 2 * corners) slots *= 2;
-  uint32_t *table = NULL;
+  nsvcd__stl_places places = {NULL, 16, 0, 0};
+  while (places.slots < 2 * corners) places.slots *= 2;
   if (!result) {
-    table = NSVCD__TAKE(&arena, uint32_t, slots);
-    if (!table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
+    places.table = NSVCD__TAKE(&arena, uint32_t, places.slots);
+    if (!places.table || !nsvcd__mesh_alloc(&out, corners, corners / 3, allocator)) {
       text.line = 0;
       result = NSVCD_ERROR_MEMORY;
     }
@@ -3413,7 +3440,7 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
     const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
     result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), out.positions + 3 * i);
   }
-  if (!result) nsvcd__stl_weld(&out, table, slots);
+  if (!result) nsvcd__stl_weld(&out, &places);
   nsvcd__arena_free(&arena);
   if (result) {
     if (error_line && !is_binary) *error_line = text.line;

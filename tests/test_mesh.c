@@ -579,6 +579,26 @@ static void mesh_stl_is_refused(void) {
   CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, NULL, &line), NSVCD_ERROR_ARGUMENT);
 }
 
+// Corners that are chosen to share a slot of the table: it takes another hash, and stays linear.
+static void mesh_stl_shares_no_hash(void) {
+  enum { CORNERS = 1500, SLOTS = 4096 };
+  static float positions[3 * CORNERS];
+  static uint32_t indices[CORNERS], table[SLOTS];
+  nsvcd_mesh mesh = {positions, indices, CORNERS, CORNERS / 3};
+  nsvcd__stl_places places = {table, SLOTS, 0, 0};
+  mesh_rng = 6;
+  for (size_t n = 0; n < CORNERS;) {
+    float *corner = positions + 3 * n;
+    for (size_t k = 0; k < 3; k++) corner[k] = (float)mesh_uniform(-1, 1);
+    n += nsvcd__stl_find(&places, positions, corner) == table;
+  }
+  nsvcd__stl_weld(&mesh, &places);
+  CHECK(places.seed != 0);
+  CHECK_LE(places.steps, 8 * CORNERS + 1024);
+  CHECK_EQ(mesh.vertex_count, CORNERS);
+  for (size_t n = 0; n < CORNERS; n++) CHECK_EQ(indices[n], n);
+}
+
 static void mesh_stl_fuzz(void) {
   static char seed[2000];
   static const float corners[27] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
@@ -933,6 +953,7 @@ void test_mesh(void) {
   RUN(mesh_obj_fuzz);
   RUN(mesh_stl_is_read);
   RUN(mesh_stl_is_refused);
+  RUN(mesh_stl_shares_no_hash);
   RUN(mesh_stl_fuzz);
   RUN(mesh_is_checked);
   RUN(mesh_polygons_simple);

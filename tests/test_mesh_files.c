@@ -147,7 +147,8 @@ static polygons shape;
 static void mesh_of_faces_is_that_of_obj(void) {
   mesh_rng = 11;
   for (int n = 0; n < 2000; n++) {
-    nsvcd_mesh mesh, of_obj;
+    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+    nsvcd_mesh of_obj = {NULL, NULL, 0, 0};
     polygons_random(&shape, 0);
     obj_write(&file, &shape.faces);
     CHECK_EQ(nsvcd_obj_parse(file.at, file.size, NULL, &of_obj, NULL), NSVCD_OK);
@@ -158,7 +159,7 @@ static void mesh_of_faces_is_that_of_obj(void) {
   }
   for (int kind = 0; kind < MESH_KINDS; kind++) {  // triangles need no sizes
     nsvcd_mesh made = mesh_kind(kind);
-    nsvcd_mesh mesh;
+    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
     nsvcd_faces faces = {made.positions,          made.indices,       NULL, made.vertex_count,
                          3 * made.triangle_count, made.triangle_count};
     CHECK_EQ(nsvcd_mesh_of_faces(&faces, NULL, &mesh), NSVCD_OK);
@@ -332,7 +333,8 @@ static ply_kinds ply_random(int whole) {
   k.corner = 2 + (int)mesh_below(6);
   k.other = (int)mesh_below(PLY_TYPES);
   k.extras = (int)mesh_below(64);
-  k.newline = mesh_below(3) ? "\n" : "\r\n";
+  static const char *const newlines[4] = {"\n", "\n", "\r\n", "\r"};
+  k.newline = newlines[mesh_below(4)];
   return k;
 }
 
@@ -344,6 +346,8 @@ static void mesh_ply_is_read(void) {
     mesh_fault fault;
     const ply_kinds kinds = ply_random(n % 2);
     polygons_random(&shape, n % 2);
+    // of three bytes' meaning as floats, and as an end of a line
+    if (n % 8 == 0) memcpy(shape.positions, "\n\n\n\x3d", 4);
     obj_write(&file, &shape.faces);
     CHECK_EQ(nsvcd_obj_parse(file.at, file.size, NULL, &of_obj, NULL), NSVCD_OK);
     ply_write(&file, &shape.faces, &kinds);

@@ -78,7 +78,7 @@ static inline void mesh_soup_free(mesh_soup *soup) {
   free(soup->sizes);
 }
 
-#define MESH_SOUP_MOST ((size_t)1 << 30)  // bytes: a small file may name a mesh many times
+#define MESH_SOUP_MOST ((size_t)1 << 30)  // bytes of an array
 
 // Room for one more row. 0 without memory; what was there stays.
 static inline int mesh_soup_grow(void *rows, size_t count, size_t *room, size_t row) {

@@ -25,6 +25,7 @@ typedef struct ply_reader {
   const char *at, *end;
   size_t line;
   int is_text, is_big;
+  int ends_in_cr;  // alone: the first row of what is binary may begin with a byte that is LF
   mesh_soup *soup;
   mesh_fault *fault;
 } ply_reader;
@@ -56,7 +57,8 @@ static inline int ply_line(ply_reader *r, ply_word *words, int most) {
     }
     while (r->at < r->end && (*r->at == ' ' || *r->at == '\t')) r->at++;
   }
-  const int both = r->end - r->at >= 2 && r->at[0] == '\r' && r->at[1] == '\n';
+  const int both = r->end - r->at >= 2 && r->at[0] == '\r' && r->at[1] == '\n' && !r->ends_in_cr;
+  if (r->line == 1) r->ends_in_cr = r->at < r->end && *r->at == '\r' && !both;
   r->at += r->at == r->end ? 0 : 1 + both;
   return count;
 }

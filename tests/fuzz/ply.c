@@ -66,7 +66,7 @@ static size_t read_header(const uint8_t *data, size_t size, size_t *count, int *
   int is_binary = 0;
   *count = 0;
   while (at < size) {
-    char line[200], a[50], b[50], c[50], d[50];
+    char line[200], a[200], b[200], c[200], d[200];
     size_t length = 0;
     while (at + length < size && data[at + length] != '\n')
       length++;
@@ -79,7 +79,7 @@ static size_t read_header(const uint8_t *data, size_t size, size_t *count, int *
       line[--length] = 0;
     if (strpbrk(line, "\r\v\f"))
       return 0;
-    const int words = sscanf(line, "%49s %49s %49s %49s", a, b, c, d);
+    const int words = sscanf(line, "%199s %199s %199s %199s", a, b, c, d);
     element *now = *count ? &elements[*count - 1] : NULL;
     if (words >= 1 && strcmp(a, "end_header") == 0)
       return is_binary ? at : 0;
