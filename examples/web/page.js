@@ -837,8 +837,7 @@ function openLink(hash) {
 }
 
 // The link that the page was opened with; one that is refused gives way to the first scene.
-function openAddress() {
-  const {hash} = location;
+function openAddress(hash) {
   notify('');
   try {
     openLink(hash.length > 1 ? hash : '#v=1&scene=mug');
@@ -1015,7 +1014,8 @@ function listen() {
     await navigator.clipboard?.writeText(location.href).catch(() => {});
     notify('The link is copied, and stands in the address bar.');
   });
-  addEventListener('hashchange', openAddress);
+  // its own address: by now the page may have written the last state over it
+  addEventListener('hashchange', ({newURL}) => openAddress(new URL(newURL).hash));
   addEventListener('dragover', dragOver);
   addEventListener('dragleave', dragEnd);
   addEventListener('drop', (event) => {
@@ -1053,7 +1053,7 @@ readColours();
 listen();
 for (const which of [0, 1])
   makeDrop(which);
-openAddress();
+openAddress(location.hash);
 frame();
 scene = createScene(canvas);
 if (scene)
