@@ -6,9 +6,28 @@
 #include "../src/mesh/stl.h"
 #include "../src/patches/samples.h"
 
-#include "../examples/scenery/mesh_files.h"
 #include "check.h"
 #include "failing_heap.h"
+
+// The readers' own memory, from a heap that fails on purpose.
+static int files_taken, files_live, files_fail_at = -1;
+static void *files_realloc(void *memory, size_t size) {
+  if (files_taken++ == files_fail_at) return NULL;
+  files_live += !memory;
+  return realloc(memory, size);
+}
+static void files_free(void *memory) {
+  files_live -= memory != NULL;
+  free(memory);
+}
+#define malloc(size) files_realloc(NULL, size)
+#define realloc files_realloc
+#define free files_free
+#include "../examples/scenery/mesh_files.h"
+#undef malloc
+#undef realloc
+#undef free
+
 #include "mesh_kinds.h"
 
 #include <locale.h>
@@ -345,7 +364,11 @@ static void mesh_ply_is_read(void) {
     nsvcd_mesh of_obj, mesh;
     mesh_fault fault;
     const ply_kinds kinds = ply_random(n % 2);
+    const int place = kinds.place % 8;
     polygons_random(&shape, n % 2);
+    for (size_t i = 0; i < 3 * shape.faces.vertex_count && place != 1 && place != 3 && place != 5;
+         i++)
+      shape.positions[i] *= -1;
     // of three bytes' meaning as floats, and as an end of a line
     if (n % 8 == 0) memcpy(shape.positions, "\n\n\n\x3d", 4);
     obj_write(&file, &shape.faces);
@@ -444,12 +467,20 @@ static void mesh_ply_is_refused(void) {
       {PLY_GOOD "3 0 1 0.5\n", 13, "no number of a vertex"},
       {PLY_GOOD "3 0 1 5e9\n", 13, "no number of a vertex"},
       {PLY_GOOD "3 0 1 x\n", 13, "a number is wanted"},
+      {PLY_GOOD "3 0 1-2\n", 13, "a number is wanted"},
+      {PLY_GOOD "3 0 1 2e\n", 13, "a number is wanted"},
+      {PLY_BEGIN PLY_VERTICES
+       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" PLY_THREE
+       "3 0 1 2\n",
+       0, "a cloud of points"},
       {PLY_GOOD "3 0 1 3\n", 0, "index"},
       {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n", 11,
        "a number is wanted"},
       {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", 11,
        "a number is wanted"},
       {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", 11,
+       "a number is wanted"},
+      {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\r1 0 0\r\n\r0 1 x\r3 0 1 2", 13,
        "a number is wanted"},
       {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\n1 1e99 0\n0 1 0\n3 0 1 2\n", 0, "not finite"},
   };
@@ -516,14 +547,15 @@ static void mesh_ply_is_cut_off(void) {
   "{\"bufferView\":" #view ",\"componentType\":" #kind ",\"type\":\"" type \
   "\",\"count\":" #count more "}"
 // 0: places; 1 to 3: indices of a byte, two, four; 4: places with a stride; 5: whole numbers that
-// mean shares of 1; 6: places of each triangle's corners; 7: a strip; 8: a fan; 9: an index too many
+// mean shares of 1; 6: places of each triangle's corners; 7: a strip; 8: a fan; 9: an index too
+// many; 10: as 5, without signs
 #define GLB_ACCESSORS \
   "\"accessors\":[" GLB_ROWS(0, 5126, "VEC3", 4, "") "," GLB_ROWS(1, 5121, "SCALAR", 12, "") "," \
   GLB_ROWS(2, 5123, "SCALAR", 12, "") "," GLB_ROWS(3, 5125, "SCALAR", 12, "") "," \
   GLB_ROWS(4, 5126, "VEC3", 4, ",\"byteOffset\":8") "," \
   GLB_ROWS(5, 5122, "VEC3", 4, ",\"normalized\":true") "," GLB_ROWS(6, 5126, "VEC3", 12, "") "," \
   GLB_ROWS(7, 5121, "SCALAR", 6, "") "," GLB_ROWS(7, 5121, "SCALAR", 5, ",\"byteOffset\":6") "," \
-  GLB_ROWS(0, 5121, "SCALAR", 3, ",\"byteOffset\":13") "],"
+  GLB_ROWS(0, 5121, "SCALAR", 3, ",\"byteOffset\":13") "," GLB_ROWS(5, 5123, "VEC3", 4, ",\"normalized\":true") "],"
 #define GLB_DATA "{\"asset\":{\"version\":\"2.0\"}," GLB_VIEWS GLB_ACCESSORS
 #define GLB_DRAW(position, more) "{\"attributes\":{\"POSITION\":" #position "}" more "}"
 #define GLB_MESH(parts) "{\"primitives\":[" parts "]}"
@@ -548,7 +580,7 @@ static size_t glb_bin(char *out) {
   }
   for (int i = 0; i < 4; i++) {
     for (int k = 0; k < 3; k++)
-      put_word(&b, places[i][k] > 0 ? (uint64_t)(k ? -32767 : 32767) : 0, 2, 0);
+      put_word(&b, places[i][k] > 0 ? (uint64_t)(k ? -32766 - k : 32767) : 0, 2, 0);
     put_word(&b, 0x7777, 2, 0);
   }
   for (int i = 0; i < 36; i++) put_float(&b, (double)places[corners[i / 3]][i % 3], 0);
@@ -603,8 +635,16 @@ static void mesh_glb_is_read(void) {
       {GLB_ONES(5, ",\"indices\":1"), 4, 1. / 6, {0, -1, -1}, {1, 0, 0}},
       {GLB_ONES(6, ""), 4, 1, {0, 0, 0}, {1, 2, 3}},
       {GLB_ONES(0, ",\"indices\":7,\"mode\":5"), 4, 1, {0, 0, 0}, {1, 2, 3}},
+      {GLB_ONES(10, ",\"indices\":1"), 4, 1. / 48, {0, 0, 0}, {0.49999, 0.50002, 0.50001}},
       // the face that a fan from the origin lacks has all of the volume
       {GLB_ONES(0, ",\"indices\":8,\"mode\":6"), 3, 0, {0, 0, 0}, {1, 2, 3}},
+      {GLB_DATA
+       "\"meshes\":[" GLB_MESH(GLB_DRAW(0, ",\"indices\":8,\"mode\":6")) "]," GLB_SCENE GLB_NODES(
+           "{\"mesh\":0,\"translation\":[7,8,9]}"),
+       3,
+       -14,
+       {7, 8, 9},
+       {8, 10, 12}},
       // points and lines beside it
       {GLB_DATA "\"meshes\":[" GLB_MESH(
            GLB_DRAW(0, ",\"mode\":0") "," GLB_DRAW(0, ",\"mode\":3") "," GLB_DRAW(
@@ -736,6 +776,7 @@ static void mesh_glb_is_refused(void) {
       {GLB_GOOD "}", "no JSON"},
       {"{\"a\":1,}", "no JSON"},
       {"{\"a\" 1}", "no JSON"},
+      {"{\"a\"}", "no JSON"},
       {"{a:1}", "no JSON"},
       {"{\"a\":+1}", "no JSON"},
       {"{\"a\":nan}", "no JSON"},
@@ -774,9 +815,9 @@ static void mesh_glb_is_refused(void) {
       {GLB_ONES(0, ",\"mode\":7"), "a mode of drawing"},
       {GLB_ONES(0, ",\"mode\":-4"), "a mode of drawing"},
       {GLB_ONES(1, ""), "of another type"},
-      {GLB_ONES(10, ""), "not there"},
+      {GLB_ONES(99, ""), "not there"},
       {GLB_ONES(0, ",\"indices\":0"), "of another type"},
-      {GLB_ONES(0, ",\"indices\":10"), "not there"},
+      {GLB_ONES(0, ",\"indices\":99"), "not there"},
       {GLB_ONES(0, ",\"indices\":9"), "an index beyond the vertices"},
       {GLB_ONES(0, ",\"extensions\":{\"KHR_draco_mesh_compression\":{\"bufferView\":0}}"), "Draco"},
       {GLB_DATA "\"meshes\":[{\"primitives\":[{}]}]," GLB_SCENE GLB_NODES("{\"mesh\":0}"),
@@ -796,6 +837,8 @@ static void mesh_glb_is_refused(void) {
       {GLB_WITH(GLB_ROWS(0, 5126, "VEC3", 4, ",\"byteOffset\":49")), OFFSET_OUTSIDE},
       {GLB_WITH(GLB_ROWS(0, 5126, "VEC3", 4, ",\"byteOffset\":-4")), OFFSET_OUTSIDE},
       {GLB_WITH(GLB_ROWS(0, 5126, "VEC3", 4, ",\"byteOffset\":9007199254740992")), OFFSET_OUTSIDE},
+      {GLB_WITH(GLB_ROWS(0, 5126, "VEC3", 3, "") "," GLB_ROWS(1, 5121, "SCALAR", 12, "")),
+       "an index beyond the vertices"},
       // indices are whole, and not less than none
       {GLB_WITH(PLACES "," GLB_ROWS(1, 5120, "SCALAR", 12, "")), "indices of a type"},
       {GLB_WITH(PLACES "," GLB_ROWS(2, 5122, "SCALAR", 12, "")), "indices of a type"},
@@ -834,6 +877,13 @@ static void mesh_glb_is_refused(void) {
   put(&json, "{\"mesh\":0}]}");
   glb_write(&file, json.at, glb_binary, size);
   check_refused("", file.at, file.size, "GLB", 0, "more than 64 deep");
+  // brackets in brackets
+  for (int deep = 60; deep <= 70; deep += 10) {
+    json.size = 0;
+    for (int n = 0; n < 2 * deep; n++) put(&json, n < deep ? "[" : "]");
+    glb_write(&file, json.at, glb_binary, size);
+    check_refused("", file.at, file.size, "GLB", 0, deep < 65 ? "no scene" : "no JSON");
+  }
   // another file's data, whether there is a chunk or not
   static const char outside[] =
       "{\"buffers\":[{\"byteLength\":408,\"uri\":\"a.bin\"}],\"bufferViews\":["
@@ -904,6 +954,20 @@ static void mesh_glb_asks_for_much(void) {
     glb_write(&file, json.at, glb_binary, size);
     check_refused("", file.at, file.size, "GLB", 0, "many times");
   }
+  // a strip of a byte a triangle, of three corners each
+  json.size = 0;
+  put(&json, "{\"accessors\":[" GLB_ROWS(0, 5126, "VEC3", 3, "") ","
+             GLB_ROWS(1, 5121, "SCALAR", 500000, "") "],\"bufferViews\":["
+             GLB_VIEW(0, 36) "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":500000}],"
+             "\"buffers\":[{}],\"meshes\":[" GLB_MESH(GLB_DRAW(0, ",\"indices\":1,\"mode\":5"))
+             "],\"nodes\":[");
+  for (int k = 0; k < 28; k++) put(&json, "{\"mesh\":0},");
+  put(&json, "{}],\"scenes\":[{\"nodes\":[0");
+  for (int k = 1; k < 28; k++) put(&json, ",%d", k);
+  put(&json, "]}]}");
+  static char strip[500036];
+  glb_write(&file, json.at, strip, sizeof strip);
+  check_refused("", file.at, file.size, "GLB", 0, "many times");
   // and one that is well: 3,000 nodes of one mesh
   json.size = 0;
   put(&json, GLB_DATA GLB_ONE "\"nodes\":[");
@@ -999,12 +1063,42 @@ static void mesh_files_are_told_apart(void) {
     CHECK_EQ(fault.format[0], 'G');
     if (!fault.reason) nsvcd_mesh_free(&mesh, NULL);
   }
+  check_refused("a.DAZ.DAE", obj, strlen(obj), "none of these", 0, "convert it");
   check_refused("a.fbx", obj, strlen(obj), "none of these", 0, "convert it");
   check_refused("a.b.GLTF", "{}", 2, "none of these", 0, "convert it");
   check_refused("a.ply", obj, strlen(obj), "PLY", 0, "does not begin with 'ply'");
   check_refused("a.glb", "", 0, "GLB", 0, "does not begin with 'glTF'");
   check_refused("", "", 0, "OBJ", 0, "no triangle");
   check_refused("", "f 1 2\n", 6, "OBJ", 1, "");
+}
+
+// Whichever allocation fails, of the readers or of the library: refused, and all is given back.
+static void mesh_files_without_memory(void) {
+  static const char text[] = PLY_GOOD "3 0 1 2\n";
+  nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
+  failing_heap heap = {0, 0, -1};
+  allocator.user = &heap;
+  glb_write(&file, GLB_GOOD, glb_binary, glb_bin(glb_binary));
+  for (int n = 0; n < 4; n++) {
+    const char *data = n % 2 ? file.at : text;
+    const size_t size = n % 2 ? file.size : sizeof text - 1;
+    int good = 0;
+    int k = 0;
+    for (; !good; k++) {
+      nsvcd_mesh mesh = {NULL, NULL, 7, 7};
+      mesh_fault fault;
+      files_taken = heap.calls = 0;
+      files_fail_at = n < 2 ? k : -1;
+      heap.fail_at = n < 2 ? -1 : k;
+      good = mesh_parse("", data, size, &allocator, &mesh, &fault);
+      CHECK(good == !fault.reason && (good || mesh.vertex_count == 7));
+      CHECK(good || n < 2 || strstr(fault.reason, "memory"));
+      if (good) nsvcd_mesh_free(&mesh, &allocator);
+      CHECK(heap.live == 0 && files_live == 0);
+    }
+    CHECK_GE(k, 5);
+  }
+  files_fail_at = -1;
 }
 
 void test_mesh_files(void) {
@@ -1021,6 +1115,7 @@ void test_mesh_files(void) {
   RUN(mesh_glb_asks_for_much);
   RUN(mesh_stl_reasons);
   RUN(mesh_files_are_told_apart);
+  RUN(mesh_files_without_memory);
 }
 
 CHECK_ALONE(test_mesh_files)

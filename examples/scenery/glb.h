@@ -24,7 +24,7 @@ typedef struct glb {
   size_t size;
   int is_outside;  // the data is in another file
   glb_list accessors, views, nodes, meshes;
-  size_t work, most;  // values looked at and corners made; so many of them are enough
+  size_t work, most;  // values looked at and numbers made; so many of them are enough
   mesh_soup soup;
   mesh_fault *fault;
 } glb;
@@ -213,7 +213,7 @@ static inline int glb_primitive(glb *g, size_t primitive, const glb_place *place
   const size_t corners = indices.at ? indices.count : positions.count;
   if (positions.count > 0x7fffffff - first || corners > 0x7fffffff)
     return mesh_refuse(g->fault, "more vertices than the library takes");
-  if (!glb_afford(g, positions.count + corners)) return 0;
+  if (!glb_afford(g, 3 * positions.count + (mode == 4 ? 1u : 3u) * corners)) return 0;
   for (size_t i = 0; i < positions.count; i++) {
     double world[3];
     for (int r = 0; r < 3; r++) {
@@ -308,7 +308,7 @@ static inline int glb_chunks(glb *g, const unsigned char *data, size_t size) {
     if (chunk) g->data = data + at;
     if (chunk) g->size = bytes;
     if (!chunk && !json_parse(&g->j, (const char *)data + at, bytes))
-      return mesh_refuse(g->fault, "what describes it is no JSON");
+      return mesh_refuse(g->fault, "what describes it is no JSON, or too long");
     at += (bytes + 3) / 4 * 4;
     if (at > length) break;
   }

@@ -26,7 +26,7 @@ static inline int mesh_number(const char **at, const char *end, double *out) {
   const int minus = p < end && *p == '-';
   double mantissa = 0;
   int digits = 0;
-  int exponent = 0;
+  double exponent = 0;
   p += p < end && (*p == '-' || *p == '+');
   for (int point = 0; p < end && ((*p >= '0' && *p <= '9') || (*p == '.' && !point)); p++) {
     if (*p == '.') {

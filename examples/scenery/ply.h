@@ -82,7 +82,10 @@ static inline int ply_type_of(ply_word word, ply_type *out) {
 // One number of an element. out: NULL: it is skipped, and may be no number. Returns 0 with a reason.
 static inline int ply_value(ply_reader *r, ply_type type, double *out) {
   if (r->is_text) {
-    for (; r->at < r->end && ply_blank(*r->at); r->at++) r->line += *r->at == '\n';
+    for (; r->at < r->end && ply_blank(*r->at); r->at++) {
+      const int both = *r->at == '\r' && r->end - r->at >= 2 && r->at[1] == '\n';
+      r->line += !both && (*r->at == '\n' || *r->at == '\r');
+    }
     if (r->at == r->end) return mesh_refuse(r->fault, "it ends before its elements do");
     while (!out && r->at < r->end && !ply_blank(*r->at)) r->at++;
     if (!out) return 1;
@@ -256,7 +259,7 @@ static inline int ply_parse(const char *data, size_t size, const nsvcd_allocator
   ply_element *elements = (ply_element *)malloc(PLY_ELEMENTS * sizeof *elements);
   size_t count = elements ? ply_header(&r, elements) : 0;
   int good = count > 0;
-  r.line += good;  // the first line of the rows
+  r.line += count > 0;  // the first line of the rows
   for (size_t i = 0; i < count && good; i++) {
     if (elements[i].is_vertex && !ply_has_places(&elements[i]))
       good = mesh_refuse(fault, "its vertices have no x, y and z");

@@ -122,7 +122,8 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
     }
     mesh->indices[i] = *at - 1;
     while (places->steps > most) {
-      places->seed += UINT64_C(0xd1342543de82ef95);
+      // where memory lies is not known to who made the file
+      places->seed += UINT64_C(0xd1342543de82ef95) + (uint64_t)(size_t)places->table;
       places->steps = 0;
       memset(places->table, 0, places->slots * sizeof *places->table);
       for (size_t v = 0; v < count && places->steps <= most; v++)
