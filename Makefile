@@ -559,13 +559,13 @@ CALIBRATION = build/calibration
 build/train/checkpoint.pt:
 	cd train && $(PYTHON) train.py --out ../build/train --groups 5000 --shapes 6000 --seed 11 --rate 6e-3 --steps 51341 \
 	  --shape '{"channels":4,"heads":[["tiny",[32,16]],["small",[96,32]],["base",[160,128,32]]]}'
-CALIBRATED = $(CALIBRATION)/standard.txt $(CALIBRATION)/hollow.txt
-$(CALIBRATION)/standard.txt: | build/problems
+# Sets as SET:COUNT:SEED.
+CALIBRATES = standard:4000:301 hollow:3000:302 rest:2000:303 cavity:1000:304
+CALIBRATED = $(foreach set,$(CALIBRATES),$(CALIBRATION)/$(firstword $(subst :, ,$(set))).txt)
+$(CALIBRATED): | build/problems
 	@mkdir -p $(CALIBRATION)
-	build/problems --set standard --meshes procedural --count 8000 --pool 400 --seed 301 --out $@
-$(CALIBRATION)/hollow.txt: | build/problems
-	@mkdir -p $(CALIBRATION)
-	build/problems --set hollow --meshes procedural --count 4000 --seed 302 --out $@
+	set=$(filter $(basename $(@F)):%,$(CALIBRATES)); rest=$${set#*:}; build/problems --set $${set%%:*} \
+	  --meshes procedural --count $${rest%:*} --seed $${rest#*:} --out $@
 .PRECIOUS: $(CALIBRATION)/%.txt
 
 weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, writes weights.h

@@ -177,6 +177,7 @@
 //     balls           the least ball that holds all points
 //     discs           a direction in which the points are thin
 //     hulls           16 vertices about a patch
+//     sorted          pieces by patch; eight tips of each, for the network
 //     surface         patch by patch: ball, disc, hull, triangles
 //   encoder: what the network keeps of a patch
 //     model           does weights.h fit?
@@ -195,6 +196,7 @@
 //     motion          the moving body's poses as the fixed one sees them
 //     segments        how far a point strays from a straight line
 //   search: which patches may meet
+//     apart           pairs of patches that a plane parts, by their tips
 //     intervals       when the balls of two patches meet, for the network
 //     search          which groups and patches meet, and in which segments
 //   proof: whether surfaces meet
@@ -573,7 +575,7 @@ typedef struct nsvcd_encode_options {
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
 #define NSVCD_BODY_BYTES(patches) \
-  ((64 + 28 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
+  ((64 + 52 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
     40 * (patches) + 7) / \
    8 * 8)
 #endif
@@ -744,6 +746,10 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
+  // Patches swell by this share of their radii before planes part them, so that patches which only
+  // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
+  // more of what is near a hit. 0: as much as `recall` needs
+  float swell;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -891,8 +897,8 @@ typedef struct nsvcd_opinion {
   float time;
   // that pair
   uint32_t patch_a, patch_b;
-  // pairs of patches whose spheres meet, each counted once for each stretch of time, until the
-  // search ends
+  // pairs of patches whose spheres meet and that no plane between them parts, each counted once for
+  // each stretch of time, until the search ends
   size_t candidates;
   // 1: there were more of these than `pairs` let through
   int limited;
@@ -981,7 +987,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
 #define NSVCD__GROUPS_OF(patches) ((patches) > 512 ? 32 : ((patches) + 15) / 16)
 #define NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) \
-  (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
+  (1088 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
    ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
@@ -2277,6 +2283,11 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   nsvcd__f3_put(sphere.centre, first + i, slots);
   first[3 * slots + i] = sphere.radius;
 }
+
+// ---- tips
+
+// points of a patch's surface that reach about as far as all of it does: patches/tips
+#define NSVCD__TIPS 8
 
 // ---- discs
 
@@ -4412,7 +4423,7 @@ static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
 // ball, disc and swollen hull convex: what contains the corners contains the piece. The corners
 // themselves are off by roundings of double: all bounds are wider by NSVCD__SURFACE_MARGIN.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
@@ -4718,7 +4729,7 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(pieces, t, &guess);
   return ok;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ------------------------------------------------------------------------------------ surface/runs
 // In: a mesh of points, segments and triangles, which may all be without area. Out: its pieces, as
@@ -4907,7 +4918,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
 // In: points, in double. Out: the least ball that holds them all, in float, rounded outwards; how
 // to round outwards.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 static float nsvcd__float_above(double x) {
   const float rounded = nsvcd__to_float(x);
   return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
@@ -5031,7 +5042,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   }
   return ball.centre;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
 // ----------------------------------------------------------------------------------- surface/discs
 // In: points. Out: a disc: a direction in which the points are thin, what they reach along it, and
@@ -5163,9 +5174,9 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
 #endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
 // ----------------------------------------------------------------------------------- surface/hulls
-// In: points. Out: 16 of them whose hull, swollen by a slack, holds all.
+// In: points. Out: some of them whose hull, swollen by a slack, holds all.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // The point of a simplex nearest to the origin: weights are positive and sum to 1.
 typedef struct nsvcd__simplex {
   nsvcd__d3 points[4];
@@ -5235,31 +5246,32 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: all, if they
-// are not more, or else always the one that is farthest from it. points: about the ball's centre.
+// Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
+// those: all, if they are not more, or else always the one that is farthest from it. points: about
+// the ball's centre.
 // bounds: working memory, one a point: their distances found before. A point that was near enough
 // stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
 // farthest point; returns how many they are.
-static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
-                                 size_t *chosen, double *farthest) {
+static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
+                                 double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
-  double most = 0;
+  double reach = 0;
   *farthest = 0;
-  if (points.count <= NSVCD__HULL) {
+  if (points.count <= most) {
     for (size_t i = 0; i < points.count; i++) chosen[i] = i;
     return points.count;
   }
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
-    if (distance > most) next = i;
-    most = nsvcd__max(most, distance);
+    if (distance > reach) next = i;
+    reach = nsvcd__max(reach, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
-  while (hull.count<NSVCD__HULL && * farthest> enough) {
+  while (hull.count<most && * farthest> enough) {
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
@@ -5277,13 +5289,13 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
   }
   return hull.count;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER
 
-// --------------------------------------------------------------------------------- surface/surface
-// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
-// triangles, all rounded outwards.
+// ---------------------------------------------------------------------------------- surface/sorted
+// In: pieces. Out: the same patch by patch; and for the network the tips of each patch: eight
+// points of its surface whose hull is nearly that of all of it.
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
 // them: the hull's first, when vertices are stored.
 typedef struct nsvcd__sorted {
@@ -5363,6 +5375,37 @@ static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre
   return out;
 }
 
+#ifndef NSVCD_NO_NETWORK
+// The tips of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius / 127.
+static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t *tips) {
+  const double inverse = radius > 0 ? 127 / (double)radius : 0;
+  sorted->pass++;
+  sorted->met_count = 0;
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
+    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(sorted, corners[j]);
+  }
+  const nsvcd__d3 centre = nsvcd__d3_widen(sorted->pieces->patches->centres[i]);
+  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  size_t chosen[NSVCD__HULL] = {0};
+  double farthest;
+  const size_t count =
+      nsvcd__choose_hull(points, NSVCD__TIPS, 0, sorted->bounds, chosen, &farthest);
+  for (size_t k = 0; k < 3 * NSVCD__TIPS; k++) {
+    const size_t tip = chosen[count ? k / 3 % count : 0];
+    const double along = count ? nsvcd__d3_axis(points.at[tip], k % 3) * inverse : 0;
+    tips[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
+  }
+}
+#endif  // NSVCD_NO_NETWORK
+#endif  // NSVCD_NO_ENCODER
+
+// --------------------------------------------------------------------------------- surface/surface
+// In: pieces, sorted by patch. Out: nsvcd__surface: of each patch a ball, a disc, a hull, its
+// triangles, all rounded outwards.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
 // by as integers is not in the slack yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
@@ -5417,7 +5460,8 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
-  const size_t count = nsvcd__choose_hull(about, enough, sorted->bounds, chosen, &farthest);
+  const size_t count =
+      nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
   s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
   s->hull_counts[to] = (uint8_t)count;
   for (size_t k = 0; k < count; k++)
@@ -5886,6 +5930,8 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 //                        zero
 //   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
 //                        the members of the spheres above
+//   tips         (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
+//                        centre in steps of r / 127; padding is zero
 //   latents      (N, NSVCD__LATENT)  int8, free of scale
 // and a body of triangles, for the proof, with what body/facets says. A body that has both is
 // one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
@@ -5904,7 +5950,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
-#define NSVCD__BODY_VERSION 6u
+#define NSVCD__BODY_VERSION 7u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -6010,8 +6056,9 @@ static const float *nsvcd__body_areas(const nsvcd_body *body) {
   return (const float *)(const void *)at;
 }
 // Bytes of a body of latents up to these.
-static size_t nsvcd__areas_end(size_t padded) {
-  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+static size_t nsvcd__latents_begin(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded) +
+         3 * NSVCD__TIPS * padded;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -6020,9 +6067,14 @@ static size_t nsvcd__areas_end(size_t padded) {
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
+// Of the 16 patches of a group: (TIPS, 3, 16).
+static const int8_t *nsvcd__group_tips(const nsvcd_body *body, size_t g) {
+  const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
+  return (const int8_t *)areas_end + 3 * NSVCD__TIPS * NSVCD__GROUP * g;
+}
 // (N, LATENT)
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
-  return (const int8_t *)(nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded));
+  return (const int8_t *)body + nsvcd__latents_begin(body->padded);
 }
 #endif
 
@@ -6031,7 +6083,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t latents = patches * NSVCD__LATENT;
-  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__latents_begin(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -6252,6 +6304,7 @@ typedef struct nsvcd__latents_source {
   const nsvcd__f3 *centres;  // (N)
   const float *radii;        // (N)
   const nsvcd__f3 *areas;    // (N)
+  const int8_t *tips;        // (N, TIPS, 3)
   const int8_t *latents;     // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
@@ -6267,12 +6320,16 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
   float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
+  int8_t *tips = (int8_t *)nsvcd__writable(b, nsvcd__group_tips(b, 0));
+  int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
     const size_t from = source->order[i];
     const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(source->areas[from], areas + i, padded);
+    int8_t *group = tips + 3 * NSVCD__TIPS * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++)
+      group[NSVCD__GROUP * k] = source->tips[3 * NSVCD__TIPS * from + k];
     memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }
@@ -6951,6 +7008,19 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
 }
 
+#ifndef NSVCD_NO_NETWORK
+// Are tips in range, and is their padding zero?
+static int nsvcd__tips_are_sound(const nsvcd_body *b) {
+  for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
+    const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
+    const int8_t tip = nsvcd__group_tips(b, 0)[n];
+    const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
+    if (tip == -128 || (!exists && tip != 0)) return 0;
+  }
+  return 1;
+}
+#endif
+
 // ---- the triangles
 
 #ifndef NSVCD_NO_PROOF
@@ -7072,19 +7142,19 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (b->size < nsvcd__areas_end(b->padded)) return 0;
+  if (b->size < nsvcd__latents_begin(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
   if (!nsvcd__level_covers(nsvcd__groups_of(b), nsvcd__body_patches(b), b->patches)) return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents) return 0;
+  if (b->size < latents || !nsvcd__tips_are_sound(b)) return 0;
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
-  if (b->inner < nsvcd__areas_end(b->padded)) return 0;
+  if (b->inner < nsvcd__latents_begin(b->padded)) return 0;
 #endif
   // the body of triangles within
   const char *at = (const char *)b + b->inner;
@@ -7248,6 +7318,7 @@ typedef struct nsvcd__parts {
   // Of a body with latents, else empty:
   float *radii;      // (N)
   nsvcd__f3 *areas;  // (N)
+  int8_t *tips;      // (N, TIPS, 3)
   int8_t *latents;   // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -7271,8 +7342,15 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
   const size_t count = result ? 0 : patches.count;
   for (size_t i = 0; i < count; i++) parts->centres[parts->count + i] = patches.centres[i];
+  nsvcd__pieces pieces;
+  if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
+    result = NSVCD_ERROR_MEMORY;
 #ifndef NSVCD_NO_NETWORK
-  for (size_t i = 0; parts->options->latents && i < count; i++) {
+  nsvcd__sorted sorted;
+  const int latents = parts->options->latents;
+  if (!result && latents && !nsvcd__sorted_build(&pieces, &spare, &sorted))
+    result = NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; !result && latents && i < count; i++) {
     const size_t to = parts->count + i;
     const float radius = patches.radii[i];
     const size_t first = patches.offsets[i];
@@ -7292,15 +7370,12 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
     const double wider = ((double)radius + margin) * (1 + 1e-7);
     parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
     parts->areas[to] = patches.area_vectors[i];
+    nsvcd__tips_of(&sorted, i, parts->radii[to], parts->tips + 3 * NSVCD__TIPS * to);
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  nsvcd__pieces pieces;
-  if (!result && !parts->options->no_triangles) {
-    result = NSVCD_ERROR_MEMORY;
-    if (nsvcd__pieces_build(&region, &patches, &spare, &pieces))
-      result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
-  }
+  if (!result && !parts->options->no_triangles)
+    result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -7358,6 +7433,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   const size_t latents = options->latents ? patches : 0;
   parts->radii = NSVCD__TAKE(arena, float, latents);
   parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
+  parts->tips = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__TIPS * latents);
   parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -7427,6 +7503,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
     source.centres = parts->centres;
     source.radii = parts->radii;
     source.areas = parts->areas;
+    source.tips = parts->tips;
     source.latents = parts->latents;
     source.order = order;
     source.open = open;
@@ -7790,6 +7867,32 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
 #else
   const __m256i packed = _mm256_loadu_si256((const __m256i *)(const void *)p);
   const __m512i wide = _mm512_maskz_cvtepi16_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
+#endif
+}
+static inline nsvcd__v nsvcd__v_load_int8(const int8_t *p) {
+#if NSVCD__SLICE == 1
+  return (float)*p;
+#elif defined(__wasm_simd128__)
+  const v128_t wide = wasm_i16x8_extend_low_i8x16(wasm_v128_load32_zero(p));
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_extend_low_i16x8(wide));
+#elif NSVCD__SLICE == 4
+  int32_t word;
+  memcpy(&word, p, sizeof word);
+#if defined(__aarch64__)
+  const int16x8_t wide = vmovl_s8(vcreate_s8((uint64_t)(uint32_t)word));
+  return vcvtq_f32_s32(vmovl_s16(vget_low_s16(wide)));
+#else
+  const __m128i packed = _mm_cvtsi32_si128(word);
+  const __m128i pairs = _mm_unpacklo_epi8(packed, packed);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(pairs, pairs), 24));
+#endif
+#elif NSVCD__SLICE == 8
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(packed));
+#else
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  const __m512i wide = _mm512_maskz_cvtepi8_epi32(NSVCD__ALL, packed);
   return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
 #endif
 }
@@ -8492,9 +8595,11 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
-#define NSVCD__FINE_TURN 0.131f  // radians, 7.5 degrees: nothing is gained by shorter segments
+#define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
 // radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
 #define NSVCD__INTERVAL_TURN 0.785f
+// planes that are remembered: search/apart
+#define NSVCD__PLANES 4
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
 // doubled.
@@ -8629,11 +8734,18 @@ typedef struct nsvcd__search {
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
   float remote;
+#ifndef NSVCD_NO_NETWORK
+  // normals of planes that parted patches, the last of so many found
+  nsvcd__f3 planes[NSVCD__PLANES];
+  size_t found_planes, best_plane;
+  float swell;  // of patches, shares of their radii, before planes part them
+  // 0: no patches' balls meet, which certifies free
+  int balls_met;
+#endif
 } nsvcd__search;
 
 // Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there
-// are vectors. Up to so many bytes are passed over for that; where base is NULL, all of them are
-// counted.
+// are vectors. For that so many bytes are passed over at most, and counted where base is NULL.
 #define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
 static void nsvcd__take_to_line(char *base, uint64_t *used) {
   if (NSVCD__PASSED_OVER == 0) return;
@@ -8664,8 +8776,7 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// Memory for chords, and for boxes, that need not come from the stack: where the members of a group
-// will be posed later.
+// Memory for chords, and for boxes: where the members of a group will be posed later.
 static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
   return &search->members[0];
 }
@@ -9108,6 +9219,8 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
                                            nsvcd__search *search) {
   nsvcd__choose_segments(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
+  search->found_planes = search->best_plane = 0;
+  search->balls_met = 0;
 }
 #endif
 
@@ -9236,6 +9349,318 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
 
 // ================================================================== search: which patches may meet
 
+// ------------------------------------------------------------------------------------ search/apart
+// In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
+// plane parts from it all the time, by the hulls of their tips.
+//
+// Planes are tried along the resting patch's normal, the moving patches', both together, the lines
+// between the centres, and the last few that parted others of the same query: what stands on a
+// table is parted from all of it by one plane. The tips go on chords, as centres do, and what
+// points stray from theirs is allowed for. But tips are not all of a patch, so that this is no
+// proof: where a greater recall is asked for, patches swell before.
+
+#ifndef NSVCD_NO_NETWORK
+// A resting patch: its tips, from its centre, metres; and the mean normal.
+typedef struct nsvcd__resting {
+  nsvcd__f3 centre;
+  float radius;
+  nsvcd__f3 tips[NSVCD__TIPS];
+  nsvcd__f3 normal;
+} nsvcd__resting;
+
+static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
+  const int8_t *tips = nsvcd__group_tips(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
+  nsvcd__resting out;
+  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
+  const float step = ball.radius / 127;
+  out.centre = ball.centre;
+  out.radius = ball.radius;
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
+    out.tips[k] = nsvcd__f3_scale(tip, step);
+  }
+  const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
+  const float length = nsvcd__f3_length(area);
+  out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
+  return out;
+}
+
+// A slice of moving patches, over a segment.
+typedef struct nsvcd__passing {
+  // (TIPS, 3, 16) and lane l: of the moving group
+  const int8_t *tips;
+  // steps of the tips, in the body's units
+  nsvcd__v step;
+  // from the resting centre to the moving one, and its way
+  nsvcd__v3 from, way;
+  // at the start and at the end, times the scale
+  nsvcd__vmat3 start, end;
+  // what points stray from their chords, and patches swell
+  nsvcd__v stray;
+} nsvcd__passing;
+
+// Lanes in which a plane across u parts both, on either side.
+NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
+                                           nsvcd__v3 u) {
+  const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
+  const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
+  const nsvcd__v height = nsvcd__v3_dot(u, p->from);
+  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
+  nsvcd__v low = nsvcd__v_set(1e30f);
+  nsvcd__v high = nsvcd__v_set(-1e30f);
+  nsvcd__v low_end = low;
+  nsvcd__v high_end = high;
+  nsvcd__v below = low;
+  nsvcd__v above = high;
+  for (size_t k = 0; k < NSVCD__TIPS; k++) {
+    const int8_t *tip = p->tips + 3 * NSVCD__LANES * k;
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tip), nsvcd__v_load_int8(tip + NSVCD__LANES),
+                     nsvcd__v_load_int8(tip + 2 * NSVCD__LANES));
+    const nsvcd__v a = nsvcd__v3_dot(q, at_start);
+    const nsvcd__v b = nsvcd__v3_dot(q, at_end);
+    const nsvcd__v c = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+    low = nsvcd__v_min(low, a);
+    high = nsvcd__v_max(high, a);
+    low_end = nsvcd__v_min(low_end, b);
+    high_end = nsvcd__v_max(high_end, b);
+    below = nsvcd__v_min(below, c);
+    above = nsvcd__v_max(above, c);
+  }
+  low = nsvcd__v_fma(p->step, low, height);
+  low_end = nsvcd__v_fma(p->step, low_end, height_end);
+  high = nsvcd__v_fma(p->step, high, height);
+  high_end = nsvcd__v_fma(p->step, high_end, height_end);
+  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->stray);
+  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->stray);
+  return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
+}
+
+// ---- planes that parted others
+
+// What 16 patches reach along a plane's normal.
+typedef struct nsvcd__ranges {
+  float low[NSVCD__LANES], high[NSVCD__LANES];
+} nsvcd__ranges;
+
+// A pair of groups along the planes that are remembered: the moving one in one segment.
+typedef struct nsvcd__sheets {
+  nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
+  // bits of planes
+  uint32_t moving_known, resting_known;
+} nsvcd__sheets;
+
+// A slice of tips (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
+                                     nsvcd__v *high) {
+  *low = nsvcd__v_set(1e30f);
+  *high = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
+                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v along = nsvcd__v3_dot(q, u);
+    *low = nsvcd__v_min(*low, along);
+    *high = nsvcd__v_max(*high, along);
+  }
+}
+
+// share: of their radii, by which they swell.
+static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 normal,
+                                  float share, nsvcd__ranges *out) {
+  const nsvcd__spheres patches =
+      nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * h);
+  const nsvcd__v3 u = nsvcd__v3_set(normal);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v low;
+    nsvcd__v high;
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
+    nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * share);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
+  }
+}
+
+// What the points of the members that are posed stray from their chords in segment s.
+static float nsvcd__segment_stray(const nsvcd__search *search, size_t s) {
+  const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  return block->spread[s % NSVCD__LANES] + block->bulge[s % NSVCD__LANES] * search->remote;
+}
+
+// Of moving group g in segment s, with what points stray.
+static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s, float stray,
+                                 nsvcd__f3 normal, nsvcd__ranges *out) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &search->members[s];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__f3 at_start = nsvcd__mat3_apply_transpose(&start, normal);
+  const nsvcd__f3 by = nsvcd__mat3_apply_transpose(&turned, normal);
+  const nsvcd__v3 u = nsvcd__v3_set(normal);
+  const float *radii = nsvcd__body_r(search->moving) + NSVCD__GROUP * g;
+  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
+    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), height);
+    nsvcd__v low, high, low_end, high_end;
+    nsvcd__tips_along(tips + l, nsvcd__v3_set(at_start), &low, &high);
+    nsvcd__tips_along(tips + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
+                      &high_end);
+    low = nsvcd__v_fma(step, low, height);
+    high = nsvcd__v_fma(step, high, height);
+    low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
+    high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->swell);
+    const nsvcd__v off = nsvcd__v_plus(swell, stray);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
+  }
+}
+
+// The ranges along plane n of moving group g in segment s, and of group h of the fixed body.
+static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                               size_t n, float stray, nsvcd__sheets *sheets) {
+  const nsvcd__f3 normal = search->planes[n];
+  if (!(sheets->resting_known >> n & 1))
+    nsvcd__resting_ranges(search->fixed, h, normal, search->swell, &sheets->resting[n]);
+  if (!(sheets->moving_known >> n & 1))
+    nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
+  sheets->resting_known |= 1u << n;
+  sheets->moving_known |= 1u << n;
+}
+
+static size_t nsvcd__planes_known(const nsvcd__search *search) {
+  const size_t found = search->found_planes;
+  return found < NSVCD__PLANES ? found : NSVCD__PLANES;
+}
+
+// The least of all lanes, after a sign.
+static float nsvcd__least_lane(const float *lanes, float sign) {
+  nsvcd__v least = nsvcd__v_set(1e30f);
+  NSVCD__EACH_SLICE(l)
+  least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v_load(lanes + l), sign));
+  return nsvcd__v_least(least);
+}
+
+// Does the plane that did so last part all of moving group g from all of group h, in segment s?
+static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                                 float stray, nsvcd__sheets *sheets) {
+  const size_t n = search->best_plane;
+  if (n >= nsvcd__planes_known(search)) return 0;
+  nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+  const nsvcd__ranges *moving = &sheets->moving[n];
+  const nsvcd__ranges *resting = &sheets->resting[n];
+  const float above = nsvcd__least_lane(moving->low, 1) + nsvcd__least_lane(resting->high, -1);
+  const float below = nsvcd__least_lane(resting->low, 1) + nsvcd__least_lane(moving->high, -1);
+  return above > 0 || below > 0;
+}
+
+// Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
+// member k of group h of the fixed body.
+static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                        size_t k, float stray, uint32_t met,
+                                        nsvcd__sheets *sheets) {
+  const size_t planes = nsvcd__planes_known(search);
+  for (size_t m = 0; m < planes && met; m++) {
+    // the one that parted last, first
+    const size_t n = (search->best_plane + m) % planes;
+    nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+    const nsvcd__ranges *moving = &sheets->moving[n];
+    const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
+    const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
+    uint32_t parted = 0;
+    NSVCD__EACH_SLICE(l) {
+      parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
+      parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
+    }
+    if (met & parted) search->best_plane = n;
+    met &= ~parted;
+  }
+  return met;
+}
+
+// ---- planes of their own
+
+enum {
+  NSVCD__ALONG_RESTING,  // normal
+  NSVCD__ALONG_MOVING,   // normals
+  NSVCD__ALONG_LINE,     // between the centres
+  NSVCD__ALONG_BOTH,     // normals, from one to the other
+  NSVCD__DIRECTIONS
+};
+
+// Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
+// patch j of the fixed body. A plane that does is remembered, in place of the oldest.
+static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
+                                                    size_t j, float stray, uint32_t met,
+                                                    nsvcd__sheets *sheets) {
+  const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
+  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const nsvcd_body *moving = search->moving;
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &search->members[s];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
+  const nsvcd__mat3 middle = nsvcd__mat3_mix(1, &start, 0.5f, &turned);
+  nsvcd__passing p;
+  p.start = nsvcd__vmat3_set(&start);
+  p.end = nsvcd__vmat3_set(&end);
+  for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
+    float directions[3][NSVCD__LANES];
+    uint32_t parted = 0;
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      if (!(met >> l & NSVCD__SLICE_MASK)) continue;
+      p.tips = tips + l;
+      p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
+      p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
+      p.way = nsvcd__chords_way(c, l);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * search->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * search->swell);
+      nsvcd__v3 u = nsvcd__v3_set(rest.normal);
+      if (n == NSVCD__ALONG_LINE) {
+        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
+      } else if (n != NSVCD__ALONG_RESTING) {
+        const float *areas = nsvcd__body_areas(moving) + i;
+        const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 own =
+            nsvcd__v3_unit(nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), area));
+        u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
+      }
+      nsvcd__v3_store(directions, l, u);
+      parted |= nsvcd__parted_along(&p, &rest, u) << l;
+    }
+    parted &= met;
+    met &= ~parted;
+    if (!parted) continue;
+    const size_t oldest = search->found_planes++ % NSVCD__PLANES;
+    search->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
+    sheets->moving_known &= ~(1u << oldest);
+    sheets->resting_known &= ~(1u << oldest);
+  }
+  return met;
+}
+
+// The lanes of moving group g that meet member k of group h of the fixed body in segment s: whose
+// balls do, and that nothing parts. before: those that met it in the segment before, which own
+// planes will not part either, as a rule.
+static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                    size_t k, nsvcd__sphere ball, float stray, uint32_t before,
+                                    nsvcd__sheets *sheets) {
+  uint32_t met = nsvcd__meet(&search->members[s], ball);
+  search->balls_met |= met != 0;
+  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met, sheets);
+  const uint32_t fresh = met & ~before;
+  if (!fresh) return met;
+  const size_t j = NSVCD__GROUP * h + k;
+  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh, sheets);
+}
+#endif  // NSVCD_NO_NETWORK
+
 // -------------------------------------------------------------------------------- search/intervals
 // In: chords of a patch, and the patches of the other body. Out: candidates, with the time in which
 // their balls meet.
@@ -9247,7 +9672,7 @@ typedef struct nsvcd__candidates {
   // (limit), the caller's
   nsvcd__candidate *items;
   size_t limit, count;
-  // intervals found, kept or not; 0: certified free
+  // intervals found, kept or not
   size_t total;
 } nsvcd__candidates;
 
@@ -9287,8 +9712,7 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
 // centre. The spheres touch from `nearest` - h to `nearest` + h; half2 is the square of h.
 typedef struct nsvcd__intervals {
   uint32_t open;  // lanes
-  // segments: in which the oldest of them began, and the last that all of them reach
-  size_t oldest, last;
+  size_t last;    // segment that all of them reach
   // 1 in lanes without an interval, else 0
   nsvcd__v fresh;
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
@@ -9354,11 +9778,11 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   }
 }
 
-// The segments before which all contact intervals of the members of a group against patch j of the
-// fixed body are cut: the oldest of them would turn too far, or a segment is left out in between.
-// Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint64_t wanted) {
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+// The segments before which all contact intervals of the members of a group are cut: the oldest of
+// them would turn too far, or a segment is left out in between. met: (segments), of those `wanted`.
+// For all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t *met,
+                                     uint64_t wanted) {
   // where the segment before is left out
   uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
@@ -9366,21 +9790,20 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
-    open &= met;
+    open &= met[s];
     if (!open) oldest = s;
-    open = met;
+    open = met[s];
   }
   return cuts;
 }
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
-// segments `wanted`. cuts: nsvcd__interval_cuts; where a slice is all lanes, it finds that itself.
+// segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
 static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
-                                       uint64_t wanted, uint64_t cuts,
+                                       uint64_t wanted, const uint16_t *all_met, uint64_t cuts,
                                        nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
@@ -9388,7 +9811,7 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
   const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
   const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
   const size_t l = i % NSVCD__GROUP;
-  nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
@@ -9402,14 +9825,9 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
     const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
-    const uint32_t met = nsvcd__v_le(square, limit);
+    const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
     uint32_t ended = at.open & ~met;
-    int cut = (int)(cuts >> s & 1);
-    if (NSVCD__SLICE == NSVCD__LANES && at.open) {
-      cut = search->turn[s + 1] - search->turn[at.oldest] > NSVCD__INTERVAL_TURN;
-      cut |= at.last + 1 != s;
-    }
-    if (cut) {
+    if (cuts >> s & 1) {
       ended = at.open;
       at.fresh = one;
     }
@@ -9434,23 +9852,13 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
     at.least = nsvcd__v_pick(square, before, tau, at.least);
     at.square = nsvcd__v_min(square, before);
-    at.fresh = nsvcd__v_pick(square, limit, zero, one);
-    if (!at.open) at.oldest = s;
+    float fresh[NSVCD__SLICE];
+    for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
+    at.fresh = nsvcd__v_load(fresh);
     at.open = met;
     at.last = s;
   }
   if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
-}
-
-// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__search *search, size_t g, size_t j,
-                                         uint64_t wanted, nsvcd__candidates *kept) {
-  uint64_t cuts = 0;
-  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  if (NSVCD__SLICE < NSVCD__LANES) cuts = nsvcd__interval_cuts(search, j, wanted);
-  NSVCD__EACH_SLICE(l) {
-    nsvcd__slice_against_patch(search, NSVCD__GROUP * g + l, j, wanted, cuts, kept);
-  }
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -9777,10 +10185,54 @@ static size_t nsvcd__search_group(nsvcd__search *search) {
 }
 
 #ifndef NSVCD_NO_NETWORK
+// Moving group g, whose chords are search->group, against the members `which` of group h of the
+// fixed body, in the segments `wanted`: all contact intervals.
+static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h,
+                                       uint32_t which, uint64_t wanted,
+                                       nsvcd__candidates *kept) {
+  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+  uint16_t met[NSVCD__GROUP][NSVCD__MAX_SEGMENTS];
+  uint64_t left[NSVCD__GROUP] = {0};
+  uint32_t any = 0;
+  nsvcd__sheets sheets;
+  sheets.resting_known = 0;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    if (!bits) continue;
+    nsvcd__pose_members(search, g, (uint64_t)1 << s);
+    const float stray = nsvcd__segment_stray(search, s);
+    sheets.moving_known = 0;
+    // where no balls are known to meet yet, that is looked at
+    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray, &sheets)) continue;
+    for (; bits; bits &= bits - 1) {
+      const size_t k = nsvcd__low_bit(bits);
+      const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
+      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[k][s - 1] : 0;
+      const uint32_t lanes =
+          nsvcd__members_meet(search, g, s, h, k, ball, stray, before, &sheets);
+      if (!lanes) continue;
+      met[k][s] = (uint16_t)lanes;
+      left[k] |= (uint64_t)1 << s;
+      any |= 1u << k;
+    }
+  }
+  for (; any; any &= any - 1) {
+    const size_t k = nsvcd__low_bit(any);
+    const size_t j = NSVCD__GROUP * h + k;
+    const uint64_t cuts = nsvcd__interval_cuts(search, met[k], left[k]);
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      nsvcd__slice_against_patch(search, i, j, left[k], met[k], cuts, kept);
+    }
+  }
+}
+
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
 static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
-  uint64_t segments[NSVCD__GROUP];
   size_t at;
   if (search->waiting)
     at = nsvcd__low_bit(search->waiting);
@@ -9790,12 +10242,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   const size_t g = search->moving_tile.groups[next];
   const size_t h = search->fixed_tile.groups[at];
   const uint64_t wanted = nsvcd__nearby(search, next)[at];
-  uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
-  for (; met; met &= met - 1) {
-    const size_t l = nsvcd__low_bit(met);
-    nsvcd__pose_members(search, g, segments[l]);
-    nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
-  }
+  nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
   search->waiting &= ~((uint32_t)1 << at);
   if (!search->waiting) search->step++;
   return search->step < search->steps || nsvcd__search_next_tile(search);
@@ -9805,14 +10252,12 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
 // one patch of the fixed body.
 static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+  const uint64_t all = nsvcd__all_segments(search);
   search->moving = moving;
   search->fixed = fixed;
-  nsvcd__chords_of_group(search, g);
-  const uint64_t wanted = nsvcd__meet_in(search->group, nsvcd__all_segments(search), patch);
   search->posed = 0;
-  nsvcd__pose_members(search, g, wanted);
-  nsvcd__members_against_patch(search, g, j, wanted, kept);
+  nsvcd__chords_of_group(search, g);
+  nsvcd__group_against_group(search, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
 }
 
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,
@@ -13975,6 +14420,12 @@ static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSV
 #define NSVCD__PLACES NSVCD__LANES
 // Distances, in radii. A place is far enough if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
+// or than this, on the inner side of the nearest one,
+#define NSVCD__FAR_INSIDE 0.6f
+// A patch is flat if its mean normal times its area is at least this share of its ball's disc.
+#define NSVCD__FLAT 0.4f
+// places that are far enough, and asked about: bodies may be of several parts
+#define NSVCD__LOOKS_INSIDE 4
 // it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
@@ -13997,19 +14448,30 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Least |p_i - x| / r_i, squared, over the patches of a body, at places (3, PLACES); NSVCD__AMPLE,
-// squared, is the most it says. out: (PLACES).
-static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVCD__PLACES],
-                                    float *out) {
+// Where places lie about a body.
+typedef struct nsvcd__places {
+  float at[3][NSVCD__PLACES];
+  // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
+  float square[NSVCD__PLACES];
+  // of the patch nearest as a flat disc of its area: the squared distance, in its radii, and the
+  // height over it, which is negative inside
+  float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
+} nsvcd__places;
+
+// Fills in what follows from where they are.
+static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
+  const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   nsvcd__walk walk;
   size_t g;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    low = nsvcd__f3_min(low, nsvcd__lane_of(places, k));
-    high = nsvcd__f3_max(high, nsvcd__lane_of(places, k));
-    out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+    low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
+    high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
+    out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+    out->nearest[k] = HUGE_VALF;
+    out->height[k] = 0;
   }
   nsvcd__sphere over;  // all places
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
@@ -14019,16 +14481,33 @@ static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVC
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 place = nsvcd__v3_load(places, l);
-      nsvcd__v least = nsvcd__v_load(out + l);
+      const nsvcd__v3 place = nsvcd__v3_load(out->at, l);
+      nsvcd__v least = nsvcd__v_load(out->square + l);
+      nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
+      nsvcd__v height = nsvcd__v_load(out->height + l);
       for (size_t i = NSVCD__GROUP * g; i < end; i++) {
         const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
-        const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
-        const float square = patch.radius * patch.radius;
-        const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
-        least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v3_dot(d, d), inverse));
+        const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
+        const float size = nsvcd__f3_length(area);
+        const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
+        const nsvcd__v3 d = nsvcd__v3_sub(place, nsvcd__v3_set(patch.centre));
+        const nsvcd__v square = nsvcd__v3_dot(d, d);
+        const float own = patch.radius * patch.radius;
+        const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
+        least = nsvcd__v_min(least, nsvcd__v_scale(square, inverse));
+        const nsvcd__v over = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
+        const nsvcd__v over2 = nsvcd__v_mul(over, over);
+        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, over2), zero);
+        const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
+        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
+        const nsvcd__v to_disc = nsvcd__v_fma(off, off, over2);
+        const int flat = size > NSVCD__FLAT * 3.1416f * own;
+        height = nsvcd__v_pick(nearest, to_disc, height, flat ? over : nsvcd__v_abs(over));
+        nearest = nsvcd__v_min(nearest, to_disc);
       }
-      nsvcd__v_store(out + l, least);
+      nsvcd__v_store(out->square + l, least);
+      nsvcd__v_store(out->nearest + l, nearest);
+      nsvcd__v_store(out->height + l, height);
     }
   }
 }
@@ -14090,34 +14569,64 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
+// The place that is far enough from the surface and farthest from those marked; none: PLACES.
+static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
+  size_t next = NSVCD__PLACES;
+  float most = -1;
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    float least = places->square[k];
+    const float needed = places->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+    if (least < needed * needed || marked >> k & 1) continue;
+    for (uint32_t left = marked; left; left &= left - 1) {
+      const nsvcd__f3 other = nsvcd__lane_of(places->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(places->at, k), other);
+      const float square = nsvcd__f3_dot(d, d);
+      least = square < least || left == marked ? square : least;
+    }
+    if (least > most) next = k;
+    most = least > most ? least : most;
+  }
+  return next;
+}
+
+// 1 if `inner`, of this scale and at this pose in the frame of `outer`, or a part of it, lies
+// inside that.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  float places[3][NSVCD__PLACES];
-  float squares[NSVCD__PLACES];
+  nsvcd__places places;
   uint32_t within = 0;
-  size_t best = 0;
+  uint32_t marked = 0;
+  uint32_t below = 0;
   if (outer->open) return 0;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
     const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PLACES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(place, places, k);
+    nsvcd__lane_set(place, places.at, k);
   }
-  // One that sticks out of the outer body's sphere says it all.
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places.at, l), centre);
     within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
-  if (within != 0xffff) return 0;
-  nsvcd__squares_in_radii(outer, places, squares);
-  for (size_t k = 1; k < NSVCD__PLACES; k++) best = squares[k] > squares[best] ? k : best;
-  if (squares[best] < NSVCD__FAR_ENOUGH * NSVCD__FAR_ENOUGH) return 0;
-  // -1 where the mesh is inside out
-  return fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places, best))) > 0.5f;
+  if (!within) return 0;
+  nsvcd__places_measure(outer, &places);
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    if (!(within >> k & 1)) places.square[k] = 0;
+    below |= (uint32_t)(places.height[k] < 0) << k;
+  }
+  // near the surface everywhere, and on the inner side
+  if (within == 0xffff && below == 0xffff) return 1;
+  for (size_t n = 0; n < NSVCD__LOOKS_INSIDE; n++) {
+    const size_t k = nsvcd__next_place(&places, marked);
+    if (k == NSVCD__PLACES) break;
+    marked |= 1u << k;
+    // -1 where the mesh is inside out
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places.at, k))) > 0.5f) return 1;
+  }
+  return 0;
 }
 
 // 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this
@@ -14841,6 +15350,10 @@ static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x,
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
+// that patches swell before planes part them, shares of their radii: at a recall of 0.999, and of
+// 0.9999
+#define NSVCD__SWELL 0.02f
+#define NSVCD__SWELL_MOST 0.05f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
 // sets, N = 128 to 512, are the same as with twice this, but for one, which is better
@@ -14858,6 +15371,8 @@ typedef struct nsvcd__settings {
   int int8;
   // subtracted from the decoder's logit
   float threshold;
+  // of patches, shares of their radii, before planes part them
+  float swell;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -14905,7 +15420,7 @@ typedef struct nsvcd__query {
 // What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
 // compile they are wrong.
 typedef char nsvcd__constants_hold
-    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
+    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
              sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
              sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
              NSVCD_ALIGNMENT == sizeof(uint64_t)
@@ -14988,6 +15503,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
     return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
@@ -15015,6 +15531,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
+    const float least = k == 2 ? NSVCD__SWELL : k == 3 ? NSVCD__SWELL_MOST : 0;
+    settings->swell = o->swell > least ? o->swell : least;
     return NSVCD_OK;
   }
   return NSVCD_ERROR_ARGUMENT;
@@ -15206,8 +15724,10 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
+  query->broad_phase.swell = task->settings.swell;
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
     *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
@@ -15219,7 +15739,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // a body inside another need not touch anything
-  if (!nsvcd__starts_inside(task)) return 0;
+  if (out->logit > 0 || !nsvcd__starts_inside(task)) return 0;
   const size_t candidates = out->candidates;
   *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
   out->candidates = candidates;
@@ -15234,7 +15754,7 @@ static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
   nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
   answer->inside = inside;
   answer->opinion = opinion;
-  if (opinion.candidates > 0 || inside) answer->by = NSVCD_BY_NETWORK;
+  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
   if (opinion.logit > 0) answer->time.high = opinion.time;
 }
 #endif  // NSVCD_NO_NETWORK
@@ -16410,7 +16930,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->by == NSVCD_BY_NETWORK && !answer->inside)
+  if (answer->opinion.candidates > 0 && !answer->inside)
     nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
   return NSVCD_OK;
 }
@@ -16447,6 +16967,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
 // ---- the names, as src/make_header.py writes them
+#define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
+#define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
+#define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
+#define NSVCD__ALONG_RESTING NSVCD__NUMBER_AT(ALONG_RESTING)
 #define NSVCD__ANSWERED NSVCD__NUMBER_AT(ANSWERED)
 #define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
 #define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
@@ -16455,6 +16979,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
 #define NSVCD__CONTACTS NSVCD__NUMBER_AT(CONTACTS)
+#define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
 #define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
@@ -16484,6 +17009,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__against NSVCD__AT(against)
+#define nsvcd__all_are_parted NSVCD__AT(all_are_parted)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
@@ -16610,6 +17136,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gathers_on NSVCD__AT(gathers_on)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)
 #define nsvcd__groups_nearest NSVCD__AT(groups_nearest)
@@ -16668,6 +17195,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__layer_by_bytes NSVCD__AT(layer_by_bytes)
 #define nsvcd__layer_of NSVCD__AT(layer_of)
 #define nsvcd__layer_tile NSVCD__AT(layer_tile)
+#define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_last NSVCD__AT(left_by_last)
 #define nsvcd__leg NSVCD__AT(leg)
@@ -16694,7 +17222,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
-#define nsvcd__members_against_patch NSVCD__AT(members_against_patch)
+#define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__memo NSVCD__AT(memo)
 #define nsvcd__method_of NSVCD__AT(method_of)
 #define nsvcd__motion NSVCD__AT(motion)
@@ -16707,6 +17235,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__moving_ranges NSVCD__AT(moving_ranges)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
@@ -16716,17 +17245,22 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__needs_of NSVCD__AT(needs_of)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
 #define nsvcd__next_knot NSVCD__AT(next_knot)
+#define nsvcd__next_place NSVCD__AT(next_place)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_part NSVCD__AT(normals_part)
 #define nsvcd__not_parted NSVCD__AT(not_parted)
+#define nsvcd__not_parted_again NSVCD__AT(not_parted_again)
+#define nsvcd__not_parted_anew NSVCD__AT(not_parted_anew)
 #define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
 #define nsvcd__part_groups NSVCD__AT(part_groups)
+#define nsvcd__parted_along NSVCD__AT(parted_along)
 #define nsvcd__passage NSVCD__AT(passage)
+#define nsvcd__passing NSVCD__AT(passing)
 #define nsvcd__patch_reach NSVCD__AT(patch_reach)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__place_point NSVCD__AT(place_point)
@@ -16735,7 +17269,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__placed_at NSVCD__AT(placed_at)
 #define nsvcd__placement NSVCD__AT(placement)
 #define nsvcd__placement_at NSVCD__AT(placement_at)
+#define nsvcd__places NSVCD__AT(places)
+#define nsvcd__places_measure NSVCD__AT(places_measure)
 #define nsvcd__plane_parts NSVCD__AT(plane_parts)
+#define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_at NSVCD__AT(pose_at)
 #define nsvcd__pose_before NSVCD__AT(pose_before)
 #define nsvcd__pose_count NSVCD__AT(pose_count)
@@ -16762,10 +17299,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__query_layout NSVCD__AT(query_layout)
 #define nsvcd__query_open NSVCD__AT(query_open)
 #define nsvcd__question_check NSVCD__AT(question_check)
+#define nsvcd__ranges NSVCD__AT(ranges)
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
+#define nsvcd__resting NSVCD__AT(resting)
+#define nsvcd__resting_of NSVCD__AT(resting_of)
+#define nsvcd__resting_ranges NSVCD__AT(resting_ranges)
 #define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
 #define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
 #define nsvcd__row_left NSVCD__AT(row_left)
@@ -16789,6 +17330,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__seek_places NSVCD__AT(seek_places)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
+#define nsvcd__segment_stray NSVCD__AT(segment_stray)
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
@@ -16805,6 +17347,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_straight NSVCD__AT(settle_straight)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
 #define nsvcd__share_of NSVCD__AT(share_of)
+#define nsvcd__sheets NSVCD__AT(sheets)
+#define nsvcd__sheets_know NSVCD__AT(sheets_know)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
 #define nsvcd__sort_items NSVCD__AT(sort_items)
@@ -16815,7 +17359,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__spare_boxes NSVCD__AT(spare_boxes)
 #define nsvcd__spare_chords NSVCD__AT(spare_chords)
 #define nsvcd__spheres_at_box NSVCD__AT(spheres_at_box)
-#define nsvcd__squares_in_radii NSVCD__AT(squares_in_radii)
 #define nsvcd__starts_inside NSVCD__AT(starts_inside)
 #define nsvcd__starts_within NSVCD__AT(starts_within)
 #define nsvcd__sticks_out NSVCD__AT(sticks_out)
@@ -16845,6 +17388,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
 #define nsvcd__times_are_valid NSVCD__AT(times_are_valid)
+#define nsvcd__tips_along NSVCD__AT(tips_along)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
@@ -16906,6 +17450,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_keep_most NSVCD__AT(v_keep_most)
 #define nsvcd__v_least NSVCD__AT(v_least)
 #define nsvcd__v_load_int16 NSVCD__AT(v_load_int16)
+#define nsvcd__v_load_int8 NSVCD__AT(v_load_int8)
 #define nsvcd__v_max NSVCD__AT(v_max)
 #define nsvcd__v_min NSVCD__AT(v_min)
 #define nsvcd__v_negate NSVCD__AT(v_negate)
@@ -21161,6 +21706,8 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 #define NSVCD__LIMIT_COST 1e5f
 // cost: of a joint's range, kept free at both limits
 #define NSVCD__LIMIT_MARGIN 0.005f
+// search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
+#define NSVCD__PLAN_SWELL 0.25f
 // collision: logits over which the cost grows from a slope of 0 to one of 1
 #define NSVCD__SOFT_LOGITS 2
 // collision: segments that one query asks about, where a first look may do
@@ -21654,6 +22201,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
     question.skin = 0;
+    // a slope before contact
+    if (question.network.swell <= 0) question.network.swell = NSVCD__PLAN_SWELL;
   }
 
   nsvcd_answer answer;

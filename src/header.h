@@ -239,6 +239,7 @@ extern "C" {
 #include "surface/balls.h"    // the least ball that holds all points
 #include "surface/discs.h"    // a direction in which the points are thin
 #include "surface/hulls.h"    // 16 vertices about a patch
+#include "surface/sorted.h"   // pieces by patch; eight tips of each, for the network
 #include "surface/surface.h"  // patch by patch: ball, disc, hull, triangles
 
 // ====================================================== encoder: what the network keeps of a patch
@@ -264,6 +265,7 @@ extern "C" {
 #include "motion/segments.h"  // how far a point strays from a straight line
 
 // ================================================================== search: which patches may meet
+#include "search/apart.h"      // pairs of patches that a plane parts, by their tips
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
 

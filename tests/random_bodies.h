@@ -23,6 +23,8 @@ static float centres[3 * NSVCD_SMALL_PATCHES], radii[NSVCD_SMALL_PATCHES],
     areas[3 * NSVCD_SMALL_PATCHES];
 
 static int8_t latents[NSVCD_SMALL_PATCHES * NSVCD__LATENT];
+static int8_t tips[NSVCD_SMALL_PATCHES * 3 * NSVCD__TIPS];
+static int random_tips;
 
 // Puts the patches of `centres` in order (points).
 static void put_in_order(size_t points, uint16_t *order) {
@@ -37,10 +39,16 @@ static const nsvcd_body *build(size_t points, blob *memory) {
   uint16_t order[NSVCD_SMALL_PATCHES];
   nsvcd__latents_source source;
   put_in_order(points, order);
+  for (size_t k = 0; k < sizeof tips; k++) {
+    // of a cube about the ball: what it parts, the ball does too; or within the ball
+    tips[k] = k / 3 >> k % 3 & 1 ? 127 : -127;
+    if (random_tips) tips[k] = (int8_t)((int)pick(0, 146) - 73);
+  }
   source.count = points;
   source.centres = (const nsvcd__f3 *)(const void *)centres;
   source.radii = radii;
   source.areas = (const nsvcd__f3 *)(const void *)areas;
+  source.tips = tips;
   source.latents = latents;
   source.order = order;
   source.open = 0;

@@ -71,7 +71,7 @@ static int decide(const scene *s, nsvcd_answer *answer, nsvcd__decisive *decisiv
   nsvcd__query *query = nsvcd__query_open(&question, query_workspace());
   query->task.decisive = decisive;
   nsvcd__answer_query(query, NULL, answer);
-  return status_of(answer) == STATUS_OK || status_of(answer) == STATUS_LIMIT;
+  return answer->opinion.candidates > 0 && answer->by == NSVCD_BY_NETWORK && !answer->inside;
 }
 
 // ---------------------------------------------------------------------------------------- families
@@ -322,11 +322,14 @@ static int without_lean(scene *s, shapes_rng *rng, size_t n) {
     float at[3] = {0, 0, 0};
     float radius = 0;
     int8_t latent[NSVCD__LATENT];
+    int8_t own_tips[3 * NSVCD__TIPS];
     CHECK(nsvcd_body_patch(from, 0, at, &radius));
+    for (size_t i = 0; i < sizeof own_tips; i++)
+      own_tips[i] = nsvcd__group_tips(from, 0)[NSVCD__GROUP * i];
     const nsvcd__f3 centre = nsvcd__f3_load(at);
     memcpy(latent, nsvcd__body_latents(from), sizeof latent);
     for (size_t i = 0; i < 3; i++) latent[NSVCD_W_CHANNELS * i] = 0;
-    const nsvcd__latents_source source = {1, &centre, &radius, &none, latent, &first, 1};
+    const nsvcd__latents_source source = {1, &centre, &radius, &none, own_tips, latent, &first, 1};
     const nsvcd_body **body = k ? &s->fixed : &s->moving;
     CHECK_EQ(nsvcd__body_build(&source, scaled_memory[k].at), NSVCD_OK);
     *body = (const nsvcd_body *)(const void *)scaled_memory[k].at;
@@ -443,6 +446,9 @@ static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__d
   memset(s, 0, sizeof *s);
   s->moving = pool[0][shapes_pick(&rng, POOL)];
   s->fixed = pool[0][shapes_pick(&rng, POOL)];
+  // Most scenes pass by: their pairs must be looked at to have a gradient. Without it the logit
+  // jumps where planes part a pair.
+  s->options.network.swell = 1;
   if (!families[f].make(s, &rng, n)) return 0;
   settle_sides(s);
   return decide(s, answer, decisive);
@@ -579,6 +585,8 @@ static scene displaced(const scene *s, double step, const double *along) {
 // pair and head decide on both sides: 1e-3 of the moving body's size apart, so that kinks within
 // that and rounding count as well.
 static void gradient_follows_the_logit(void) {
+  double others = 0;
+  double close_others = 0;
   pool_open();
   for (size_t f = 0; f < 4; f++) {
     size_t count[2] = {0, 0};
@@ -636,8 +644,12 @@ static void gradient_follows_the_logit(void) {
         100 * (double)close[1] / (double)count[1], count[1]);
     CHECK_GE(count[0] + count[1], 0.68 * (double)asked);
     CHECK_GE(close[0], 0.93 * (double)count[0]);
-    CHECK_GE(close[1], 0.98 * (double)count[1]);
+    CHECK_GE(close[1], 0.97 * (double)count[1]);
+    others += (double)count[1];
+    close_others += (double)close[1];
   }
+  CHECK_GE(close_others,
+           0.985 * others);  // of all families: a family's share has an error of 0.5 %
 }
 
 // ---------------------------------------------------------------------------------------- contract
@@ -789,7 +801,7 @@ static void gradient_answers_as_sweep(void) {
       CHECK(memcmp(gradient[0], gradient[1], 6 * s.count * sizeof(float)) == 0);
       double most = 0;
       for (size_t k = 0; k < 6 * s.count; k++) most = fmax(most, fabs((double)gradient[0][k]));
-      const int network = status_of(&answer) == STATUS_OK || status_of(&answer) == STATUS_LIMIT;
+      const int network = answer.opinion.candidates > 0 && !answer.inside;
       CHECK(network ? most > 0 : !(most > 0));
       statuses[status_of(&answer)]++;
     }

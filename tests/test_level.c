@@ -461,18 +461,18 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
   size_t clear = 0;
   shapes_rng rng = {9};
   for (int trial = 0; trial < 1000; trial++) {
-    float places[3][NSVCD__PLACES], squares[NSVCD__PLACES];
+    nsvcd__places all;
     const double spread = pow(10, shapes_uniform(&rng, -2, 0.5));
     double middle[3];
     for (int k = 0; k < 3; k++)
       middle[k] = k == 2 ? shapes_uniform(&rng, -1.2, 2) : shapes_uniform(&rng, -10.5, 10.5);
     for (size_t n = 0; n < NSVCD__PLACES; n++) {
       for (int k = 0; k < 3; k++)
-        places[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
+        all.at[k][n] = (float)(middle[k] + spread * shapes_uniform(&rng, -0.5, 0.5));
     }
-    nsvcd__squares_in_radii(body, places, squares);
+    nsvcd__places_measure(body, &all);
     for (size_t n = 0; n < NSVCD__PLACES; n++) {
-      const float place[3] = {places[0][n], places[1][n], places[2][n]};
+      const float place[3] = {all.at[0][n], all.at[1][n], all.at[2][n]};
       double least = (double)(NSVCD__AMPLE * NSVCD__AMPLE);
       double w = 0;
       for (size_t i = 0; i < body->patches; i++) {
@@ -486,7 +486,7 @@ static void level_winding_numbers_are_those_of_the_patches(void) {
           w += (double)areas[k * body->padded + i] * d[k] / (length * length * length);
       }
       w /= 4 * acos(-1);
-      CHECK_NEAR(squares[n], least, 1e-4);
+      CHECK_NEAR(all.square[n], least, 1e-4);
       if (n > 0 || least < 1) continue;
       const double found = (double)nsvcd__winding_number(body, nsvcd__f3_load(place));
       worst = fmax(worst, fabs(found - w));

@@ -29,6 +29,7 @@ static void query_answers_are_the_same_to_the_bit(void) {
 
 static void query_answers_make_sense(void) {
   int certified = 0;
+  int parted = 0;
   int answered = 0;
   for (uint64_t seed = 1; seed <= 40; seed++) {
     query_scene s;
@@ -39,8 +40,9 @@ static void query_answers_make_sense(void) {
     CHECK(contact_time_of(&a) >= 0 && contact_time_of(&a) <= 1);
     CHECK(a.opinion.patch_a < nsvcd_body_describe(s.moving).patches &&
           a.opinion.patch_b < nsvcd_body_describe(s.fixed).patches);
-    CHECK_EQ(status_of(&a) == STATUS_CERTIFIED_FREE,
-             a.opinion.candidates == 0 && status_of(&a) != STATUS_INSIDE);
+    // what planes part is no proof
+    if (status_of(&a) == STATUS_CERTIFIED_FREE) CHECK_EQ(a.opinion.candidates, 0);
+    parted += status_of(&a) == STATUS_OK && a.opinion.candidates == 0;
     CHECK_EQ(status_of(&a) == STATUS_LIMIT,
              a.opinion.candidates > 8 && status_of(&a) != STATUS_INSIDE);
     certified += status_of(&a) == STATUS_CERTIFIED_FREE;
@@ -48,6 +50,7 @@ static void query_answers_make_sense(void) {
     query_scene_close(&s);
   }
   CHECK_GE(certified, 1);  // else this test saw only one kind
+  CHECK_GE(parted, 1);
   CHECK_GE(answered, 10);
 }
 

@@ -42,11 +42,11 @@ static void containment(void) {
         way[k] = rotation[3 * k];
         at[k] = (float)distance * way[k];
       }
-      float places[3][NSVCD__PLACES], lanes[NSVCD__PLACES];
+      nsvcd__places places;
       for (int k = 0; k < 3 * NSVCD__PLACES; k++)
-        places[k / NSVCD__PLACES][k % NSVCD__PLACES] = at[k / NSVCD__PLACES];
-      nsvcd__squares_in_radii(outer, places, lanes);
-      double in_radii = sqrt((double)lanes[7]);
+        places.at[k / NSVCD__PLACES][k % NSVCD__PLACES] = at[k / NSVCD__PLACES];
+      nsvcd__places_measure(outer, &places);
+      double in_radii = sqrt((double)places.square[7]);
       int bin = in_radii < 1 ? 0 : in_radii < 1.5 ? 1 : in_radii < 2 ? 2 : 3;
       double want = distance < 1 ? 1 : 0;
       double off = fabs((double)nsvcd__winding_number(outer, nsvcd__f3_load(at)) - want);

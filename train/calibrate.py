@@ -2,7 +2,8 @@
 
 Usage: calibrate.py CHECKPOINT SVCD PROBLEMS... - runs `svcd check` (built with thresholds of zero) for each head and N at the
 default K, and writes into the checkpoint: the threshold at which misses and false alarms are equally frequent,
-and those that keep at least 99, 99.9 and 99.99 % of the collisions. Certified and inside answers are not the network's to move.
+and those that keep at least 99, 99.9 and 99.99 % of the collisions, or, where planes parted so many that none does, all
+that are left. Each recall is asked for, since patches swell by it. Certified and inside answers are not the network's to move.
 """
 from __future__ import annotations
 
@@ -18,28 +19,40 @@ from export import HEADS, RECALLS, SIZES
 CERTAIN = 50.0  # |logit| above this is not the network's
 
 
-def answers(svcd: str, head: str, points: int, path: Path) -> tuple[list[float], list[int]]:
+def answers(svcd: str, head: str, points: int, recall: float, path: Path) -> tuple[list[float], list[int]]:
     labels = {}
     for line in path.read_text().splitlines():
         w = line.split()
         if w[:1] == ["problem"]:
             labels[w[1]] = int(w[13])
-    command = [svcd, "check", "--method", "network", "--repeat", "1", "--points", str(points), "--model", head, str(path)]
+    command = [svcd, "check", "--method", "network", "--repeat", "1", "--points", str(points), "--model", head,
+               "--recall", str(recall), str(path)]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     rows = [line.split("\t") for line in out.splitlines() if line and not line.startswith(("#", "id", "ID"))]
     return [float(r[1]) for r in rows], [labels[r[0]] for r in rows]
 
 
-def thresholds(logits: list[float], labels: list[int]) -> list[float]:
-    hit = sorted(v for v, k in zip(logits, labels) if k == 1)
-    free = sorted(v for v, k in zip(logits, labels) if k == 0)
+def sides(answered: tuple[list[float], list[int]]) -> tuple[list[float], list[float]]:
+    """Logits of collisions and of free motions, in order."""
+    logits, labels = answered
+    return sorted(v for v, k in zip(logits, labels) if k == 1), sorted(v for v, k in zip(logits, labels) if k == 0)
+
+
+def thresholds(by_recall: list[tuple[list[float], list[int]]]) -> list[float]:
+    """by_recall: logits and labels for each of RECALLS."""
+    hit, free = sides(by_recall[0])
     grid = sorted({v for v in hit + free if abs(v) < CERTAIN})
     def gap(t: float) -> float:
         return abs(sum(v <= t for v in hit) / len(hit) - sum(v > t for v in free) / len(free))
     coarse = grid[:: max(1, len(grid) // 400)]
-    balanced = min(coarse, key=gap)
-    # A recall asked for must not find less than the default does.
-    return [balanced] + [min(balanced, hit[min(len(hit) - 1, math.floor((1 - r) * len(hit)))] - 1e-4) for r in RECALLS[1:]]
+    out = [min(coarse, key=gap)]
+    for r, answered in zip(RECALLS[1:], by_recall[1:]):
+        hit, _ = sides(answered)
+        seen = [v for v in hit if v > -CERTAIN]
+        lost = len(hit) - len(seen)
+        least = seen[max(0, min(len(hit) - 1, math.floor((1 - r) * len(hit))) - lost)]
+        out.append(min(out[0], least - 1e-4))  # a recall asked for must not find less than the default does
+    return out
 
 
 def main() -> None:
@@ -49,15 +62,20 @@ def main() -> None:
     for head in HEADS:
         table.append([])
         for points in SIZES:
-            logits, labels = [], []
-            for name in sys.argv[3:]:
-                a, b = answers(svcd, head, points, Path(name))
-                logits += a
-                labels += b
-            row = thresholds(logits, labels)
-            free = [v for v, k in zip(logits, labels) if k == 0]
-            print(f"{head:5} N {points:3} thresholds", " ".join(f"{t:+.3f}" for t in row), "false alarms %",
-                  " ".join(f"{100 * sum(v > t for v in free) / len(free):.2f}" for t in row), "on", len(labels), flush=True)
+            by_recall = []
+            for recall in RECALLS:
+                logits, labels = [], []
+                for name in sys.argv[3:]:
+                    a, b = answers(svcd, head, points, recall, Path(name))
+                    logits += a
+                    labels += b
+                by_recall.append((logits, labels))
+            row = thresholds(by_recall)
+            pairs = [sides(answered) for answered in by_recall]
+            share = lambda values, t: 100 * sum(v > t for v in values) / len(values)
+            print(f"{head:5} N {points:3} thresholds", " ".join(f"{t:+.3f}" for t in row),
+                  "found %", " ".join(f"{share(hit, t):.2f}" for (hit, _), t in zip(pairs, row)),
+                  "false alarms %", " ".join(f"{share(free, t):.2f}" for (_, free), t in zip(pairs, row)), flush=True)
             table[-1].append(row)
     saved["thresholds"] = table
     torch.save(saved, path)

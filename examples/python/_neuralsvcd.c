@@ -91,7 +91,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(body_facts, round), FIELD(body_facts, latents),
     STRUCT(pose), FIELD(pose, position), FIELD(pose, rotation),
     STRUCT(network_options), FIELD(network_options, pairs), FIELD(network_options, model),
-    FIELD(network_options, precision), FIELD(network_options, recall),
+    FIELD(network_options, precision), FIELD(network_options, recall), FIELD(network_options, swell),
     STRUCT(mover), FIELD(mover, body), FIELD(mover, poses), FIELD(mover, count),
     FIELD(mover, times), FIELD(mover, scale),
     STRUCT(question), FIELD(question, a), FIELD(question, b), FIELD(question, ask),

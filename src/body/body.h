@@ -18,6 +18,8 @@
 //                        zero
 //   x, y, z      (3, G), (3, H), (3, I)  float: if there are more than 32 groups, their sums over
 //                        the members of the spheres above
+//   tips         (P / 16, 8, 3, 16)  int8: eight points of each patch of a group of 16, from its
+//                        centre in steps of r / 127; padding is zero
 //   latents      (N, NSVCD__LATENT)  int8, free of scale
 // and a body of triangles, for the proof, with what body/facets says. A body that has both is
 // one of latents with one of triangles behind it, at `inner`: each part has spheres that suit it,
@@ -42,7 +44,7 @@
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
-#define NSVCD__BODY_VERSION 6u
+#define NSVCD__BODY_VERSION 7u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -148,8 +150,9 @@ static const float *nsvcd__body_areas(const nsvcd_body *body) {
   return (const float *)(const void *)at;
 }
 // Bytes of a body of latents up to these.
-static size_t nsvcd__areas_end(size_t padded) {
-  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded);
+static size_t nsvcd__latents_begin(size_t padded) {
+  return nsvcd__spheres_size(padded) + 12 * nsvcd__area_slots(padded) +
+         3 * NSVCD__TIPS * padded;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -158,9 +161,14 @@ static size_t nsvcd__areas_end(size_t padded) {
 static const float *nsvcd__level_areas(const nsvcd_body *body, nsvcd__level level) {
   return nsvcd__body_areas(body) + level.first / 4 * 3;
 }
+// Of the 16 patches of a group: (TIPS, 3, 16).
+static const int8_t *nsvcd__group_tips(const nsvcd_body *body, size_t g) {
+  const float *areas_end = nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded);
+  return (const int8_t *)areas_end + 3 * NSVCD__TIPS * NSVCD__GROUP * g;
+}
 // (N, LATENT)
 static const int8_t *nsvcd__body_latents(const nsvcd_body *body) {
-  return (const int8_t *)(nsvcd__body_areas(body) + 3 * nsvcd__area_slots(body->padded));
+  return (const int8_t *)body + nsvcd__latents_begin(body->padded);
 }
 #endif
 
@@ -169,7 +177,7 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches) {
   if (patches < 1 || patches > NSVCD_MAX_PATCHES) return 0;
   const size_t padded = nsvcd__round_up(patches, NSVCD__GROUP);
   const size_t latents = patches * NSVCD__LATENT;
-  return nsvcd__round_up(nsvcd__areas_end(padded) + latents, NSVCD_ALIGNMENT);
+  return nsvcd__round_up(nsvcd__latents_begin(padded) + latents, NSVCD_ALIGNMENT);
 }
 #endif
 
@@ -390,6 +398,7 @@ typedef struct nsvcd__latents_source {
   const nsvcd__f3 *centres;  // (N)
   const float *radii;        // (N)
   const nsvcd__f3 *areas;    // (N)
+  const int8_t *tips;        // (N, TIPS, 3)
   const int8_t *latents;     // (N, LATENT)
   // (N) of the patches
   const uint16_t *order;
@@ -405,12 +414,16 @@ static nsvcd_result nsvcd__body_build(const nsvcd__latents_source *source, void 
   b->weights_id = NSVCD_WEIGHTS_ID;
   float *spheres = (float *)(b + 1);
   float *areas = (float *)nsvcd__writable(b, nsvcd__body_areas(b));
-  int8_t *latents = (int8_t *)(areas + 3 * nsvcd__area_slots(padded));
+  int8_t *tips = (int8_t *)nsvcd__writable(b, nsvcd__group_tips(b, 0));
+  int8_t *latents = (int8_t *)nsvcd__writable(b, nsvcd__body_latents(b));
   for (size_t i = 0; i < count; i++) {
     const size_t from = source->order[i];
     const nsvcd__sphere sphere = {source->centres[from], source->radii[from]};
     nsvcd__sphere_store(sphere, spheres, padded, i);
     nsvcd__f3_put(source->areas[from], areas + i, padded);
+    int8_t *group = tips + 3 * NSVCD__TIPS * (i - i % NSVCD__GROUP) + i % NSVCD__GROUP;
+    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++)
+      group[NSVCD__GROUP * k] = source->tips[3 * NSVCD__TIPS * from + k];
     memcpy(latents, source->latents + NSVCD__LATENT * from, NSVCD__LATENT);
     latents += NSVCD__LATENT;
   }

@@ -22,6 +22,7 @@ typedef struct nsvcd__parts {
   // Of a body with latents, else empty:
   float *radii;      // (N)
   nsvcd__f3 *areas;  // (N)
+  int8_t *tips;      // (N, TIPS, 3)
   int8_t *latents;   // (N, LATENT)
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -45,8 +46,15 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   if (!result) result = nsvcd__patches_build(&region.mesh, most, &spare, &patches);
   const size_t count = result ? 0 : patches.count;
   for (size_t i = 0; i < count; i++) parts->centres[parts->count + i] = patches.centres[i];
+  nsvcd__pieces pieces;
+  if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
+    result = NSVCD_ERROR_MEMORY;
 #ifndef NSVCD_NO_NETWORK
-  for (size_t i = 0; parts->options->latents && i < count; i++) {
+  nsvcd__sorted sorted;
+  const int latents = parts->options->latents;
+  if (!result && latents && !nsvcd__sorted_build(&pieces, &spare, &sorted))
+    result = NSVCD_ERROR_MEMORY;
+  for (size_t i = 0; !result && latents && i < count; i++) {
     const size_t to = parts->count + i;
     const float radius = patches.radii[i];
     const size_t first = patches.offsets[i];
@@ -66,15 +74,12 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
     const double wider = ((double)radius + margin) * (1 + 1e-7);
     parts->radii[to] = region.cut_count > 0 ? (float)wider : radius;
     parts->areas[to] = patches.area_vectors[i];
+    nsvcd__tips_of(&sorted, i, parts->radii[to], parts->tips + 3 * NSVCD__TIPS * to);
   }
 #endif
 #ifndef NSVCD_NO_PROOF
-  nsvcd__pieces pieces;
-  if (!result && !parts->options->no_triangles) {
-    result = NSVCD_ERROR_MEMORY;
-    if (nsvcd__pieces_build(&region, &patches, &spare, &pieces))
-      result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
-  }
+  if (!result && !parts->options->no_triangles)
+    result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -132,6 +137,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   const size_t latents = options->latents ? patches : 0;
   parts->radii = NSVCD__TAKE(arena, float, latents);
   parts->areas = NSVCD__TAKE(arena, nsvcd__f3, latents);
+  parts->tips = NSVCD__TAKE(arena, int8_t, 3 * NSVCD__TIPS * latents);
   parts->latents = NSVCD__TAKE(arena, int8_t, NSVCD__LATENT * latents);
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -201,6 +207,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
     source.centres = parts->centres;
     source.radii = parts->radii;
     source.areas = parts->areas;
+    source.tips = parts->tips;
     source.latents = parts->latents;
     source.order = order;
     source.open = open;

@@ -78,6 +78,19 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
   return 2 * (double)b->extent <= (double)NSVCD__MAX_LENGTH / (double)scale;
 }
 
+#ifndef NSVCD_NO_NETWORK
+// Are tips in range, and is their padding zero?
+static int nsvcd__tips_are_sound(const nsvcd_body *b) {
+  for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
+    const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
+    const int8_t tip = nsvcd__group_tips(b, 0)[n];
+    const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
+    if (tip == -128 || (!exists && tip != 0)) return 0;
+  }
+  return 1;
+}
+#endif
+
 // ---- the triangles
 
 #ifndef NSVCD_NO_PROOF
@@ -199,19 +212,19 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
     return 0;
 #endif
   }
-  if (b->size < nsvcd__areas_end(b->padded)) return 0;
+  if (b->size < nsvcd__latents_begin(b->padded)) return 0;
   if (!nsvcd__spheres_are_sound(b) || !nsvcd__areas_are_sound(b)) return 0;
   if (b->radius < NSVCD_MIN_RADIUS) return 0;
   if (!nsvcd__level_covers(nsvcd__groups_of(b), nsvcd__body_patches(b), b->patches)) return 0;
 #ifndef NSVCD_NO_NETWORK
   if (b->weights_id != NSVCD_WEIGHTS_ID) return 0;
   const size_t latents = nsvcd_body_size(b->patches);
-  if (b->size < latents) return 0;
+  if (b->size < latents || !nsvcd__tips_are_sound(b)) return 0;
   if (b->inner == 0) return b->size == latents && b->triangles == 0;
   if (b->inner != latents) return 0;
 #else
   if (b->inner % NSVCD_ALIGNMENT || b->inner >= b->size) return 0;
-  if (b->inner < nsvcd__areas_end(b->padded)) return 0;
+  if (b->inner < nsvcd__latents_begin(b->padded)) return 0;
 #endif
   // the body of triangles within
   const char *at = (const char *)b + b->inner;

@@ -213,7 +213,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                          task->swapped ? gradient_a : gradient_b};
   if (out[0]) memset(out[0], 0, 6 * task->motion.moving.count * sizeof(float));
   if (out[1]) memset(out[1], 0, 6 * task->motion.fixed.count * sizeof(float));
-  if (answer->by == NSVCD_BY_NETWORK && !answer->inside)
+  if (answer->opinion.candidates > 0 && !answer->inside)
     nsvcd__gradient(task, &decisive, query->broad_phase.time, out);
   return NSVCD_OK;
 }

@@ -34,6 +34,11 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
   first[3 * slots + i] = sphere.radius;
 }
 
+// ---- tips
+
+// points of a patch's surface that reach about as far as all of it does: patches/tips
+#define NSVCD__TIPS 8
+
 // ---- discs
 
 // Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the

@@ -69,7 +69,7 @@ typedef struct nsvcd_encode_options {
 NSVCDDEF size_t nsvcd_body_size(size_t patches);
 // The same as a constant, for 1 to NSVCD_SMALL_PATCHES patches.
 #define NSVCD_BODY_BYTES(patches) \
-  ((64 + 28 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
+  ((64 + 52 * (((patches) + 15) / 16 * 16) + 16 * ((((patches) + 15) / 16 + 15) / 16 * 16) + \
     40 * (patches) + 7) / \
    8 * 8)
 #endif

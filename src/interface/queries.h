@@ -51,6 +51,10 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
+  // Patches swell by this share of their radii before planes part them, so that patches which only
+  // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
+  // more of what is near a hit. 0: as much as `recall` needs
+  float swell;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -198,8 +202,8 @@ typedef struct nsvcd_opinion {
   float time;
   // that pair
   uint32_t patch_a, patch_b;
-  // pairs of patches whose spheres meet, each counted once for each stretch of time, until the
-  // search ends
+  // pairs of patches whose spheres meet and that no plane between them parts, each counted once for
+  // each stretch of time, until the search ends
   size_t candidates;
   // 1: there were more of these than `pairs` let through
   int limited;
@@ -288,7 +292,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_MEMORY(name, bytes) uint64_t name[((bytes) + 7) / 8]
 #define NSVCD__GROUPS_OF(patches) ((patches) > 512 ? 32 : ((patches) + 15) / 16)
 #define NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) \
-  (1024 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
+  (1088 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
    ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))

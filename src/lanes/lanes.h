@@ -179,6 +179,32 @@ static inline nsvcd__v nsvcd__v_load_int16(const int16_t *p) {
   return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
 #endif
 }
+static inline nsvcd__v nsvcd__v_load_int8(const int8_t *p) {
+#if NSVCD__SLICE == 1
+  return (float)*p;
+#elif defined(__wasm_simd128__)
+  const v128_t wide = wasm_i16x8_extend_low_i8x16(wasm_v128_load32_zero(p));
+  return wasm_f32x4_convert_i32x4(wasm_i32x4_extend_low_i16x8(wide));
+#elif NSVCD__SLICE == 4
+  int32_t word;
+  memcpy(&word, p, sizeof word);
+#if defined(__aarch64__)
+  const int16x8_t wide = vmovl_s8(vcreate_s8((uint64_t)(uint32_t)word));
+  return vcvtq_f32_s32(vmovl_s16(vget_low_s16(wide)));
+#else
+  const __m128i packed = _mm_cvtsi32_si128(word);
+  const __m128i pairs = _mm_unpacklo_epi8(packed, packed);
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(pairs, pairs), 24));
+#endif
+#elif NSVCD__SLICE == 8
+  const __m128i packed = _mm_loadl_epi64((const __m128i *)(const void *)p);
+  return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(packed));
+#else
+  const __m128i packed = _mm_loadu_si128((const __m128i *)(const void *)p);
+  const __m512i wide = _mm512_maskz_cvtepi8_epi32(NSVCD__ALL, packed);
+  return _mm512_maskz_cvtepi32_ps(NSVCD__ALL, wide);
+#endif
+}
 
 #define NSVCD__SLICE_MASK (((uint32_t)1 << (NSVCD__SLICE - 1) << 1) - 1)
 #define NSVCD__EACH_SLICE(l) for (size_t l = 0; l < NSVCD__LANES; l += NSVCD__SLICE)

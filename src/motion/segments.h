@@ -47,9 +47,11 @@
 // reached at 1280 degrees; beyond, segments turn more: still proven, only looser
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
-#define NSVCD__FINE_TURN 0.131f  // radians, 7.5 degrees: nothing is gained by shorter segments
+#define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
 // radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
 #define NSVCD__INTERVAL_TURN 0.785f
+// planes that are remembered: search/apart
+#define NSVCD__PLANES 4
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
 // doubled.
@@ -184,11 +186,18 @@ typedef struct nsvcd__search {
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
   float remote;
+#ifndef NSVCD_NO_NETWORK
+  // normals of planes that parted patches, the last of so many found
+  nsvcd__f3 planes[NSVCD__PLANES];
+  size_t found_planes, best_plane;
+  float swell;  // of patches, shares of their radii, before planes part them
+  // 0: no patches' balls meet, which certifies free
+  int balls_met;
+#endif
 } nsvcd__search;
 
 // Vectors that cross cache lines take longer: the arrays of 16 lanes begin with one, where there
-// are vectors. Up to so many bytes are passed over for that; where base is NULL, all of them are
-// counted.
+// are vectors. For that so many bytes are passed over at most, and counted where base is NULL.
 #define NSVCD__PASSED_OVER (NSVCD__SLICE > 1 ? 64 - NSVCD_ALIGNMENT : 0)
 static void nsvcd__take_to_line(char *base, uint64_t *used) {
   if (NSVCD__PASSED_OVER == 0) return;
@@ -219,8 +228,7 @@ static void nsvcd__search_layout(const nsvcd__needs *needs, char *base, uint64_t
   search->fixed_tile.gathered = (float *)nsvcd__take(base, used, gathered, sizeof(float));
 }
 
-// Memory for chords, and for boxes, that need not come from the stack: where the members of a group
-// will be posed later.
+// Memory for chords, and for boxes: where the members of a group will be posed later.
 static nsvcd__chords *nsvcd__spare_chords(const nsvcd__search *search) {
   return &search->members[0];
 }
@@ -663,6 +671,8 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
                                            nsvcd__search *search) {
   nsvcd__choose_segments(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
+  search->found_planes = search->best_plane = 0;
+  search->balls_met = 0;
 }
 #endif
 

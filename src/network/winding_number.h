@@ -23,6 +23,12 @@
 #define NSVCD__PLACES NSVCD__LANES
 // Distances, in radii. A place is far enough if no patch is nearer than this,
 #define NSVCD__FAR_ENOUGH 1.0f
+// or than this, on the inner side of the nearest one,
+#define NSVCD__FAR_INSIDE 0.6f
+// A patch is flat if its mean normal times its area is at least this share of its ball's disc.
+#define NSVCD__FLAT 0.4f
+// places that are far enough, and asked about: bodies may be of several parts
+#define NSVCD__LOOKS_INSIDE 4
 // it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
@@ -45,19 +51,30 @@ static uint32_t nsvcd__may_be_close(const void *what, nsvcd__spheres all) {
   return close;
 }
 
-// Least |p_i - x| / r_i, squared, over the patches of a body, at places (3, PLACES); NSVCD__AMPLE,
-// squared, is the most it says. out: (PLACES).
-static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVCD__PLACES],
-                                    float *out) {
+// Where places lie about a body.
+typedef struct nsvcd__places {
+  float at[3][NSVCD__PLACES];
+  // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
+  float square[NSVCD__PLACES];
+  // of the patch nearest as a flat disc of its area: the squared distance, in its radii, and the
+  // height over it, which is negative inside
+  float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
+} nsvcd__places;
+
+// Fills in what follows from where they are.
+static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
   const nsvcd__spheres patches = nsvcd__body_patches(body);
+  const nsvcd__v zero = nsvcd__v_set(0);
   nsvcd__f3 low = nsvcd__f3_of(HUGE_VALF, HUGE_VALF, HUGE_VALF);
   nsvcd__f3 high = nsvcd__f3_scale(low, -1);
   nsvcd__walk walk;
   size_t g;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
-    low = nsvcd__f3_min(low, nsvcd__lane_of(places, k));
-    high = nsvcd__f3_max(high, nsvcd__lane_of(places, k));
-    out[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+    low = nsvcd__f3_min(low, nsvcd__lane_of(out->at, k));
+    high = nsvcd__f3_max(high, nsvcd__lane_of(out->at, k));
+    out->square[k] = NSVCD__AMPLE * NSVCD__AMPLE;
+    out->nearest[k] = HUGE_VALF;
+    out->height[k] = 0;
   }
   nsvcd__sphere over;  // all places
   over.centre = nsvcd__f3_add(nsvcd__f3_scale(low, 0.5f), nsvcd__f3_scale(high, 0.5f));
@@ -67,16 +84,33 @@ static void nsvcd__squares_in_radii(const nsvcd_body *body, float (*places)[NSVC
     const size_t next = NSVCD__GROUP * (g + 1);
     const size_t end = next < body->patches ? next : body->patches;
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v3 place = nsvcd__v3_load(places, l);
-      nsvcd__v least = nsvcd__v_load(out + l);
+      const nsvcd__v3 place = nsvcd__v3_load(out->at, l);
+      nsvcd__v least = nsvcd__v_load(out->square + l);
+      nsvcd__v nearest = nsvcd__v_load(out->nearest + l);
+      nsvcd__v height = nsvcd__v_load(out->height + l);
       for (size_t i = NSVCD__GROUP * g; i < end; i++) {
         const nsvcd__sphere patch = nsvcd__sphere_of(patches, i);
-        const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_set(patch.centre), place);
-        const float square = patch.radius * patch.radius;
-        const float inverse = 1 / (square > 1e-37f ? square : 1e-37f);
-        least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v3_dot(d, d), inverse));
+        const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
+        const float size = nsvcd__f3_length(area);
+        const nsvcd__f3 normal = nsvcd__f3_scale(area, size > 0 ? 1 / size : 0);
+        const nsvcd__v3 d = nsvcd__v3_sub(place, nsvcd__v3_set(patch.centre));
+        const nsvcd__v square = nsvcd__v3_dot(d, d);
+        const float own = patch.radius * patch.radius;
+        const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
+        least = nsvcd__v_min(least, nsvcd__v_scale(square, inverse));
+        const nsvcd__v over = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
+        const nsvcd__v over2 = nsvcd__v_mul(over, over);
+        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, over2), zero);
+        const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
+        const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
+        const nsvcd__v to_disc = nsvcd__v_fma(off, off, over2);
+        const int flat = size > NSVCD__FLAT * 3.1416f * own;
+        height = nsvcd__v_pick(nearest, to_disc, height, flat ? over : nsvcd__v_abs(over));
+        nearest = nsvcd__v_min(nearest, to_disc);
       }
-      nsvcd__v_store(out + l, least);
+      nsvcd__v_store(out->square + l, least);
+      nsvcd__v_store(out->nearest + l, nearest);
+      nsvcd__v_store(out->height + l, height);
     }
   }
 }
@@ -138,34 +172,64 @@ static float nsvcd__winding_number(const nsvcd_body *body, nsvcd__f3 point) {
   return total / 12.5663706f;
 }
 
-// 1 if `inner`, of this scale and at this pose in the frame of `outer`, lies inside it.
+// The place that is far enough from the surface and farthest from those marked; none: PLACES.
+static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
+  size_t next = NSVCD__PLACES;
+  float most = -1;
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    float least = places->square[k];
+    const float needed = places->height[k] < 0 ? NSVCD__FAR_INSIDE : NSVCD__FAR_ENOUGH;
+    if (least < needed * needed || marked >> k & 1) continue;
+    for (uint32_t left = marked; left; left &= left - 1) {
+      const nsvcd__f3 other = nsvcd__lane_of(places->at, nsvcd__low_bit(left));
+      const nsvcd__f3 d = nsvcd__f3_sub(nsvcd__lane_of(places->at, k), other);
+      const float square = nsvcd__f3_dot(d, d);
+      least = square < least || left == marked ? square : least;
+    }
+    if (least > most) next = k;
+    most = least > most ? least : most;
+  }
+  return next;
+}
+
+// 1 if `inner`, of this scale and at this pose in the frame of `outer`, or a part of it, lies
+// inside that.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
                             const nsvcd__transform *pose) {
   const nsvcd__spheres patches = nsvcd__body_patches(inner);
   const nsvcd__v3 centre = nsvcd__v3_set(nsvcd__f3_load(outer->centre));
-  float places[3][NSVCD__PLACES];
-  float squares[NSVCD__PLACES];
+  nsvcd__places places;
   uint32_t within = 0;
-  size_t best = 0;
+  uint32_t marked = 0;
+  uint32_t below = 0;
   if (outer->open) return 0;
   for (size_t k = 0; k < NSVCD__PLACES; k++) {
     // neighbours are stored together: equal steps spread over it
     const nsvcd__f3 own = nsvcd__centre_of(patches, k * inner->patches / NSVCD__PLACES);
     const nsvcd__f3 turned = nsvcd__mat3_apply(&pose->rotation, own);
     const nsvcd__f3 place = nsvcd__f3_add(nsvcd__f3_scale(turned, scale), pose->position);
-    nsvcd__lane_set(place, places, k);
+    nsvcd__lane_set(place, places.at, k);
   }
-  // One that sticks out of the outer body's sphere says it all.
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places, l), centre);
+    const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places.at, l), centre);
     within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
   }
-  if (within != 0xffff) return 0;
-  nsvcd__squares_in_radii(outer, places, squares);
-  for (size_t k = 1; k < NSVCD__PLACES; k++) best = squares[k] > squares[best] ? k : best;
-  if (squares[best] < NSVCD__FAR_ENOUGH * NSVCD__FAR_ENOUGH) return 0;
-  // -1 where the mesh is inside out
-  return fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places, best))) > 0.5f;
+  if (!within) return 0;
+  nsvcd__places_measure(outer, &places);
+  for (size_t k = 0; k < NSVCD__PLACES; k++) {
+    if (!(within >> k & 1)) places.square[k] = 0;
+    below |= (uint32_t)(places.height[k] < 0) << k;
+  }
+  // near the surface everywhere, and on the inner side
+  if (within == 0xffff && below == 0xffff) return 1;
+  for (size_t n = 0; n < NSVCD__LOOKS_INSIDE; n++) {
+    const size_t k = nsvcd__next_place(&places, marked);
+    if (k == NSVCD__PLACES) break;
+    marked |= 1u << k;
+    // -1 where the mesh is inside out
+    if (fabsf(nsvcd__winding_number(outer, nsvcd__lane_of(places.at, k))) > 0.5f) return 1;
+  }
+  return 0;
 }
 
 // 1 if one body lies inside the other, whichever, when the moving one, of this scale, is at this

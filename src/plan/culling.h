@@ -181,6 +181,8 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
     question.method = NSVCD_METHOD_NETWORK;
     question.clearance = 0;
     question.skin = 0;
+    // a slope before contact
+    if (question.network.swell <= 0) question.network.swell = NSVCD__PLAN_SWELL;
   }
 
   nsvcd_answer answer;

@@ -29,6 +29,8 @@
 #define NSVCD__LIMIT_COST 1e5f
 // cost: of a joint's range, kept free at both limits
 #define NSVCD__LIMIT_MARGIN 0.005f
+// search: of patches that are looked at, shares of their radii: nsvcd_network_options.swell
+#define NSVCD__PLAN_SWELL 0.25f
 // collision: logits over which the cost grows from a slope of 0 to one of 1
 #define NSVCD__SOFT_LOGITS 2
 // collision: segments that one query asks about, where a first look may do

@@ -14,6 +14,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
                                        size_t points2, nsvcd__settings *settings) {
   if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
     return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_ARGUMENT;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
@@ -41,6 +42,8 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
+    const float least = k == 2 ? NSVCD__SWELL : k == 3 ? NSVCD__SWELL_MOST : 0;
+    settings->swell = o->swell > least ? o->swell : least;
     return NSVCD_OK;
   }
   return NSVCD_ERROR_ARGUMENT;
@@ -232,8 +235,10 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
+  query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
+  query->broad_phase.swell = task->settings.swell;
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
     *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
@@ -245,7 +250,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   }
 
   // a body inside another need not touch anything
-  if (!nsvcd__starts_inside(task)) return 0;
+  if (out->logit > 0 || !nsvcd__starts_inside(task)) return 0;
   const size_t candidates = out->candidates;
   *out = nsvcd__certain_opinion(NSVCD_LOGIT_CERTAIN);
   out->candidates = candidates;
@@ -260,7 +265,7 @@ static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
   nsvcd__answer_begin(&query->task, opinion.logit > 0 ? NSVCD_HIT : NSVCD_FREE, answer);
   answer->inside = inside;
   answer->opinion = opinion;
-  if (opinion.candidates > 0 || inside) answer->by = NSVCD_BY_NETWORK;
+  if (query->broad_phase.balls_met || inside) answer->by = NSVCD_BY_NETWORK;
   if (opinion.logit > 0) answer->time.high = opinion.time;
 }
 #endif  // NSVCD_NO_NETWORK

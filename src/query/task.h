@@ -40,6 +40,10 @@
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
+// that patches swell before planes part them, shares of their radii: at a recall of 0.999, and of
+// 0.9999
+#define NSVCD__SWELL 0.02f
+#define NSVCD__SWELL_MOST 0.05f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
 // sets, N = 128 to 512, are the same as with twice this, but for one, which is better
@@ -57,6 +61,8 @@ typedef struct nsvcd__settings {
   int int8;
   // subtracted from the decoder's logit
   float threshold;
+  // of patches, shares of their radii, before planes part them
+  float swell;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -104,7 +110,7 @@ typedef struct nsvcd__query {
 // What NSVCD_PROOF_WORKSPACE_BYTES and NSVCD_NETWORK_WORKSPACE_BYTES count on; where this does not
 // compile they are wrong.
 typedef char nsvcd__constants_hold
-    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1024 &&
+    [sizeof(nsvcd__query) + 3 * NSVCD_ALIGNMENT + NSVCD__PASSED_OVER <= 1088 &&
              sizeof(nsvcd__segments) <= 148 * 16 && sizeof(nsvcd__chords) <= 512 &&
              sizeof(nsvcd__cut) <= 16 * 512 && NSVCD__TILE_SLOTS == 32 &&
              NSVCD_ALIGNMENT == sizeof(uint64_t)

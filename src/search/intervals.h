@@ -1,7 +1,7 @@
 // In: chords of a patch, and the patches of the other body. Out: candidates, with the time in which
 // their balls meet.
 #pragma once
-#include "../motion/segments.h"
+#include "apart.h"
 
 #ifndef NSVCD_NO_NETWORK
 // The candidates kept so far: a heap with the shallowest at its root, and the count of all
@@ -10,7 +10,7 @@ typedef struct nsvcd__candidates {
   // (limit), the caller's
   nsvcd__candidate *items;
   size_t limit, count;
-  // intervals found, kept or not; 0: certified free
+  // intervals found, kept or not
   size_t total;
 } nsvcd__candidates;
 
@@ -50,8 +50,7 @@ static void nsvcd__candidates_add(nsvcd__candidates *kept, const nsvcd__candidat
 // centre. The spheres touch from `nearest` - h to `nearest` + h; half2 is the square of h.
 typedef struct nsvcd__intervals {
   uint32_t open;  // lanes
-  // segments: in which the oldest of them began, and the last that all of them reach
-  size_t oldest, last;
+  size_t last;    // segment that all of them reach
   // 1 in lanes without an interval, else 0
   nsvcd__v fresh;
   nsvcd__v first, first_nearest, first_half2, last_nearest, last_half2;
@@ -117,11 +116,11 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   }
 }
 
-// The segments before which all contact intervals of the members of a group against patch j of the
-// fixed body are cut: the oldest of them would turn too far, or a segment is left out in between.
-// Asked for all 16 beforehand, so that machines with narrower slices find the same intervals.
-static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint64_t wanted) {
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
+// The segments before which all contact intervals of the members of a group are cut: the oldest of
+// them would turn too far, or a segment is left out in between. met: (segments), of those `wanted`.
+// For all 16 beforehand, so that machines with narrower slices find the same intervals.
+static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t *met,
+                                     uint64_t wanted) {
   // where the segment before is left out
   uint64_t cuts = wanted & ~(wanted << 1);
   uint32_t open = 0;
@@ -129,21 +128,20 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, size_t j, uint
   if (!(search->turn[search->segments] > NSVCD__INTERVAL_TURN)) return cuts;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
-    const uint32_t met = nsvcd__meet(&search->members[s], patch);
     if (open && search->turn[s + 1] - search->turn[oldest] > NSVCD__INTERVAL_TURN)
       cuts |= (uint64_t)1 << s;
     if (cuts >> s & 1) open = 0;
-    open &= met;
+    open &= met[s];
     if (!open) oldest = s;
-    open = met;
+    open = met[s];
   }
   return cuts;
 }
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
-// segments `wanted`. cuts: nsvcd__interval_cuts; where a slice is all lanes, it finds that itself.
+// segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
 static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
-                                       uint64_t wanted, uint64_t cuts,
+                                       uint64_t wanted, const uint16_t *all_met, uint64_t cuts,
                                        nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
@@ -151,7 +149,7 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
   const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(search->fixed), j);
   const nsvcd__v3 centre = nsvcd__v3_set(patch.centre);
   const size_t l = i % NSVCD__GROUP;
-  nsvcd__intervals at = {0, 0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
+  nsvcd__intervals at = {0, 0, one, zero, zero, zero, zero, zero, zero, zero, zero};
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *c = &search->members[s];
@@ -165,14 +163,9 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     const nsvcd__v tau = nsvcd__v_clamp(nearest, 0, 1);
     const nsvcd__v3 chord = nsvcd__v3_fma(tau, way, d);
     const nsvcd__v square = nsvcd__v3_dot(chord, chord);
-    const uint32_t met = nsvcd__v_le(square, limit);
+    const uint32_t met = all_met[s] >> l & NSVCD__SLICE_MASK;
     uint32_t ended = at.open & ~met;
-    int cut = (int)(cuts >> s & 1);
-    if (NSVCD__SLICE == NSVCD__LANES && at.open) {
-      cut = search->turn[s + 1] - search->turn[at.oldest] > NSVCD__INTERVAL_TURN;
-      cut |= at.last + 1 != s;
-    }
-    if (cut) {
+    if (cuts >> s & 1) {
       ended = at.open;
       at.fresh = one;
     }
@@ -197,22 +190,12 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
     at.least = nsvcd__v_pick(square, before, tau, at.least);
     at.square = nsvcd__v_min(square, before);
-    at.fresh = nsvcd__v_pick(square, limit, zero, one);
-    if (!at.open) at.oldest = s;
+    float fresh[NSVCD__SLICE];
+    for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
+    at.fresh = nsvcd__v_load(fresh);
     at.open = met;
     at.last = s;
   }
   if (at.open) nsvcd__intervals_close(&at, at.open, search, i, j, kept);
-}
-
-// The 16 members of moving group g against patch j of the fixed body, in the segments `wanted`.
-static void nsvcd__members_against_patch(const nsvcd__search *search, size_t g, size_t j,
-                                         uint64_t wanted, nsvcd__candidates *kept) {
-  uint64_t cuts = 0;
-  NSVCD__TALLY(tests, nsvcd__bit_count(wanted));
-  if (NSVCD__SLICE < NSVCD__LANES) cuts = nsvcd__interval_cuts(search, j, wanted);
-  NSVCD__EACH_SLICE(l) {
-    nsvcd__slice_against_patch(search, NSVCD__GROUP * g + l, j, wanted, cuts, kept);
-  }
 }
 #endif  // NSVCD_NO_NETWORK

@@ -322,10 +322,54 @@ static size_t nsvcd__search_group(nsvcd__search *search) {
 }
 
 #ifndef NSVCD_NO_NETWORK
+// Moving group g, whose chords are search->group, against the members `which` of group h of the
+// fixed body, in the segments `wanted`: all contact intervals.
+static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h,
+                                       uint32_t which, uint64_t wanted,
+                                       nsvcd__candidates *kept) {
+  const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
+  const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
+  uint16_t met[NSVCD__GROUP][NSVCD__MAX_SEGMENTS];
+  uint64_t left[NSVCD__GROUP] = {0};
+  uint32_t any = 0;
+  nsvcd__sheets sheets;
+  sheets.resting_known = 0;
+  for (; wanted; wanted &= wanted - 1) {
+    const size_t s = nsvcd__low_bit(wanted);
+    const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
+    uint32_t bits = which & nsvcd__meet_members(chords, s % NSVCD__LANES, members);
+    if (!bits) continue;
+    nsvcd__pose_members(search, g, (uint64_t)1 << s);
+    const float stray = nsvcd__segment_stray(search, s);
+    sheets.moving_known = 0;
+    // where no balls are known to meet yet, that is looked at
+    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray, &sheets)) continue;
+    for (; bits; bits &= bits - 1) {
+      const size_t k = nsvcd__low_bit(bits);
+      const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
+      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[k][s - 1] : 0;
+      const uint32_t lanes =
+          nsvcd__members_meet(search, g, s, h, k, ball, stray, before, &sheets);
+      if (!lanes) continue;
+      met[k][s] = (uint16_t)lanes;
+      left[k] |= (uint64_t)1 << s;
+      any |= 1u << k;
+    }
+  }
+  for (; any; any &= any - 1) {
+    const size_t k = nsvcd__low_bit(any);
+    const size_t j = NSVCD__GROUP * h + k;
+    const uint64_t cuts = nsvcd__interval_cuts(search, met[k], left[k]);
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      nsvcd__slice_against_patch(search, i, j, left[k], met[k], cuts, kept);
+    }
+  }
+}
+
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
 static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
-  uint64_t segments[NSVCD__GROUP];
   size_t at;
   if (search->waiting)
     at = nsvcd__low_bit(search->waiting);
@@ -335,12 +379,7 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
   const size_t g = search->moving_tile.groups[next];
   const size_t h = search->fixed_tile.groups[at];
   const uint64_t wanted = nsvcd__nearby(search, next)[at];
-  uint32_t met = nsvcd__group_against_members(search, h, wanted, segments);
-  for (; met; met &= met - 1) {
-    const size_t l = nsvcd__low_bit(met);
-    nsvcd__pose_members(search, g, segments[l]);
-    nsvcd__members_against_patch(search, g, NSVCD__GROUP * h + l, segments[l], kept);
-  }
+  nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
   search->waiting &= ~((uint32_t)1 << at);
   if (!search->waiting) search->step++;
   return search->step < search->steps || nsvcd__search_next_tile(search);
@@ -350,14 +389,12 @@ static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candida
 // one patch of the fixed body.
 static void nsvcd__search_patch(nsvcd__search *search, const nsvcd_body *moving, size_t g,
                                 const nsvcd_body *fixed, size_t j, nsvcd__candidates *kept) {
-  const nsvcd__sphere patch = nsvcd__sphere_of(nsvcd__body_patches(fixed), j);
+  const uint64_t all = nsvcd__all_segments(search);
   search->moving = moving;
   search->fixed = fixed;
-  nsvcd__chords_of_group(search, g);
-  const uint64_t wanted = nsvcd__meet_in(search->group, nsvcd__all_segments(search), patch);
   search->posed = 0;
-  nsvcd__pose_members(search, g, wanted);
-  nsvcd__members_against_patch(search, g, j, wanted, kept);
+  nsvcd__chords_of_group(search, g);
+  nsvcd__group_against_group(search, g, j / NSVCD__GROUP, 1u << j % NSVCD__GROUP, all, kept);
 }
 
 static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *items,

@@ -1,9 +1,9 @@
-// In: points. Out: 16 of them whose hull, swollen by a slack, holds all.
+// In: points. Out: some of them whose hull, swollen by a slack, holds all.
 #pragma once
 #include "../ground/slices.h"
 #include "balls.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // The point of a simplex nearest to the origin: weights are positive and sum to 1.
 typedef struct nsvcd__simplex {
   nsvcd__d3 points[4];
@@ -73,31 +73,32 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
   return sqrt(best);
 }
 
-// Chooses up to NSVCD__HULL of the points such that all are near to the hull of those: all, if they
-// are not more, or else always the one that is farthest from it. points: about the ball's centre.
+// Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
+// those: all, if they are not more, or else always the one that is farthest from it. points: about
+// the ball's centre.
 // bounds: working memory, one a point: their distances found before. A point that was near enough
 // stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
 // farthest point; returns how many they are.
-static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bounds,
-                                 size_t *chosen, double *farthest) {
+static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
+                                 double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
   nsvcd__points hull = {at, 0};
   size_t next = 0;
-  double most = 0;
+  double reach = 0;
   *farthest = 0;
-  if (points.count <= NSVCD__HULL) {
+  if (points.count <= most) {
     for (size_t i = 0; i < points.count; i++) chosen[i] = i;
     return points.count;
   }
   for (size_t i = 0; i < points.count; i++) {
     // from the centre, to begin with
     const double distance = nsvcd__d3_length(points.at[i]);
-    if (distance > most) next = i;
-    most = nsvcd__max(most, distance);
+    if (distance > reach) next = i;
+    reach = nsvcd__max(reach, distance);
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
-  while (hull.count<NSVCD__HULL && * farthest> enough) {
+  while (hull.count<most && * farthest> enough) {
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
@@ -115,4 +116,4 @@ static size_t nsvcd__choose_hull(nsvcd__points points, double enough, double *bo
   }
   return hull.count;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER

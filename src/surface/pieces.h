@@ -18,7 +18,7 @@
 #include "../ground/spheres.h"
 #include "../patches/regions.h"
 
-#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+#ifndef NSVCD_NO_ENCODER
 // mean sample radii: how far a piece may extend into another cell
 #define NSVCD__SURFACE_OVERLAP 0.5
 // mean sample radii: with a longer edge a triangle is listed in parts
@@ -324,4 +324,4 @@ static int nsvcd__pieces_build(const nsvcd__region *region, const nsvcd__patches
   for (uint32_t t = 0; ok && t < triangles; t++) ok = nsvcd__cut_up(pieces, t, &guess);
   return ok;
 }
-#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
+#endif  // NSVCD_NO_ENCODER

@@ -4,88 +4,9 @@
 #include "../mesh/mesh.h"
 #include "runs.h"
 #include "discs.h"
-#include "hulls.h"
+#include "sorted.h"
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
-// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
-// them: the hull's first, when vertices are stored.
-typedef struct nsvcd__sorted {
-  const nsvcd__pieces *pieces;
-  size_t *first;  // (N + 1) pieces of a patch
-  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
-  uint32_t *order;
-  uint32_t pass;  // from 1
-  // (points) the last pass that met a point, and its number in that pass
-  uint32_t *stamps;
-  uint32_t *numbers;
-  // (met_count) the points of the pass
-  uint32_t *met;
-  size_t met_count;
-  nsvcd__d3 *places;  // the same, about the centre
-  double *bounds;     // of the same
-  // (N, NSVCD__HULL) points that the hulls consist of
-  uint32_t *hulls;
-} nsvcd__sorted;
-
-static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
-  return (const nsvcd__piece *)sorted->pieces->list.items + sorted->order[k];
-}
-
-// Sorts the pieces by patch (counting sort). 0 without memory.
-static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
-                               nsvcd__sorted *sorted) {
-  const nsvcd__piece *items = (const nsvcd__piece *)pieces->list.items;
-  const size_t patches = pieces->patches->count;
-  const size_t count = pieces->list.count;
-  const size_t points = pieces->region->mesh.vertex_count + pieces->points.count;
-  size_t *first = NSVCD__TAKE(arena, size_t, patches + 1);
-  memset(sorted, 0, sizeof *sorted);
-  sorted->pieces = pieces;
-  sorted->first = first;
-  sorted->order = NSVCD__TAKE(arena, uint32_t, count);
-  sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
-  sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
-  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
-  if (arena->failed) return 0;
-  for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
-  for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
-  for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
-  // Now first[i + 1] is the start of patch i.
-  memmove(first, first + 1, patches * sizeof *first);
-  first[patches] = count;
-
-  size_t most = 0;
-  for (size_t i = 0; i < patches; i++) {
-    // a hull's vertices need not be corners of what is listed
-    size_t corners = NSVCD__HULL;
-    for (size_t k = first[i]; k < first[i + 1]; k++)
-      corners += nsvcd__sorted_piece(sorted, k)->count;
-    most = corners > most ? corners : most;
-  }
-  sorted->met = NSVCD__TAKE(arena, uint32_t, most);
-  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
-  sorted->bounds = NSVCD__TAKE(arena, double, most);
-  return !arena->failed;
-}
-
-// Gives a point a number in this pass, if it is met for the first time.
-static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
-  if (sorted->stamps[point] == sorted->pass) return;
-  sorted->stamps[point] = sorted->pass;
-  sorted->numbers[point] = (uint32_t)sorted->met_count;
-  sorted->met[sorted->met_count++] = point;
-}
-
-// The points of the pass, about a centre.
-static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
-  const nsvcd__points out = {sorted->places, sorted->met_count};
-  for (size_t j = 0; j < sorted->met_count; j++) {
-    const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
-    sorted->places[j] = nsvcd__d3_sub(at, centre);
-  }
-  return out;
-}
-
 // Ball, disc and hull of patch i of the region, which is `to` of all. What the vertices will be off
 // by as integers is not in the slack yet.
 static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
@@ -140,7 +61,8 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
   size_t chosen[NSVCD__HULL];
   double farthest;
   const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
-  const size_t count = nsvcd__choose_hull(about, enough, sorted->bounds, chosen, &farthest);
+  const size_t count =
+      nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
   s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
   s->hull_counts[to] = (uint8_t)count;
   for (size_t k = 0; k < count; k++)

@@ -187,7 +187,8 @@ _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
-_NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float)
+_NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
+                          swell=c_float)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
@@ -754,6 +755,7 @@ class Options(_Options):
     Of the network:
     pairs      of patches that it looks at, 1 to 256; 8
     model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
+    swell      of patches, a share of their radii, so that the logit rises before contact; 0
     """
     ask: Union[Ask, str] = Ask.HIT
     to: float = 0
@@ -769,6 +771,7 @@ class Options(_Options):
     model: Union[Model, str] = Model.DEFAULT
     precision: Union[Precision, str] = Precision.FLOAT
     recall: float = 0
+    swell: float = 0
     _struct = _Question
 
     def __post_init__(self) -> None:
@@ -824,7 +827,7 @@ class Opinion(NamedTuple):
     logit       of collision, positive is yes
     time        in [0, 1]: when the most suspicious pair comes closest
     patch_a, patch_b  that pair
-    candidates  pairs of patches whose spheres meet
+    candidates  pairs of patches whose spheres meet, and that no plane parts
     limited     there were more than options.pairs let through
     """
     logit: float

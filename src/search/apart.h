@@ -1,0 +1,312 @@
+// In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
+// plane parts from it all the time, by the hulls of their tips.
+//
+// Planes are tried along the resting patch's normal, the moving patches', both together, the lines
+// between the centres, and the last few that parted others of the same query: what stands on a
+// table is parted from all of it by one plane. The tips go on chords, as centres do, and what
+// points stray from theirs is allowed for. But tips are not all of a patch, so that this is no
+// proof: where a greater recall is asked for, patches swell before.
+#pragma once
+#include "../motion/segments.h"
+
+#ifndef NSVCD_NO_NETWORK
+// A resting patch: its tips, from its centre, metres; and the mean normal.
+typedef struct nsvcd__resting {
+  nsvcd__f3 centre;
+  float radius;
+  nsvcd__f3 tips[NSVCD__TIPS];
+  nsvcd__f3 normal;
+} nsvcd__resting;
+
+static nsvcd__resting nsvcd__resting_of(const nsvcd_body *body, size_t j) {
+  const int8_t *tips = nsvcd__group_tips(body, j / NSVCD__GROUP) + j % NSVCD__GROUP;
+  nsvcd__resting out;
+  const nsvcd__sphere ball = nsvcd__sphere_of(nsvcd__body_patches(body), j);
+  const float step = ball.radius / 127;
+  out.centre = ball.centre;
+  out.radius = ball.radius;
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
+    out.tips[k] = nsvcd__f3_scale(tip, step);
+  }
+  const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + j, body->padded);
+  const float length = nsvcd__f3_length(area);
+  out.normal = nsvcd__f3_scale(area, length > 0 ? 1 / length : 0);
+  return out;
+}
+
+// A slice of moving patches, over a segment.
+typedef struct nsvcd__passing {
+  // (TIPS, 3, 16) and lane l: of the moving group
+  const int8_t *tips;
+  // steps of the tips, in the body's units
+  nsvcd__v step;
+  // from the resting centre to the moving one, and its way
+  nsvcd__v3 from, way;
+  // at the start and at the end, times the scale
+  nsvcd__vmat3 start, end;
+  // what points stray from their chords, and patches swell
+  nsvcd__v stray;
+} nsvcd__passing;
+
+// Lanes in which a plane across u parts both, on either side.
+NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
+                                           nsvcd__v3 u) {
+  const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
+  const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
+  const nsvcd__v height = nsvcd__v3_dot(u, p->from);
+  const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
+  nsvcd__v low = nsvcd__v_set(1e30f);
+  nsvcd__v high = nsvcd__v_set(-1e30f);
+  nsvcd__v low_end = low;
+  nsvcd__v high_end = high;
+  nsvcd__v below = low;
+  nsvcd__v above = high;
+  for (size_t k = 0; k < NSVCD__TIPS; k++) {
+    const int8_t *tip = p->tips + 3 * NSVCD__LANES * k;
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tip), nsvcd__v_load_int8(tip + NSVCD__LANES),
+                     nsvcd__v_load_int8(tip + 2 * NSVCD__LANES));
+    const nsvcd__v a = nsvcd__v3_dot(q, at_start);
+    const nsvcd__v b = nsvcd__v3_dot(q, at_end);
+    const nsvcd__v c = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+    low = nsvcd__v_min(low, a);
+    high = nsvcd__v_max(high, a);
+    low_end = nsvcd__v_min(low_end, b);
+    high_end = nsvcd__v_max(high_end, b);
+    below = nsvcd__v_min(below, c);
+    above = nsvcd__v_max(above, c);
+  }
+  low = nsvcd__v_fma(p->step, low, height);
+  low_end = nsvcd__v_fma(p->step, low_end, height_end);
+  high = nsvcd__v_fma(p->step, high, height);
+  high_end = nsvcd__v_fma(p->step, high_end, height_end);
+  const nsvcd__v least = nsvcd__v_sub(nsvcd__v_min(low, low_end), p->stray);
+  const nsvcd__v most = nsvcd__v_add(nsvcd__v_max(high, high_end), p->stray);
+  return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
+}
+
+// ---- planes that parted others
+
+// What 16 patches reach along a plane's normal.
+typedef struct nsvcd__ranges {
+  float low[NSVCD__LANES], high[NSVCD__LANES];
+} nsvcd__ranges;
+
+// A pair of groups along the planes that are remembered: the moving one in one segment.
+typedef struct nsvcd__sheets {
+  nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
+  // bits of planes
+  uint32_t moving_known, resting_known;
+} nsvcd__sheets;
+
+// A slice of tips (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
+                                     nsvcd__v *high) {
+  *low = nsvcd__v_set(1e30f);
+  *high = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
+                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v along = nsvcd__v3_dot(q, u);
+    *low = nsvcd__v_min(*low, along);
+    *high = nsvcd__v_max(*high, along);
+  }
+}
+
+// share: of their radii, by which they swell.
+static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 normal,
+                                  float share, nsvcd__ranges *out) {
+  const nsvcd__spheres patches =
+      nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * h);
+  const nsvcd__v3 u = nsvcd__v3_set(normal);
+  NSVCD__EACH_SLICE(l) {
+    nsvcd__v low;
+    nsvcd__v high;
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
+    nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * share);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
+  }
+}
+
+// What the points of the members that are posed stray from their chords in segment s.
+static float nsvcd__segment_stray(const nsvcd__search *search, size_t s) {
+  const nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  return block->spread[s % NSVCD__LANES] + block->bulge[s % NSVCD__LANES] * search->remote;
+}
+
+// Of moving group g in segment s, with what points stray.
+static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s, float stray,
+                                 nsvcd__f3 normal, nsvcd__ranges *out) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &search->members[s];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__f3 at_start = nsvcd__mat3_apply_transpose(&start, normal);
+  const nsvcd__f3 by = nsvcd__mat3_apply_transpose(&turned, normal);
+  const nsvcd__v3 u = nsvcd__v3_set(normal);
+  const float *radii = nsvcd__body_r(search->moving) + NSVCD__GROUP * g;
+  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(radii + l), 1.0f / 127);
+    const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
+    const nsvcd__v height_end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), height);
+    nsvcd__v low, high, low_end, high_end;
+    nsvcd__tips_along(tips + l, nsvcd__v3_set(at_start), &low, &high);
+    nsvcd__tips_along(tips + l, nsvcd__v3_set(nsvcd__f3_add(at_start, by)), &low_end,
+                      &high_end);
+    low = nsvcd__v_fma(step, low, height);
+    high = nsvcd__v_fma(step, high, height);
+    low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
+    high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->swell);
+    const nsvcd__v off = nsvcd__v_plus(swell, stray);
+    nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
+    nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
+  }
+}
+
+// The ranges along plane n of moving group g in segment s, and of group h of the fixed body.
+static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                               size_t n, float stray, nsvcd__sheets *sheets) {
+  const nsvcd__f3 normal = search->planes[n];
+  if (!(sheets->resting_known >> n & 1))
+    nsvcd__resting_ranges(search->fixed, h, normal, search->swell, &sheets->resting[n]);
+  if (!(sheets->moving_known >> n & 1))
+    nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
+  sheets->resting_known |= 1u << n;
+  sheets->moving_known |= 1u << n;
+}
+
+static size_t nsvcd__planes_known(const nsvcd__search *search) {
+  const size_t found = search->found_planes;
+  return found < NSVCD__PLANES ? found : NSVCD__PLANES;
+}
+
+// The least of all lanes, after a sign.
+static float nsvcd__least_lane(const float *lanes, float sign) {
+  nsvcd__v least = nsvcd__v_set(1e30f);
+  NSVCD__EACH_SLICE(l)
+  least = nsvcd__v_min(least, nsvcd__v_scale(nsvcd__v_load(lanes + l), sign));
+  return nsvcd__v_least(least);
+}
+
+// Does the plane that did so last part all of moving group g from all of group h, in segment s?
+static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                                 float stray, nsvcd__sheets *sheets) {
+  const size_t n = search->best_plane;
+  if (n >= nsvcd__planes_known(search)) return 0;
+  nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+  const nsvcd__ranges *moving = &sheets->moving[n];
+  const nsvcd__ranges *resting = &sheets->resting[n];
+  const float above = nsvcd__least_lane(moving->low, 1) + nsvcd__least_lane(resting->high, -1);
+  const float below = nsvcd__least_lane(resting->low, 1) + nsvcd__least_lane(moving->high, -1);
+  return above > 0 || below > 0;
+}
+
+// Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
+// member k of group h of the fixed body.
+static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                        size_t k, float stray, uint32_t met,
+                                        nsvcd__sheets *sheets) {
+  const size_t planes = nsvcd__planes_known(search);
+  for (size_t m = 0; m < planes && met; m++) {
+    // the one that parted last, first
+    const size_t n = (search->best_plane + m) % planes;
+    nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+    const nsvcd__ranges *moving = &sheets->moving[n];
+    const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
+    const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
+    uint32_t parted = 0;
+    NSVCD__EACH_SLICE(l) {
+      parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
+      parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
+    }
+    if (met & parted) search->best_plane = n;
+    met &= ~parted;
+  }
+  return met;
+}
+
+// ---- planes of their own
+
+enum {
+  NSVCD__ALONG_RESTING,  // normal
+  NSVCD__ALONG_MOVING,   // normals
+  NSVCD__ALONG_LINE,     // between the centres
+  NSVCD__ALONG_BOTH,     // normals, from one to the other
+  NSVCD__DIRECTIONS
+};
+
+// Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
+// patch j of the fixed body. A plane that does is remembered, in place of the oldest.
+static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
+                                                    size_t j, float stray, uint32_t met,
+                                                    nsvcd__sheets *sheets) {
+  const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
+  const int8_t *tips = nsvcd__group_tips(search->moving, g);
+  const nsvcd_body *moving = search->moving;
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__chords *c = &search->members[s];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
+  const nsvcd__mat3 middle = nsvcd__mat3_mix(1, &start, 0.5f, &turned);
+  nsvcd__passing p;
+  p.start = nsvcd__vmat3_set(&start);
+  p.end = nsvcd__vmat3_set(&end);
+  for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
+    float directions[3][NSVCD__LANES];
+    uint32_t parted = 0;
+    NSVCD__EACH_SLICE(l) {
+      const size_t i = NSVCD__GROUP * g + l;
+      if (!(met >> l & NSVCD__SLICE_MASK)) continue;
+      p.tips = tips + l;
+      p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
+      p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
+      p.way = nsvcd__chords_way(c, l);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * search->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * search->swell);
+      nsvcd__v3 u = nsvcd__v3_set(rest.normal);
+      if (n == NSVCD__ALONG_LINE) {
+        u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
+      } else if (n != NSVCD__ALONG_RESTING) {
+        const float *areas = nsvcd__body_areas(moving) + i;
+        const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 own =
+            nsvcd__v3_unit(nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), area));
+        u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
+      }
+      nsvcd__v3_store(directions, l, u);
+      parted |= nsvcd__parted_along(&p, &rest, u) << l;
+    }
+    parted &= met;
+    met &= ~parted;
+    if (!parted) continue;
+    const size_t oldest = search->found_planes++ % NSVCD__PLANES;
+    search->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
+    sheets->moving_known &= ~(1u << oldest);
+    sheets->resting_known &= ~(1u << oldest);
+  }
+  return met;
+}
+
+// The lanes of moving group g that meet member k of group h of the fixed body in segment s: whose
+// balls do, and that nothing parts. before: those that met it in the segment before, which own
+// planes will not part either, as a rule.
+static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                    size_t k, nsvcd__sphere ball, float stray, uint32_t before,
+                                    nsvcd__sheets *sheets) {
+  uint32_t met = nsvcd__meet(&search->members[s], ball);
+  search->balls_met |= met != 0;
+  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met, sheets);
+  const uint32_t fresh = met & ~before;
+  if (!fresh) return met;
+  const size_t j = NSVCD__GROUP * h + k;
+  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh, sheets);
+}
+#endif  // NSVCD_NO_NETWORK

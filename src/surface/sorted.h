@@ -1,0 +1,111 @@
+// In: pieces. Out: the same patch by patch; and for the network the tips of each patch: eight
+// points of its surface whose hull is nearly that of all of it.
+#pragma once
+#include "pieces.h"
+#include "hulls.h"
+
+#ifndef NSVCD_NO_ENCODER
+// The pieces by patch, and working memory for one patch at a time. A pass numbers points as it sees
+// them: the hull's first, when vertices are stored.
+typedef struct nsvcd__sorted {
+  const nsvcd__pieces *pieces;
+  size_t *first;  // (N + 1) pieces of a patch
+  // (pieces) numbers of pieces, patch by patch, in a patch as they were made
+  uint32_t *order;
+  uint32_t pass;  // from 1
+  // (points) the last pass that met a point, and its number in that pass
+  uint32_t *stamps;
+  uint32_t *numbers;
+  // (met_count) the points of the pass
+  uint32_t *met;
+  size_t met_count;
+  nsvcd__d3 *places;  // the same, about the centre
+  double *bounds;     // of the same
+  // (N, NSVCD__HULL) points that the hulls consist of
+  uint32_t *hulls;
+} nsvcd__sorted;
+
+static const nsvcd__piece *nsvcd__sorted_piece(const nsvcd__sorted *sorted, size_t k) {
+  return (const nsvcd__piece *)sorted->pieces->list.items + sorted->order[k];
+}
+
+// Sorts the pieces by patch (counting sort). 0 without memory.
+static int nsvcd__sorted_build(const nsvcd__pieces *pieces, nsvcd__arena *arena,
+                               nsvcd__sorted *sorted) {
+  const nsvcd__piece *items = (const nsvcd__piece *)pieces->list.items;
+  const size_t patches = pieces->patches->count;
+  const size_t count = pieces->list.count;
+  const size_t points = pieces->region->mesh.vertex_count + pieces->points.count;
+  size_t *first = NSVCD__TAKE(arena, size_t, patches + 1);
+  memset(sorted, 0, sizeof *sorted);
+  sorted->pieces = pieces;
+  sorted->first = first;
+  sorted->order = NSVCD__TAKE(arena, uint32_t, count);
+  sorted->stamps = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->numbers = NSVCD__TAKE(arena, uint32_t, points);
+  sorted->hulls = NSVCD__TAKE(arena, uint32_t, NSVCD__HULL * patches);
+  if (arena->failed) return 0;
+  for (size_t k = 0; k < count; k++) first[items[k].patch + 1]++;
+  for (size_t i = 0; i < patches; i++) first[i + 1] += first[i];
+  for (size_t k = count; k-- > 0;) sorted->order[--first[items[k].patch + 1]] = (uint32_t)k;
+  // Now first[i + 1] is the start of patch i.
+  memmove(first, first + 1, patches * sizeof *first);
+  first[patches] = count;
+
+  size_t most = 0;
+  for (size_t i = 0; i < patches; i++) {
+    // a hull's vertices need not be corners of what is listed
+    size_t corners = NSVCD__HULL;
+    for (size_t k = first[i]; k < first[i + 1]; k++)
+      corners += nsvcd__sorted_piece(sorted, k)->count;
+    most = corners > most ? corners : most;
+  }
+  sorted->met = NSVCD__TAKE(arena, uint32_t, most);
+  sorted->places = NSVCD__TAKE(arena, nsvcd__d3, most);
+  sorted->bounds = NSVCD__TAKE(arena, double, most);
+  return !arena->failed;
+}
+
+// Gives a point a number in this pass, if it is met for the first time.
+static void nsvcd__number_point(nsvcd__sorted *sorted, uint32_t point) {
+  if (sorted->stamps[point] == sorted->pass) return;
+  sorted->stamps[point] = sorted->pass;
+  sorted->numbers[point] = (uint32_t)sorted->met_count;
+  sorted->met[sorted->met_count++] = point;
+}
+
+// The points of the pass, about a centre.
+static nsvcd__points nsvcd__place_points(nsvcd__sorted *sorted, nsvcd__d3 centre) {
+  const nsvcd__points out = {sorted->places, sorted->met_count};
+  for (size_t j = 0; j < sorted->met_count; j++) {
+    const nsvcd__d3 at = nsvcd__point_at(sorted->pieces, sorted->met[j]);
+    sorted->places[j] = nsvcd__d3_sub(at, centre);
+  }
+  return out;
+}
+
+#ifndef NSVCD_NO_NETWORK
+// The tips of patch i, as a body stores them: (TIPS, 3), from its centre in steps of radius / 127.
+static void nsvcd__tips_of(nsvcd__sorted *sorted, size_t i, float radius, int8_t *tips) {
+  const double inverse = radius > 0 ? 127 / (double)radius : 0;
+  sorted->pass++;
+  sorted->met_count = 0;
+  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+    const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
+    const uint32_t *corners = nsvcd__piece_corners(sorted->pieces, piece);
+    for (size_t j = 0; j < piece->count; j++) nsvcd__number_point(sorted, corners[j]);
+  }
+  const nsvcd__d3 centre = nsvcd__d3_widen(sorted->pieces->patches->centres[i]);
+  const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  size_t chosen[NSVCD__HULL] = {0};
+  double farthest;
+  const size_t count =
+      nsvcd__choose_hull(points, NSVCD__TIPS, 0, sorted->bounds, chosen, &farthest);
+  for (size_t k = 0; k < 3 * NSVCD__TIPS; k++) {
+    const size_t tip = chosen[count ? k / 3 % count : 0];
+    const double along = count ? nsvcd__d3_axis(points.at[tip], k % 3) * inverse : 0;
+    tips[k] = (int8_t)lrint(nsvcd__max(-127, nsvcd__min(along, 127)));
+  }
+}
+#endif  // NSVCD_NO_NETWORK
+#endif  // NSVCD_NO_ENCODER
