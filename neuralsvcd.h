@@ -4919,11 +4919,6 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
 // to round outwards.
 
 #ifndef NSVCD_NO_ENCODER
-static float nsvcd__float_above(double x) {
-  const float rounded = nsvcd__to_float(x);
-  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
-}
-
 // ---- balls: the least one that holds all points
 
 typedef struct nsvcd__points {
@@ -4965,6 +4960,12 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
     b[i] /= a[i][i];
   }
   return 1;
+}
+
+#ifndef NSVCD_NO_PROOF
+static float nsvcd__float_above(double x) {
+  const float rounded = nsvcd__to_float(x);
+  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 
 // The least ball with all these 1 to 4 points on its border. 0 if there is none.
@@ -5042,6 +5043,7 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   }
   return ball.centre;
 }
+#endif  // NSVCD_NO_PROOF
 #endif  // NSVCD_NO_ENCODER
 
 // ----------------------------------------------------------------------------------- surface/discs
@@ -10144,6 +10146,7 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   search->posed |= wanted;
 }
 
+#ifndef NSVCD_NO_PROOF
 // Patches of group h of the fixed body that moving group g meets, and in which segments, of those
 // `wanted`: segments (GROUP), written for these patches.
 static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
@@ -10163,6 +10166,7 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
   }
   return met;
 }
+#endif
 
 // Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
 // that it meets for the longest time.
@@ -14495,14 +14499,14 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
         least = nsvcd__v_min(least, nsvcd__v_scale(square, inverse));
-        const nsvcd__v over = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
-        const nsvcd__v over2 = nsvcd__v_mul(over, over);
-        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, over2), zero);
+        const nsvcd__v above = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
+        const nsvcd__v above2 = nsvcd__v_mul(above, above);
+        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, above2), zero);
         const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
         const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
-        const nsvcd__v to_disc = nsvcd__v_fma(off, off, over2);
+        const nsvcd__v to_disc = nsvcd__v_fma(off, off, above2);
         const int flat = size > NSVCD__FLAT * 3.1416f * own;
-        height = nsvcd__v_pick(nearest, to_disc, height, flat ? over : nsvcd__v_abs(over));
+        height = nsvcd__v_pick(nearest, to_disc, height, flat ? above : nsvcd__v_abs(above));
         nearest = nsvcd__v_min(nearest, to_disc);
       }
       nsvcd__v_store(out->square + l, least);

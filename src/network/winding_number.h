@@ -98,14 +98,14 @@ static void nsvcd__places_measure(const nsvcd_body *body, nsvcd__places *out) {
         const float own = patch.radius * patch.radius;
         const float inverse = 1 / (own > 1e-37f ? own : 1e-37f);
         least = nsvcd__v_min(least, nsvcd__v_scale(square, inverse));
-        const nsvcd__v over = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
-        const nsvcd__v over2 = nsvcd__v_mul(over, over);
-        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, over2), zero);
+        const nsvcd__v above = nsvcd__v3_dot(d, nsvcd__v3_set(normal));
+        const nsvcd__v above2 = nsvcd__v_mul(above, above);
+        const nsvcd__v aside2 = nsvcd__v_max(nsvcd__v_sub(square, above2), zero);
         const nsvcd__v radius = nsvcd__v_set(sqrtf(size * 0.3183f));
         const nsvcd__v off = nsvcd__v_max(nsvcd__v_sub(nsvcd__v_sqrt(aside2), radius), zero);
-        const nsvcd__v to_disc = nsvcd__v_fma(off, off, over2);
+        const nsvcd__v to_disc = nsvcd__v_fma(off, off, above2);
         const int flat = size > NSVCD__FLAT * 3.1416f * own;
-        height = nsvcd__v_pick(nearest, to_disc, height, flat ? over : nsvcd__v_abs(over));
+        height = nsvcd__v_pick(nearest, to_disc, height, flat ? above : nsvcd__v_abs(above));
         nearest = nsvcd__v_min(nearest, to_disc);
       }
       nsvcd__v_store(out->square + l, least);

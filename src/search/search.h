@@ -281,6 +281,7 @@ static void nsvcd__pose_members(nsvcd__search *search, size_t g, uint64_t wanted
   search->posed |= wanted;
 }
 
+#ifndef NSVCD_NO_PROOF
 // Patches of group h of the fixed body that moving group g meets, and in which segments, of those
 // `wanted`: segments (GROUP), written for these patches.
 static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t h,
@@ -300,6 +301,7 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
   }
   return met;
 }
+#endif
 
 // Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
 // that it meets for the longest time.

@@ -4,11 +4,6 @@
 #include "../ground/points.h"
 
 #ifndef NSVCD_NO_ENCODER
-static float nsvcd__float_above(double x) {
-  const float rounded = nsvcd__to_float(x);
-  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
-}
-
 // ---- balls: the least one that holds all points
 
 typedef struct nsvcd__points {
@@ -50,6 +45,12 @@ static int nsvcd__solve_shares(const nsvcd__d3 *points, size_t count, int ball,
     b[i] /= a[i][i];
   }
   return 1;
+}
+
+#ifndef NSVCD_NO_PROOF
+static float nsvcd__float_above(double x) {
+  const float rounded = nsvcd__to_float(x);
+  return (double)rounded < x ? nextafterf(rounded, HUGE_VALF) : rounded;
 }
 
 // The least ball with all these 1 to 4 points on its border. 0 if there is none.
@@ -127,4 +128,5 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
   }
   return ball.centre;
 }
+#endif  // NSVCD_NO_PROOF
 #endif  // NSVCD_NO_ENCODER
