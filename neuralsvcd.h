@@ -992,7 +992,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 96 * (pairs))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 592 + 32 * (segments) + 96 * (pairs))
 
 // Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
 // the one before it ask the network about the same two bodies, it is first asked where that one
@@ -8600,8 +8600,6 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 #define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
 // radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
 #define NSVCD__INTERVAL_TURN 0.785f
-// planes that are remembered: search/apart
-#define NSVCD__PLANES 4
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
 // doubled.
@@ -8737,10 +8735,10 @@ typedef struct nsvcd__search {
   // no part of these members is farther from the body's origin
   float remote;
 #ifndef NSVCD_NO_NETWORK
-  // normals of planes that parted patches, the last of so many found
-  nsvcd__f3 planes[NSVCD__PLANES];
-  size_t found_planes, best_plane;
-  float swell;  // of patches, shares of their radii, before planes part them
+  // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
+  // another: search/apart
+  struct nsvcd__sheets *sheets;
+  uint16_t *met;
   // 0: no patches' balls meet, which certifies free
   int balls_met;
 #endif
@@ -9221,8 +9219,6 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
                                            nsvcd__search *search) {
   nsvcd__choose_segments(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
-  search->found_planes = search->best_plane = 0;
-  search->balls_met = 0;
 }
 #endif
 
@@ -9445,12 +9441,26 @@ typedef struct nsvcd__ranges {
   float low[NSVCD__LANES], high[NSVCD__LANES];
 } nsvcd__ranges;
 
-// A pair of groups along the planes that are remembered: the moving one in one segment.
+// planes that are remembered
+#define NSVCD__PLANES 2
+
+// Planes that parted others, and a pair of groups along them: the moving one in one segment.
 typedef struct nsvcd__sheets {
+  // normals; how many were found, of which the last ones are kept; the one that parted last
+  nsvcd__f3 planes[NSVCD__PLANES];
+  size_t found, best;
+  float swell;  // of patches, shares of their radii
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint32_t moving_known, resting_known;
 } nsvcd__sheets;
+
+// Begins the search of a motion.
+static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
+  search->sheets->found = search->sheets->best = 0;
+  search->sheets->swell = swell;
+  search->balls_met = 0;
+}
 
 // A slice of tips (TIPS, 3, 16) along u.
 NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
@@ -9515,7 +9525,7 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->swell);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->sheets->swell);
     const nsvcd__v off = nsvcd__v_plus(swell, stray);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
@@ -9524,10 +9534,11 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 
 // The ranges along plane n of moving group g in segment s, and of group h of the fixed body.
 static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                               size_t n, float stray, nsvcd__sheets *sheets) {
-  const nsvcd__f3 normal = search->planes[n];
+                               size_t n, float stray) {
+  nsvcd__sheets *sheets = search->sheets;
+  const nsvcd__f3 normal = sheets->planes[n];
   if (!(sheets->resting_known >> n & 1))
-    nsvcd__resting_ranges(search->fixed, h, normal, search->swell, &sheets->resting[n]);
+    nsvcd__resting_ranges(search->fixed, h, normal, sheets->swell, &sheets->resting[n]);
   if (!(sheets->moving_known >> n & 1))
     nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
   sheets->resting_known |= 1u << n;
@@ -9535,7 +9546,7 @@ static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, 
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
-  const size_t found = search->found_planes;
+  const size_t found = search->sheets->found;
   return found < NSVCD__PLANES ? found : NSVCD__PLANES;
 }
 
@@ -9549,10 +9560,11 @@ static float nsvcd__least_lane(const float *lanes, float sign) {
 
 // Does the plane that did so last part all of moving group g from all of group h, in segment s?
 static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                 float stray, nsvcd__sheets *sheets) {
-  const size_t n = search->best_plane;
+                                 float stray) {
+  nsvcd__sheets *sheets = search->sheets;
+  const size_t n = sheets->best;
   if (n >= nsvcd__planes_known(search)) return 0;
-  nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+  nsvcd__sheets_know(search, g, s, h, n, stray);
   const nsvcd__ranges *moving = &sheets->moving[n];
   const nsvcd__ranges *resting = &sheets->resting[n];
   const float above = nsvcd__least_lane(moving->low, 1) + nsvcd__least_lane(resting->high, -1);
@@ -9563,13 +9575,13 @@ static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
 static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                        size_t k, float stray, uint32_t met,
-                                        nsvcd__sheets *sheets) {
+                                        size_t k, float stray, uint32_t met) {
+  nsvcd__sheets *sheets = search->sheets;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
     // the one that parted last, first
-    const size_t n = (search->best_plane + m) % planes;
-    nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+    const size_t n = (sheets->best + m) % planes;
+    nsvcd__sheets_know(search, g, s, h, n, stray);
     const nsvcd__ranges *moving = &sheets->moving[n];
     const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
@@ -9578,7 +9590,7 @@ static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t 
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) search->best_plane = n;
+    if (met & parted) sheets->best = n;
     met &= ~parted;
   }
   return met;
@@ -9597,8 +9609,8 @@ enum {
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
-                                                    size_t j, float stray, uint32_t met,
-                                                    nsvcd__sheets *sheets) {
+                                                    size_t j, float stray, uint32_t met) {
+  nsvcd__sheets *sheets = search->sheets;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
@@ -9621,8 +9633,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * search->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * search->swell);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * sheets->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * sheets->swell);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
@@ -9639,8 +9651,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
     parted &= met;
     met &= ~parted;
     if (!parted) continue;
-    const size_t oldest = search->found_planes++ % NSVCD__PLANES;
-    search->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
+    const size_t oldest = sheets->found++ % NSVCD__PLANES;
+    sheets->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
     sheets->moving_known &= ~(1u << oldest);
     sheets->resting_known &= ~(1u << oldest);
   }
@@ -9651,15 +9663,15 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
 // balls do, and that nothing parts. before: those that met it in the segment before, which own
 // planes will not part either, as a rule.
 static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, nsvcd__sphere ball, float stray, uint32_t before,
-                                    nsvcd__sheets *sheets) {
+                                    size_t k, nsvcd__sphere ball, float stray,
+                                    uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
-  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met, sheets);
+  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh, sheets);
+  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh);
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -10196,11 +10208,11 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
                                        nsvcd__candidates *kept) {
   const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
-  uint16_t met[NSVCD__GROUP][NSVCD__MAX_SEGMENTS];
+  const size_t stride = search->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
-  nsvcd__sheets sheets;
-  sheets.resting_known = 0;
+  nsvcd__sheets *sheets = search->sheets;
+  sheets->resting_known = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
@@ -10208,17 +10220,17 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
-    sheets.moving_known = 0;
+    sheets->moving_known = 0;
     // where no balls are known to meet yet, that is looked at
-    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray, &sheets)) continue;
+    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray)) continue;
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
-      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[k][s - 1] : 0;
-      const uint32_t lanes =
-          nsvcd__members_meet(search, g, s, h, k, ball, stray, before, &sheets);
+      uint16_t *met = search->met + stride * k;
+      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
+      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, ball, stray, before);
       if (!lanes) continue;
-      met[k][s] = (uint16_t)lanes;
+      met[s] = (uint16_t)lanes;
       left[k] |= (uint64_t)1 << s;
       any |= 1u << k;
     }
@@ -10226,10 +10238,11 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   for (; any; any &= any - 1) {
     const size_t k = nsvcd__low_bit(any);
     const size_t j = NSVCD__GROUP * h + k;
-    const uint64_t cuts = nsvcd__interval_cuts(search, met[k], left[k]);
+    const uint16_t *met = search->met + stride * k;
+    const uint64_t cuts = nsvcd__interval_cuts(search, met, left[k]);
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
-      nsvcd__slice_against_patch(search, i, j, left[k], met[k], cuts, kept);
+      nsvcd__slice_against_patch(search, i, j, left[k], met, cuts, kept);
     }
   }
 }
@@ -15452,6 +15465,12 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t network = used;
   void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
   query->kept = (nsvcd__candidate *)kept;
+  const size_t asked = needs->candidates > 0;
+  const size_t meetings = asked * NSVCD__GROUP * needs->segments;
+  void *sheets = nsvcd__take(base, &network, asked, sizeof(nsvcd__sheets));
+  void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
+  query->broad_phase.sheets = (nsvcd__sheets *)sheets;
+  query->broad_phase.met = (uint16_t *)met;
   end = network;
 #endif
 #ifndef NSVCD_NO_PROOF
@@ -15731,7 +15750,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  query->broad_phase.swell = task->settings.swell;
+  nsvcd__sheets_begin(&query->broad_phase, task->settings.swell);
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
     *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
@@ -17352,6 +17371,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
 #define nsvcd__share_of NSVCD__AT(share_of)
 #define nsvcd__sheets NSVCD__AT(sheets)
+#define nsvcd__sheets_begin NSVCD__AT(sheets_begin)
 #define nsvcd__sheets_know NSVCD__AT(sheets_know)
 #define nsvcd__sift_items NSVCD__AT(sift_items)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)

@@ -26,6 +26,7 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
                    nsvcd__search *space, nsvcd__candidate *found, size_t limit,
                    nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
+  nsvcd__sheets_begin(space, 0);
   int more = nsvcd__search_begin(moving, fixed, ~(uint64_t)0, space);
   nsvcd__candidates_start(kept, found, limit);
   while (more) more = nsvcd__search_step(space, kept);

@@ -59,6 +59,7 @@ static size_t cost_search(const query_scene *s) {
   nsvcd__motion_init(&question.a, &question.b, &motion);
   nsvcd__candidates_start(&kept, query->kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
+  nsvcd__sheets_begin(&query->broad_phase, 0);
   int more = nsvcd__search_begin(s->moving, s->fixed, ~(uint64_t)0, &query->broad_phase);
   while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
   return query->broad_phase.segments;

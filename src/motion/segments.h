@@ -50,8 +50,6 @@
 #define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
 // radians, 45 degrees: an interval is cut before it turns more, for the decoder's twist
 #define NSVCD__INTERVAL_TURN 0.785f
-// planes that are remembered: search/apart
-#define NSVCD__PLANES 4
 #define NSVCD__BLOCKS (NSVCD__MAX_SEGMENTS / NSVCD__LANES)
 // Of the lengths that go into a difference of places: about 15 float operations of 6e-8 each,
 // doubled.
@@ -187,10 +185,10 @@ typedef struct nsvcd__search {
   // no part of these members is farther from the body's origin
   float remote;
 #ifndef NSVCD_NO_NETWORK
-  // normals of planes that parted patches, the last of so many found
-  nsvcd__f3 planes[NSVCD__PLANES];
-  size_t found_planes, best_plane;
-  float swell;  // of patches, shares of their radii, before planes part them
+  // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
+  // another: search/apart
+  struct nsvcd__sheets *sheets;
+  uint16_t *met;
   // 0: no patches' balls meet, which certifies free
   int balls_met;
 #endif
@@ -671,8 +669,6 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
                                            nsvcd__search *search) {
   nsvcd__choose_segments(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
-  search->found_planes = search->best_plane = 0;
-  search->balls_met = 0;
 }
 #endif
 

@@ -238,7 +238,7 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  query->broad_phase.swell = task->settings.swell;
+  nsvcd__sheets_begin(&query->broad_phase, task->settings.swell);
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
     *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;

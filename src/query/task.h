@@ -138,6 +138,12 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   uint64_t network = used;
   void *kept = nsvcd__take(base, &network, needs->candidates, sizeof(nsvcd__candidate));
   query->kept = (nsvcd__candidate *)kept;
+  const size_t asked = needs->candidates > 0;
+  const size_t meetings = asked * NSVCD__GROUP * needs->segments;
+  void *sheets = nsvcd__take(base, &network, asked, sizeof(nsvcd__sheets));
+  void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
+  query->broad_phase.sheets = (nsvcd__sheets *)sheets;
+  query->broad_phase.met = (uint16_t *)met;
   end = network;
 #endif
 #ifndef NSVCD_NO_PROOF

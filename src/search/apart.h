@@ -93,12 +93,26 @@ typedef struct nsvcd__ranges {
   float low[NSVCD__LANES], high[NSVCD__LANES];
 } nsvcd__ranges;
 
-// A pair of groups along the planes that are remembered: the moving one in one segment.
+// planes that are remembered
+#define NSVCD__PLANES 2
+
+// Planes that parted others, and a pair of groups along them: the moving one in one segment.
 typedef struct nsvcd__sheets {
+  // normals; how many were found, of which the last ones are kept; the one that parted last
+  nsvcd__f3 planes[NSVCD__PLANES];
+  size_t found, best;
+  float swell;  // of patches, shares of their radii
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint32_t moving_known, resting_known;
 } nsvcd__sheets;
+
+// Begins the search of a motion.
+static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
+  search->sheets->found = search->sheets->best = 0;
+  search->sheets->swell = swell;
+  search->balls_met = 0;
+}
 
 // A slice of tips (TIPS, 3, 16) along u.
 NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
@@ -163,7 +177,7 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->swell);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->sheets->swell);
     const nsvcd__v off = nsvcd__v_plus(swell, stray);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
@@ -172,10 +186,11 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 
 // The ranges along plane n of moving group g in segment s, and of group h of the fixed body.
 static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                               size_t n, float stray, nsvcd__sheets *sheets) {
-  const nsvcd__f3 normal = search->planes[n];
+                               size_t n, float stray) {
+  nsvcd__sheets *sheets = search->sheets;
+  const nsvcd__f3 normal = sheets->planes[n];
   if (!(sheets->resting_known >> n & 1))
-    nsvcd__resting_ranges(search->fixed, h, normal, search->swell, &sheets->resting[n]);
+    nsvcd__resting_ranges(search->fixed, h, normal, sheets->swell, &sheets->resting[n]);
   if (!(sheets->moving_known >> n & 1))
     nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
   sheets->resting_known |= 1u << n;
@@ -183,7 +198,7 @@ static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, 
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
-  const size_t found = search->found_planes;
+  const size_t found = search->sheets->found;
   return found < NSVCD__PLANES ? found : NSVCD__PLANES;
 }
 
@@ -197,10 +212,11 @@ static float nsvcd__least_lane(const float *lanes, float sign) {
 
 // Does the plane that did so last part all of moving group g from all of group h, in segment s?
 static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                 float stray, nsvcd__sheets *sheets) {
-  const size_t n = search->best_plane;
+                                 float stray) {
+  nsvcd__sheets *sheets = search->sheets;
+  const size_t n = sheets->best;
   if (n >= nsvcd__planes_known(search)) return 0;
-  nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+  nsvcd__sheets_know(search, g, s, h, n, stray);
   const nsvcd__ranges *moving = &sheets->moving[n];
   const nsvcd__ranges *resting = &sheets->resting[n];
   const float above = nsvcd__least_lane(moving->low, 1) + nsvcd__least_lane(resting->high, -1);
@@ -211,13 +227,13 @@ static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
 static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                        size_t k, float stray, uint32_t met,
-                                        nsvcd__sheets *sheets) {
+                                        size_t k, float stray, uint32_t met) {
+  nsvcd__sheets *sheets = search->sheets;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
     // the one that parted last, first
-    const size_t n = (search->best_plane + m) % planes;
-    nsvcd__sheets_know(search, g, s, h, n, stray, sheets);
+    const size_t n = (sheets->best + m) % planes;
+    nsvcd__sheets_know(search, g, s, h, n, stray);
     const nsvcd__ranges *moving = &sheets->moving[n];
     const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
@@ -226,7 +242,7 @@ static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t 
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) search->best_plane = n;
+    if (met & parted) sheets->best = n;
     met &= ~parted;
   }
   return met;
@@ -245,8 +261,8 @@ enum {
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
-                                                    size_t j, float stray, uint32_t met,
-                                                    nsvcd__sheets *sheets) {
+                                                    size_t j, float stray, uint32_t met) {
+  nsvcd__sheets *sheets = search->sheets;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
@@ -269,8 +285,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * search->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * search->swell);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * sheets->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * sheets->swell);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
@@ -287,8 +303,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
     parted &= met;
     met &= ~parted;
     if (!parted) continue;
-    const size_t oldest = search->found_planes++ % NSVCD__PLANES;
-    search->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
+    const size_t oldest = sheets->found++ % NSVCD__PLANES;
+    sheets->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
     sheets->moving_known &= ~(1u << oldest);
     sheets->resting_known &= ~(1u << oldest);
   }
@@ -299,14 +315,14 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
 // balls do, and that nothing parts. before: those that met it in the segment before, which own
 // planes will not part either, as a rule.
 static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                    size_t k, nsvcd__sphere ball, float stray, uint32_t before,
-                                    nsvcd__sheets *sheets) {
+                                    size_t k, nsvcd__sphere ball, float stray,
+                                    uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
-  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met, sheets);
+  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh, sheets);
+  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh);
 }
 #endif  // NSVCD_NO_NETWORK

@@ -331,11 +331,11 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
                                        nsvcd__candidates *kept) {
   const nsvcd__spheres patches = nsvcd__body_patches(search->fixed);
   const nsvcd__spheres members = nsvcd__spheres_from(patches, NSVCD__GROUP * h);
-  uint16_t met[NSVCD__GROUP][NSVCD__MAX_SEGMENTS];
+  const size_t stride = search->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
-  nsvcd__sheets sheets;
-  sheets.resting_known = 0;
+  nsvcd__sheets *sheets = search->sheets;
+  sheets->resting_known = 0;
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
@@ -343,17 +343,17 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
-    sheets.moving_known = 0;
+    sheets->moving_known = 0;
     // where no balls are known to meet yet, that is looked at
-    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray, &sheets)) continue;
+    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray)) continue;
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
-      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[k][s - 1] : 0;
-      const uint32_t lanes =
-          nsvcd__members_meet(search, g, s, h, k, ball, stray, before, &sheets);
+      uint16_t *met = search->met + stride * k;
+      const uint32_t before = s > 0 && left[k] >> (s - 1) & 1 ? met[s - 1] : 0;
+      const uint32_t lanes = nsvcd__members_meet(search, g, s, h, k, ball, stray, before);
       if (!lanes) continue;
-      met[k][s] = (uint16_t)lanes;
+      met[s] = (uint16_t)lanes;
       left[k] |= (uint64_t)1 << s;
       any |= 1u << k;
     }
@@ -361,10 +361,11 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   for (; any; any &= any - 1) {
     const size_t k = nsvcd__low_bit(any);
     const size_t j = NSVCD__GROUP * h + k;
-    const uint64_t cuts = nsvcd__interval_cuts(search, met[k], left[k]);
+    const uint16_t *met = search->met + stride * k;
+    const uint64_t cuts = nsvcd__interval_cuts(search, met, left[k]);
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
-      nsvcd__slice_against_patch(search, i, j, left[k], met[k], cuts, kept);
+      nsvcd__slice_against_patch(search, i, j, left[k], met, cuts, kept);
     }
   }
 }
