@@ -447,6 +447,7 @@ static void query_recall_raises_the_logit(void) {
   float previous = 0;
   for (int i = 0; i < 4; i++) {
     nsvcd_question options = query_options(8, NSVCD_MODEL_BASE, recalls[i]);
+    options.network.swell = 1;  // the same pairs for all
     nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
     if (i > 1) CHECK_GE(logit_of(&a), previous);
     previous = logit_of(&a);

@@ -51,7 +51,7 @@ def thresholds(by_recall: list[tuple[list[float], list[int]]]) -> list[float]:
         seen = [v for v in hit if v > -CERTAIN]
         lost = len(hit) - len(seen)
         least = seen[max(0, min(len(hit) - 1, math.floor((1 - r) * len(hit))) - lost)]
-        out.append(min(out[0], least - 1e-4))  # a recall asked for must not find less than the default does
+        out.append(min(out[-1], least - 1e-4))  # a greater recall must not find less
     return out
 
 

@@ -171,6 +171,7 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
+  nsvcd__sheets_begin(&query->broad_phase, settings->swell);
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
@@ -192,6 +193,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
+  nsvcd__sheets_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
@@ -238,7 +240,6 @@ static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opin
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  nsvcd__sheets_begin(&query->broad_phase, task->settings.swell);
   if (!hinted || !nsvcd__collides_again(query, hint, out)) {
     *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
     if (hinted) hint->known = ++hint->misled < NSVCD__MISLEADS;
