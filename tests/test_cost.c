@@ -88,7 +88,7 @@ static void cost_is_bounded(void) {
     share = fmax(share, (double)tally.tests / (double)bound);
     for (size_t n = 0; n < 12; n++) {
       const size_t k = pairs[n / 3];
-      nsvcd_question options = query_options(k, models[n % 3], 0);
+      nsvcd_question options = query_options(k, models[n % 3], seed % 2 ? 0.9999f : 0);
       options.network.swell = seed % 4 ? 1.0f : 0.0f;  // 1: planes part nothing
       memset(&tally, 0, sizeof tally);
       query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
