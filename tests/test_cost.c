@@ -73,13 +73,13 @@ static void cost_is_bounded(void) {
   size_t most_ranked = 0;
   size_t most_judged = 0;
   double share = 0;
-  for (uint64_t seed = 1; seed <= 90; seed++) {
+  for (uint64_t seed = 1; seed <= 150; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
     const size_t groups = nsvcd__body_groups(s.moving) * nsvcd__body_groups(s.fixed);
     if (seed > 30) {
-      cost_blow_up(&s.memory[0], seed > 60 ? 100 : 1.5f);
-      cost_blow_up(&s.memory[1], seed > 60 ? 100 : 1.5f);
+      cost_blow_up(&s.memory[0], seed > 120 ? 100 : 1.5f);
+      cost_blow_up(&s.memory[1], seed > 120 ? 100 : 1.5f);
     }
     memset(&tally, 0, sizeof tally);
     const size_t segments = cost_search(&s);
