@@ -91,10 +91,10 @@
 //   the other, or that the work allowed was not enough; then the network's opinion is added where
 //   it has one. A component of a mesh is closed if every edge has its reverse; what is open
 //   encloses nothing.
-//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md. It
-//   knows nothing finer than a few millimetres on bodies of 0.1 to 0.4 m: where bodies rest on one
-//   another, ask for a proof. What is inside is an estimate, a winding number of patches: reliable
-//   for closed meshes of one piece.
+//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
+//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in a few of a
+//   hundred answers: where that harms, ask for a proof. What is inside is an estimate, a winding
+//   number of patches: reliable for closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
@@ -9866,9 +9866,12 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
     at.least = nsvcd__v_pick(square, before, tau, at.least);
     at.square = nsvcd__v_min(square, before);
-    float fresh[NSVCD__SLICE];
-    for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
-    at.fresh = nsvcd__v_load(fresh);
+    at.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (met != nsvcd__v_le(square, limit)) {
+      float fresh[NSVCD__SLICE];
+      for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
+      at.fresh = nsvcd__v_load(fresh);
+    }
     at.open = met;
     at.last = s;
   }

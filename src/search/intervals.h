@@ -190,9 +190,12 @@ static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, si
     at.least_segment = nsvcd__v_pick(square, before, segment, at.least_segment);
     at.least = nsvcd__v_pick(square, before, tau, at.least);
     at.square = nsvcd__v_min(square, before);
-    float fresh[NSVCD__SLICE];
-    for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
-    at.fresh = nsvcd__v_load(fresh);
+    at.fresh = nsvcd__v_pick(square, limit, zero, one);
+    if (met != nsvcd__v_le(square, limit)) {
+      float fresh[NSVCD__SLICE];
+      for (size_t k = 0; k < NSVCD__SLICE; k++) fresh[k] = met >> k & 1 ? 0.0f : 1.0f;
+      at.fresh = nsvcd__v_load(fresh);
+    }
     at.open = met;
     at.last = s;
   }
