@@ -227,8 +227,8 @@ static void conservative_spin(void) {
 // Planes part only pairs the hulls of whose tips are apart.
 static void conservative_tips(void) {
   random_tips = 1;
-  conservative("tips", 300, 1, 120 * degrees, 1, 200, 1, 1, 0);
-  conservative("tips, spin", 200, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
+  conservative("tips", 3000, 1, 120 * degrees, 1, 200, 1, 1, 0);
+  conservative("tips, spin", 4000, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
   conservative("tips, far", 100, 1, 90 * degrees, 2, 20, 1, 1, 1e4);
   random_tips = 0;
 }
