@@ -2286,7 +2286,7 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
 
 // ---- tips
 
-// points of a patch's surface that reach about as far as all of it does: patches/tips
+// points of a patch's surface that reach about as far as all of it does: surface/sorted
 #define NSVCD__TIPS 8
 
 // ---- discs
@@ -5250,10 +5250,9 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 
 // Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
 // those: all, if they are not more, or else always the one that is farthest from it. points: about
-// the ball's centre.
-// bounds: working memory, one a point: their distances found before. A point that was near enough
-// stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
-// farthest point; returns how many they are.
+// the ball's centre. bounds: working memory, one a point: their distances found before. A point
+// that was near enough stays so, for the hull only grows. Writes the numbers of those chosen, and
+// the distance of the farthest point; returns how many they are.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
                                  double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
@@ -5273,7 +5272,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
-  while (hull.count<most && * farthest> enough) {
+  while (*farthest > enough && hull.count < most) {
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;
@@ -5584,28 +5583,26 @@ static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triang
 }
 
 // Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
-// counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
-// needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
-// all have too many: then the surface is of no use any more.
-static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena *spare,
-                                       nsvcd__surface *s) {
-  nsvcd__sorted sorted;
-  if (!nsvcd__sorted_build(pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+// counts its vertices and triangles, makes room for these, and writes them. MEMORY; TOO_LARGE if a
+// patch has more than NSVCD__PATCH_VERTICES vertices, or all have too many: then the surface is of
+// no use any more.
+static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s) {
+  const nsvcd__pieces *pieces = sorted->pieces;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
   size_t triangles = s->listed;
   s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
-    nsvcd__describe_patch(&sorted, i - done, s);
+    nsvcd__describe_patch(sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
     s->first_triangle[i] = (uint32_t)triangles;
     // Where nothing is cut, and all points are the hull's, they have been counted.
-    if (pieces->corners.count == 0 && sorted.met_count == s->hull_counts[i])
-      triangles += sorted.first[i - done + 1] - sorted.first[i - done];
+    if (pieces->corners.count == 0 && sorted->met_count == s->hull_counts[i])
+      triangles += sorted->first[i - done + 1] - sorted->first[i - done];
     else
-      triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
-    vertices += sorted.met_count;
-    if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
+      triangles += nsvcd__number_vertices(sorted, i - done, s->hull_counts[i]);
+    vertices += sorted->met_count;
+    if (sorted->met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
@@ -5615,7 +5612,7 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
     return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
   for (size_t i = done; i < s->count; i++) {
-    if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
+    if (s->hull_counts[i] > 0) nsvcd__store_patch(sorted, i - done, s);
   }
   s->done = s->count;
   return NSVCD_OK;
@@ -7013,11 +7010,11 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
 #ifndef NSVCD_NO_NETWORK
 // Are tips in range, and is their padding zero?
 static int nsvcd__tips_are_sound(const nsvcd_body *b) {
+  const int8_t *tips = nsvcd__group_tips(b, 0);
   for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
     const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
-    const int8_t tip = nsvcd__group_tips(b, 0)[n];
     const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
-    if (tip == -128 || (!exists && tip != 0)) return 0;
+    if (tips[n] == -128 || (!exists && tips[n] != 0)) return 0;
   }
   return 1;
 }
@@ -7347,11 +7344,10 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   nsvcd__pieces pieces;
   if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
     result = NSVCD_ERROR_MEMORY;
-#ifndef NSVCD_NO_NETWORK
   nsvcd__sorted sorted;
+  if (!result && !nsvcd__sorted_build(&pieces, &spare, &sorted)) result = NSVCD_ERROR_MEMORY;
+#ifndef NSVCD_NO_NETWORK
   const int latents = parts->options->latents;
-  if (!result && latents && !nsvcd__sorted_build(&pieces, &spare, &sorted))
-    result = NSVCD_ERROR_MEMORY;
   for (size_t i = 0; !result && latents && i < count; i++) {
     const size_t to = parts->count + i;
     const float radius = patches.radii[i];
@@ -7377,7 +7373,7 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
+    result = nsvcd__surface_add(&sorted, &parts->surface);
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -7407,7 +7403,9 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
     nsvcd__pieces pieces;
     nsvcd__arena few = nsvcd__arena_of(spare.allocator);
     ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
-    result = ok ? nsvcd__surface_add(&pieces, &few, surface) : NSVCD_ERROR_MEMORY;
+    nsvcd__sorted sorted;
+    ok = ok && nsvcd__sorted_build(&pieces, &few, &sorted);
+    result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
     if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))
@@ -9397,6 +9395,21 @@ typedef struct nsvcd__passing {
   nsvcd__v stray;
 } nsvcd__passing;
 
+// A slice of tips (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
+                                     nsvcd__v *high) {
+  *low = nsvcd__v_set(1e30f);
+  *high = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
+                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v along = nsvcd__v3_dot(q, u);
+    *low = nsvcd__v_min(*low, along);
+    *high = nsvcd__v_max(*high, along);
+  }
+}
+
 // Lanes in which a plane across u parts both, on either side.
 NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
                                            nsvcd__v3 u) {
@@ -9404,26 +9417,15 @@ NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd_
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
   const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
-  nsvcd__v low = nsvcd__v_set(1e30f);
-  nsvcd__v high = nsvcd__v_set(-1e30f);
-  nsvcd__v low_end = low;
-  nsvcd__v high_end = high;
-  nsvcd__v below = low;
-  nsvcd__v above = high;
+  nsvcd__v low, high, low_end, high_end;
+  nsvcd__v below = nsvcd__v_set(1e30f);
+  nsvcd__v above = nsvcd__v_set(-1e30f);
+  nsvcd__tips_along(p->tips, at_start, &low, &high);
+  nsvcd__tips_along(p->tips, at_end, &low_end, &high_end);
   for (size_t k = 0; k < NSVCD__TIPS; k++) {
-    const int8_t *tip = p->tips + 3 * NSVCD__LANES * k;
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tip), nsvcd__v_load_int8(tip + NSVCD__LANES),
-                     nsvcd__v_load_int8(tip + 2 * NSVCD__LANES));
-    const nsvcd__v a = nsvcd__v3_dot(q, at_start);
-    const nsvcd__v b = nsvcd__v3_dot(q, at_end);
-    const nsvcd__v c = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
-    low = nsvcd__v_min(low, a);
-    high = nsvcd__v_max(high, a);
-    low_end = nsvcd__v_min(low_end, b);
-    high_end = nsvcd__v_max(high_end, b);
-    below = nsvcd__v_min(below, c);
-    above = nsvcd__v_max(above, c);
+    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+    below = nsvcd__v_min(below, along);
+    above = nsvcd__v_max(above, along);
   }
   low = nsvcd__v_fma(p->step, low, height);
   low_end = nsvcd__v_fma(p->step, low_end, height_end);
@@ -9460,21 +9462,6 @@ static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
   search->sheets->swell = swell;
   search->balls_met = 0;
-}
-
-// A slice of tips (TIPS, 3, 16) along u.
-NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
-                                     nsvcd__v *high) {
-  *low = nsvcd__v_set(1e30f);
-  *high = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
-                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
-    const nsvcd__v along = nsvcd__v3_dot(q, u);
-    *low = nsvcd__v_min(*low, along);
-    *high = nsvcd__v_max(*high, along);
-  }
 }
 
 // share: of their radii, by which they swell.
@@ -14425,10 +14412,12 @@ static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSV
 // Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
 // inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
-// and below NSVCD__FAR_ENOUGH the answer is no: then it lies in a covering sphere, the broad phase
-// has candidates, and the network is asked. Measured at a million places about spheres of 32 to 512
-// patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
-// fewer than 1 in 1,000 exceed 0.3.
+// or, as bodies may be of several parts, up to NSVCD__LOOKS_INSIDE that are far from each other.
+// Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
+// NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
+// those of a chip in a table top are, they are inside. Measured at a million places about spheres of
+// 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5;
+// from 1 on, fewer than 1 in 1,000 exceed 0.3.
 // In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
 // and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
 // w is then within 0.05 of the sum over all patches (tests/test_level.c).
@@ -14442,14 +14431,14 @@ static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSV
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one,
 #define NSVCD__FAR_INSIDE 0.6f
-// A patch is flat if its mean normal times its area is at least this share of its ball's disc.
-#define NSVCD__FLAT 0.4f
-// places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__LOOKS_INSIDE 4
 // it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
+// A patch is flat if its area vector is at least this share of its ball's disc.
+#define NSVCD__FLAT 0.4f
+// places that are far enough, and asked about: bodies may be of several parts
+#define NSVCD__LOOKS_INSIDE 4
 
 // A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
 // their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
@@ -14473,8 +14462,8 @@ typedef struct nsvcd__places {
   float at[3][NSVCD__PLACES];
   // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
   float square[NSVCD__PLACES];
-  // of the patch nearest as a flat disc of its area: the squared distance, in its radii, and the
-  // height over it, which is negative inside
+  // of the patch nearest, as a disc of its area: the squared distance, and the height over it,
+  // which is negative inside, but where the patch is not flat
   float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
 } nsvcd__places;
 

@@ -49,11 +49,10 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
   nsvcd__pieces pieces;
   if (!result && !nsvcd__pieces_build(&region, &patches, &spare, &pieces))
     result = NSVCD_ERROR_MEMORY;
-#ifndef NSVCD_NO_NETWORK
   nsvcd__sorted sorted;
+  if (!result && !nsvcd__sorted_build(&pieces, &spare, &sorted)) result = NSVCD_ERROR_MEMORY;
+#ifndef NSVCD_NO_NETWORK
   const int latents = parts->options->latents;
-  if (!result && latents && !nsvcd__sorted_build(&pieces, &spare, &sorted))
-    result = NSVCD_ERROR_MEMORY;
   for (size_t i = 0; !result && latents && i < count; i++) {
     const size_t to = parts->count + i;
     const float radius = patches.radii[i];
@@ -79,7 +78,7 @@ static nsvcd_result nsvcd__parts_add(nsvcd__parts *parts, nsvcd__regions *region
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!result && !parts->options->no_triangles)
-    result = nsvcd__surface_add(&pieces, &spare, &parts->surface);
+    result = nsvcd__surface_add(&sorted, &parts->surface);
 #endif
   parts->count += count;
   if (!result) nsvcd__region_end(regions, &region);
@@ -109,7 +108,9 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
     nsvcd__pieces pieces;
     nsvcd__arena few = nsvcd__arena_of(spare.allocator);
     ok = nsvcd__runs_build(&curve, first, last, runs, &few, &block, &patches, &pieces);
-    result = ok ? nsvcd__surface_add(&pieces, &few, surface) : NSVCD_ERROR_MEMORY;
+    nsvcd__sorted sorted;
+    ok = ok && nsvcd__sorted_build(&pieces, &few, &sorted);
+    result = ok ? nsvcd__surface_add(&sorted, surface) : NSVCD_ERROR_MEMORY;
     nsvcd__arena_free(&few);
     const double done = (double)last / (double)runs;
     if (!result && nsvcd__is_cancelled(parts->options, 0.9 * done))

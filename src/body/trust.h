@@ -81,11 +81,11 @@ static int nsvcd__spheres_fit(const nsvcd_body *b, float radius, float scale) {
 #ifndef NSVCD_NO_NETWORK
 // Are tips in range, and is their padding zero?
 static int nsvcd__tips_are_sound(const nsvcd_body *b) {
+  const int8_t *tips = nsvcd__group_tips(b, 0);
   for (size_t n = 0; n < (size_t)3 * NSVCD__TIPS * b->padded; n++) {
     const size_t group = n / (3 * NSVCD__TIPS * NSVCD__GROUP);
-    const int8_t tip = nsvcd__group_tips(b, 0)[n];
     const int exists = NSVCD__GROUP * group + n % NSVCD__GROUP < b->patches;
-    if (tip == -128 || (!exists && tip != 0)) return 0;
+    if (tips[n] == -128 || (!exists && tips[n] != 0)) return 0;
   }
   return 1;
 }

@@ -36,7 +36,7 @@ static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_
 
 // ---- tips
 
-// points of a patch's surface that reach about as far as all of it does: patches/tips
+// points of a patch's surface that reach about as far as all of it does: surface/sorted
 #define NSVCD__TIPS 8
 
 // ---- discs

@@ -6,10 +6,12 @@
 // Near the surface it is not: a flat disc seen from its covering radius gives 0.25 where 0.146 is
 // true, from half of it 1.0 where 0.28 is true. So the place asked about is the patch centre of the
 // inner body (of NSVCD__PLACES) that is farthest from the outer patches in units of their radii,
-// and below NSVCD__FAR_ENOUGH the answer is no: then it lies in a covering sphere, the broad phase
-// has candidates, and the network is asked. Measured at a million places about spheres of 32 to 512
-// patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5; from 1 on,
-// fewer than 1 in 1,000 exceed 0.3.
+// or, as bodies may be of several parts, up to NSVCD__LOOKS_INSIDE that are far from each other.
+// Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
+// NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
+// those of a chip in a table top are, they are inside. Measured at a million places about spheres of
+// 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5;
+// from 1 on, fewer than 1 in 1,000 exceed 0.3.
 // In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
 // and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
 // w is then within 0.05 of the sum over all patches (tests/test_level.c).
@@ -25,14 +27,14 @@
 #define NSVCD__FAR_ENOUGH 1.0f
 // or than this, on the inner side of the nearest one,
 #define NSVCD__FAR_INSIDE 0.6f
-// A patch is flat if its mean normal times its area is at least this share of its ball's disc.
-#define NSVCD__FLAT 0.4f
-// places that are far enough, and asked about: bodies may be of several parts
-#define NSVCD__LOOKS_INSIDE 4
 // it needs no more than this, and what is farther away is not looked at;
 #define NSVCD__AMPLE 2.0f
 // and the patches of a sphere that is farther than this count as one
 #define NSVCD__DIPOLE 3.0f
+// A patch is flat if its area vector is at least this share of its ball's disc.
+#define NSVCD__FLAT 0.4f
+// places that are far enough, and asked about: bodies may be of several parts
+#define NSVCD__LOOKS_INSIDE 4
 
 // A filter of a walk: spheres whose members may be nearer to one of the places than NSVCD__AMPLE of
 // their radii. A member (p, r) of a sphere (c, R) has |p - c| + r <= R, so that |p - x| / r is at
@@ -56,8 +58,8 @@ typedef struct nsvcd__places {
   float at[3][NSVCD__PLACES];
   // Least |p_i - x| / r_i, squared, over its patches, AMPLE squared at most
   float square[NSVCD__PLACES];
-  // of the patch nearest as a flat disc of its area: the squared distance, in its radii, and the
-  // height over it, which is negative inside
+  // of the patch nearest, as a disc of its area: the squared distance, and the height over it,
+  // which is negative inside, but where the patch is not flat
   float nearest[NSVCD__PLACES], height[NSVCD__PLACES];
 } nsvcd__places;
 

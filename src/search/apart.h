@@ -49,6 +49,21 @@ typedef struct nsvcd__passing {
   nsvcd__v stray;
 } nsvcd__passing;
 
+// A slice of tips (TIPS, 3, 16) along u.
+NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
+                                     nsvcd__v *high) {
+  *low = nsvcd__v_set(1e30f);
+  *high = nsvcd__v_set(-1e30f);
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
+    const nsvcd__v3 q =
+        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
+                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v along = nsvcd__v3_dot(q, u);
+    *low = nsvcd__v_min(*low, along);
+    *high = nsvcd__v_max(*high, along);
+  }
+}
+
 // Lanes in which a plane across u parts both, on either side.
 NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
                                            nsvcd__v3 u) {
@@ -56,26 +71,15 @@ NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd_
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
   const nsvcd__v height_end = nsvcd__v3_dot_add(u, p->way, height);
-  nsvcd__v low = nsvcd__v_set(1e30f);
-  nsvcd__v high = nsvcd__v_set(-1e30f);
-  nsvcd__v low_end = low;
-  nsvcd__v high_end = high;
-  nsvcd__v below = low;
-  nsvcd__v above = high;
+  nsvcd__v low, high, low_end, high_end;
+  nsvcd__v below = nsvcd__v_set(1e30f);
+  nsvcd__v above = nsvcd__v_set(-1e30f);
+  nsvcd__tips_along(p->tips, at_start, &low, &high);
+  nsvcd__tips_along(p->tips, at_end, &low_end, &high_end);
   for (size_t k = 0; k < NSVCD__TIPS; k++) {
-    const int8_t *tip = p->tips + 3 * NSVCD__LANES * k;
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tip), nsvcd__v_load_int8(tip + NSVCD__LANES),
-                     nsvcd__v_load_int8(tip + 2 * NSVCD__LANES));
-    const nsvcd__v a = nsvcd__v3_dot(q, at_start);
-    const nsvcd__v b = nsvcd__v3_dot(q, at_end);
-    const nsvcd__v c = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
-    low = nsvcd__v_min(low, a);
-    high = nsvcd__v_max(high, a);
-    low_end = nsvcd__v_min(low_end, b);
-    high_end = nsvcd__v_max(high_end, b);
-    below = nsvcd__v_min(below, c);
-    above = nsvcd__v_max(above, c);
+    const nsvcd__v along = nsvcd__v3_dot(nsvcd__v3_set(rest->tips[k]), u);
+    below = nsvcd__v_min(below, along);
+    above = nsvcd__v_max(above, along);
   }
   low = nsvcd__v_fma(p->step, low, height);
   low_end = nsvcd__v_fma(p->step, low_end, height_end);
@@ -112,21 +116,6 @@ static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
   search->sheets->swell = swell;
   search->balls_met = 0;
-}
-
-// A slice of tips (TIPS, 3, 16) along u.
-NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *low,
-                                     nsvcd__v *high) {
-  *low = nsvcd__v_set(1e30f);
-  *high = nsvcd__v_set(-1e30f);
-  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
-                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
-    const nsvcd__v along = nsvcd__v3_dot(q, u);
-    *low = nsvcd__v_min(*low, along);
-    *high = nsvcd__v_max(*high, along);
-  }
 }
 
 // share: of their radii, by which they swell.

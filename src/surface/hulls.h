@@ -75,10 +75,9 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
 
 // Chooses up to `most` of the points, NSVCD__HULL at most, such that all are near to the hull of
 // those: all, if they are not more, or else always the one that is farthest from it. points: about
-// the ball's centre.
-// bounds: working memory, one a point: their distances found before. A point that was near enough
-// stays so, for the hull only grows. Writes the numbers of those chosen, and the distance of the
-// farthest point; returns how many they are.
+// the ball's centre. bounds: working memory, one a point: their distances found before. A point
+// that was near enough stays so, for the hull only grows. Writes the numbers of those chosen, and
+// the distance of the farthest point; returns how many they are.
 static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enough,
                                  double *bounds, size_t *chosen, double *farthest) {
   nsvcd__d3 at[NSVCD__HULL];
@@ -98,7 +97,7 @@ static size_t nsvcd__choose_hull(nsvcd__points points, size_t most, double enoug
     bounds[i] = HUGE_VAL;
   }
   *farthest = HUGE_VAL;
-  while (hull.count<most && * farthest> enough) {
+  while (*farthest > enough && hull.count < most) {
     at[hull.count] = points.at[next];
     chosen[hull.count++] = next;
     bounds[next] = 0;

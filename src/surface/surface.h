@@ -183,28 +183,26 @@ static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triang
 }
 
 // Adds the patches of a region, in pieces, of which the surface has room for all: describes each,
-// counts its vertices and triangles, makes room for these, and writes them. spare: of what is only
-// needed meanwhile. MEMORY; TOO_LARGE if a patch has more than NSVCD__PATCH_VERTICES vertices, or
-// all have too many: then the surface is of no use any more.
-static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena *spare,
-                                       nsvcd__surface *s) {
-  nsvcd__sorted sorted;
-  if (!nsvcd__sorted_build(pieces, spare, &sorted)) return NSVCD_ERROR_MEMORY;
+// counts its vertices and triangles, makes room for these, and writes them. MEMORY; TOO_LARGE if a
+// patch has more than NSVCD__PATCH_VERTICES vertices, or all have too many: then the surface is of
+// no use any more.
+static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s) {
+  const nsvcd__pieces *pieces = sorted->pieces;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
   size_t triangles = s->listed;
   s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
-    nsvcd__describe_patch(&sorted, i - done, s);
+    nsvcd__describe_patch(sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
     s->first_triangle[i] = (uint32_t)triangles;
     // Where nothing is cut, and all points are the hull's, they have been counted.
-    if (pieces->corners.count == 0 && sorted.met_count == s->hull_counts[i])
-      triangles += sorted.first[i - done + 1] - sorted.first[i - done];
+    if (pieces->corners.count == 0 && sorted->met_count == s->hull_counts[i])
+      triangles += sorted->first[i - done + 1] - sorted->first[i - done];
     else
-      triangles += nsvcd__number_vertices(&sorted, i - done, s->hull_counts[i]);
-    vertices += sorted.met_count;
-    if (sorted.met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
+      triangles += nsvcd__number_vertices(sorted, i - done, s->hull_counts[i]);
+    vertices += sorted->met_count;
+    if (sorted->met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
     if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
@@ -214,7 +212,7 @@ static nsvcd_result nsvcd__surface_add(const nsvcd__pieces *pieces, nsvcd__arena
     return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
   for (size_t i = done; i < s->count; i++) {
-    if (s->hull_counts[i] > 0) nsvcd__store_patch(&sorted, i - done, s);
+    if (s->hull_counts[i] > 0) nsvcd__store_patch(sorted, i - done, s);
   }
   s->done = s->count;
   return NSVCD_OK;
