@@ -9,9 +9,9 @@
 // or, as bodies may be of several parts, up to NSVCD__LOOKS_INSIDE that are far from each other.
 // Nearer than NSVCD__FAR_ENOUGH the number is not asked for, but inside of a flat patch from
 // NSVCD__FAR_INSIDE on; and where all places are on the inner side of the patch that is nearest, as
-// those of a chip in a table top are, they are inside. Measured at a million places about spheres of
-// 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from 1.5;
-// from 1 on, fewer than 1 in 1,000 exceed 0.3.
+// those of a chip in a table top are, they are inside. Measured at a million places about spheres
+// of 32 to 512 patches, the worst error of w is 0.55 from 0.75 radii on, 0.52 from 1, 0.06 from
+// 1.5; from 1 on, fewer than 1 in 1,000 exceed 0.3.
 // In bodies of more than a tile's patches the sums of area vectors stand for those of whole groups,
 // and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
 // w is then within 0.05 of the sum over all patches (tests/test_level.c).
