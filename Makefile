@@ -556,9 +556,14 @@ CHECKPOINT = build/train/checkpoint.pt
 PYTHON ?= python3
 CALIBRATION = build/calibration
 
-build/train/checkpoint.pt:
-	cd train && $(PYTHON) train.py --out ../build/train --groups 5000 --shapes 6000 --seed 11 --rate 6e-3 --steps 51341 \
-	  --shape '{"channels":4,"heads":[["tiny",[32,16]],["small",[96,32]],["base",[160,128,32]]]}'
+build/scenes: train/scenes.c tests/bench/set_shapes.h $(LIBRARY)
+	@mkdir -p build
+	$(CC) -O3 -march=native -std=gnu99 -Wall -Wextra -Wno-unused-function -o $@ $< -lm -lpthread
+build/train/checkpoint.pt: | build/scenes
+	mkdir -p build/train/set build/train/held
+	build/scenes build/train/set --seed 1 --meshes 10000 --groups 2400 --threads $$(nproc)
+	build/scenes build/train/held --seed 2 --meshes 600 --groups 32 --threads $$(nproc)
+	cd train && $(PYTHON) train.py --data ../build/train/set --held ../build/train/held --out ../build/train --steps 73745
 # Sets as SET:COUNT:SEED.
 CALIBRATES = standard:4000:301 hollow:3000:302 rest:2000:303 cavity:1000:304
 CALIBRATED = $(foreach set,$(CALIBRATES),$(CALIBRATION)/$(firstword $(subst :, ,$(set))).txt)
@@ -574,7 +579,7 @@ weights: $(CHECKPOINT) $(CALIBRATED)  ## trains anew on a GPU, calibrates, write
 	cd train && $(PYTHON) calibrate.py ../$(CHECKPOINT) ../build/svcd $(CALIBRATED:%=../%)
 	cd train && $(PYTHON) export.py ../$(CHECKPOINT) ../weights.h ../tests/data/golden.h
 
-WRITTEN = examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
+WRITTEN = train examples examples/scenery examples/svcd examples/firmware examples/python examples/verify examples/web packages/project tests tests/bench
 FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)

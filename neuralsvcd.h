@@ -218,14 +218,14 @@
 //     latent_rotation Wigner matrices; latents turned by them
 //     winding_number  what is inside of what, for the network
 //     pairs           pairs of patches -> invariants
-//     decoder         invariants -> logits, in float or int8
+//     decoder         invariants -> logits and distances, in float or int8
 //   query: a question, and its answer
 //     task            a question that has been checked, and its memory
 //     by_network      an answer by the network
 //     by_proof        an answer by proof
 //     question        check, who moves, lay out, answer, write
 //     self_test       a question by hand, whose answer is known
-//   gradient: of the logit by the poses
+//   gradient: of distance or logit, by poses
 //     by_pair         by the decoder's inputs, and by the pair
 //     gradient        by the poses, and by the times of contact
 //   entry: the processor decides
@@ -750,6 +750,8 @@ typedef struct nsvcd_network_options {
   // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
   // more of what is near a hit. 0: as much as `recall` needs
   float swell;
+  // 1: nsvcd_sweep_gradient differentiates the logit; 0: the distance
+  int of_logit;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -893,6 +895,10 @@ typedef struct nsvcd_opinion {
   // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
   // decoder was needed
   float logit;
+  // metres, of the same pair: by how much it misses, or, negative, how deep it is, to within some
+  // hundredths of a patch's radius where that is within one radius. HUGE_VALF where no decoder was
+  // needed
+  float distance;
   // in [0,1]: when the most suspicious pair comes closest
   float time;
   // that pair
@@ -992,7 +998,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 592 + 32 * (segments) + 96 * (pairs))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
 // Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
 // the one before it ask the network about the same two bodies, it is first asked where that one
@@ -1010,7 +1016,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of its logit by the poses of a and b.
+// Answers a question by the network, with the derivatives of opinion.distance, or of its logit, by
+// the poses of a and b: to go along them, by the distance's length, is the shortest way out.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
 //   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep
@@ -1024,9 +1031,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   source     reverse mode; this library
 //
 // Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
-// the gradient of the pair and the stretch of time that decided: the logit is the greatest of
-// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs.
-// Where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
+// the gradient of the pair and the stretch of time that decided: its logit is the greatest of
+// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and
+// where a flat patch does not turn. At rest it is the mean of both sides. The ends of the
 // stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
 // begins or ends. The unit of length, and the spheres' allowance for what the motion does
 // between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float
@@ -8041,7 +8048,9 @@ NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
 }
 // Rows of x, y, z and w, so many numbers apart.
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+  const nsvcd__vquat q = {nsvcd__v_load(p), nsvcd__v_load(p + stride),
+                          nsvcd__v_load(p + 2 * stride), nsvcd__v_load(p + 3 * stride)};
+  return q;
 }
 NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
   nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
@@ -8080,7 +8089,8 @@ NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_rows(nsvcd__v3 x, nsvcd__v3 y, nsvcd__v3
   return out;
 }
 NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
-  return nsvcd__vmat3_rows(nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z));
+  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
+  return out;
 }
 // The matrix in lane l of p (9, LANES), row-major.
 static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {
@@ -8611,8 +8621,8 @@ typedef struct nsvcd__candidate {
   float t_least;  // where the gap is least
   // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
   float depth;
-  // what the network says, or NSVCD__NO_SCORE
-  float score;
+  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
+  float score, apart;
 } nsvcd__candidate;
 
 #define NSVCD__NO_SCORE (-1e30f)
@@ -9450,11 +9460,11 @@ typedef struct nsvcd__ranges {
 typedef struct nsvcd__sheets {
   // normals; how many were found, of which the last ones are kept; the one that parted last
   nsvcd__f3 planes[NSVCD__PLANES];
-  size_t found, best;
+  uint32_t found, best;
   float swell;  // of patches, shares of their radii
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
-  uint32_t moving_known, resting_known;
+  uint16_t moving_known, resting_known;
 } nsvcd__sheets;
 
 // Begins the search of a motion.
@@ -9528,8 +9538,8 @@ static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, 
     nsvcd__resting_ranges(search->fixed, h, normal, sheets->swell, &sheets->resting[n]);
   if (!(sheets->moving_known >> n & 1))
     nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
-  sheets->resting_known |= 1u << n;
-  sheets->moving_known |= 1u << n;
+  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
+  sheets->moving_known = (uint16_t)(sheets->moving_known | 1u << n);
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
@@ -9577,7 +9587,7 @@ static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t 
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) sheets->best = n;
+    if (met & parted) sheets->best = (uint32_t)n;
     met &= ~parted;
   }
   return met;
@@ -9593,6 +9603,17 @@ enum {
   NSVCD__DIRECTIONS
 };
 
+// Fills in how the moving body is turned in segment s.
+static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
+                                              nsvcd__passing *p) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
+  p->start = nsvcd__vmat3_set(&start);
+  p->end = nsvcd__vmat3_set(&end);
+}
+
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
@@ -9601,17 +9622,11 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__chords *c = &search->members[s];
-  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
-  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
-  const nsvcd__mat3 middle = nsvcd__mat3_mix(1, &start, 0.5f, &turned);
   nsvcd__passing p;
-  p.start = nsvcd__vmat3_set(&start);
-  p.end = nsvcd__vmat3_set(&end);
+  nsvcd__passing_turns(search, s, &p);
   for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
-    float directions[3][NSVCD__LANES];
+    nsvcd__f3 plane = {0, 0, 0};
     uint32_t parted = 0;
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
@@ -9628,20 +9643,26 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
         const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 before = nsvcd__vmat3_apply(p.start, area);
+        // halfway
         const nsvcd__v3 own =
-            nsvcd__v3_unit(nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), area));
+            nsvcd__v3_unit(nsvcd__v3_add(before, nsvcd__vmat3_apply(p.end, area)));
         u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
       }
-      nsvcd__v3_store(directions, l, u);
-      parted |= nsvcd__parted_along(&p, &rest, u) << l;
+      const uint32_t here = nsvcd__parted_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
+      if (here && !parted) {
+        float lanes[3 * NSVCD__SLICE];
+        nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
+        plane = nsvcd__f3_get(lanes + nsvcd__low_bit(here), NSVCD__SLICE);
+      }
+      parted |= here << l;
     }
-    parted &= met;
     met &= ~parted;
     if (!parted) continue;
     const size_t oldest = sheets->found++ % NSVCD__PLANES;
-    sheets->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
-    sheets->moving_known &= ~(1u << oldest);
-    sheets->resting_known &= ~(1u << oldest);
+    sheets->planes[oldest] = plane;
+    sheets->moving_known = (uint16_t)(sheets->moving_known & ~(1u << oldest));
+    sheets->resting_known = (uint16_t)(sheets->resting_known & ~(1u << oldest));
   }
   return met;
 }
@@ -9772,6 +9793,7 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
     candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
     candidate.depth = depth[l];
     candidate.score = NSVCD__NO_SCORE;
+    candidate.apart = 0;
     // Rounding must not put the least distance outside.
     if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
     if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
@@ -9803,9 +9825,10 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
 // segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
-static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
-                                       uint64_t wanted, const uint16_t *all_met, uint64_t cuts,
-                                       nsvcd__candidates *kept) {
+static NSVCD__APART void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+                                                    size_t j, uint64_t wanted,
+                                                    const uint16_t *all_met, uint64_t cuts,
+                                                    nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);
@@ -14662,8 +14685,7 @@ static int nsvcd__is_contained(const nsvcd_body *moving, const nsvcd_body *fixed
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
-//                  the patches' mean directions, latent channel 0), so that it has a limit where
-//                  the velocity vanishes
+//                  the patches' normals), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
 //   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
 //                  is for a pair at rest, the frame is right-handed
@@ -14701,8 +14723,23 @@ enum {
   NSVCD__FACT_TURN = 7,
   NSVCD__FACT_SPEED = 10,  // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  NSVCD__FACTS = 12
+  // of the gaps between the tips: (GAPS, MOMENTS), and the widest at each moment
+  NSVCD__FACT_GAPS = 12,
+  NSVCD__FACT_WIDEST = 24,
+  // products of the normals: of both, of the larger patch's and the smaller one's with the line
+  // from the larger to the smaller
+  NSVCD__FACT_FACING = 27,
+  // how flat the larger patch is, and the smaller
+  NSVCD__FACT_FLAT = 30,
+  NSVCD__FACTS = 32
 };
+// Directions, from the fixed patch to the moving one, in which gaps are measured, and when.
+enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
+#define NSVCD__MOMENTS 3
+// A gap g in units of r1 + r2 is told as x / (1 + |x|), x being g times this; the widest as well
+// with the second, so that what decides is not lost in the steps of int8.
+#define NSVCD__GAP_STEEP 8.0f
+#define NSVCD__WIDEST_STEEP 40.0f
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
 // Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
@@ -14733,8 +14770,13 @@ typedef struct nsvcd__pairs {
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
   nsvcd__v3 w;  // half rotation vector
-  // latents, in the bodies' frames
+  // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
+  // they are, which is the normal area over that of the ball's greatest disc; latents; and tips,
+  // (TIPS, 3) at a stride of GROUP
+  nsvcd__v3 normal[2];
+  nsvcd__v flat[2];
   const int8_t *z[2][NSVCD__SLICE];
+  const int8_t *tips[2][NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
@@ -14853,6 +14895,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   nsvcd__v_pose at[3];
   float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
   float radii[2][NSVCD__SLICE] = {{0}, {0}};
+  float normals[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  float flat[2][NSVCD__SLICE] = {{0}, {0}};
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
     for (size_t n = 0; n < 2; n++) {
@@ -14863,6 +14907,15 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+      pairs->tips[n][l] = nsvcd__group_tips(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      // the normal area, over the square of the radius; a patch that is closed has none
+      const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
+      const nsvcd__f3 stored = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
+      const nsvcd__f3 area = nsvcd__f3_scale(nsvcd__f3_scale(stored, inverse), inverse);
+      const float length = nsvcd__f3_length(area);
+      const nsvcd__f3 normal = nsvcd__f3_scale(area, length > 1e-6f ? 1 / length : 0);
+      nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
+      flat[n][l] = fminf(0.31830989f * length, 2);
     }
     times[0][l] = candidate->t_enter;
     times[1][l] = candidate->t_exit;
@@ -14871,6 +14924,10 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
   pairs->r1 = nsvcd__v_load(radii[0]);
   pairs->r2 = nsvcd__v_load(radii[1]);
+  for (size_t n = 0; n < 2; n++) {
+    pairs->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    pairs->flat[n] = nsvcd__v_load(flat[n]);
+  }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
   nsvcd__pairs_in_passing(at, centres[0], pairs);
 }
@@ -14886,7 +14943,11 @@ typedef struct nsvcd__views {
   // the line from the larger patch to the smaller one
   nsvcd__v3 d;
   nsvcd__v3 lean;
-  // reversed where time is to run backwards
+  // the moving patch's
+  nsvcd__v3 normal;
+  // -1 where time is to run backwards, else 1
+  nsvcd__v time;
+  // the larger patch's, as time runs
   nsvcd__v3 v, w;
   // rows are its axes in the fixed body's frame
   nsvcd__vmat3 frame;
@@ -14897,6 +14958,12 @@ typedef struct nsvcd__views {
 // Removes from a its part along the unit vector e.
 static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
   return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
+}
+
+// x where a <= b, elsewhere y.
+static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y) {
+  return nsvcd__v3_of(nsvcd__v_pick(a, b, x.x, y.x), nsvcd__v_pick(a, b, x.y, y.y),
+                      nsvcd__v_pick(a, b, x.z, y.z));
 }
 
 // a over its length, where that exceeds `least`; elsewhere `instead`.
@@ -14910,25 +14977,11 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
                       nsvcd__v_pick(length, floor, instead.z, unit.z));
 }
 
-// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
-static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
-  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
-}
-
-// Views of the first `count` pairs of a slice.
-static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
+// Views of a slice of pairs.
+static NSVCD__APART void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  float means[2][3 * NSVCD__SLICE] = {{0}, {0}};
-  for (size_t n = 0; n < 2; n++) {
-    for (size_t l = 0; l < count; l++)
-      nsvcd__f3_put(nsvcd__mean_direction(pairs->z[n][l]), means[n] + l, NSVCD__SLICE);
-  }
-  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[0], NSVCD__SLICE), step);
-  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[1], NSVCD__SLICE), step);
-  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
   const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
   // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
   const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
@@ -14939,10 +14992,11 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->k1 = nsvcd__v_mul(pairs->r1, inverse);
   view->k2 = nsvcd__v_mul(pairs->r2, inverse);
   view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
-  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
-  // can stay.
-  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
-  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
+  // Seen from the other body the motion is reversed as well, and time may run either way: v and w
+  // change their signs no more than once.
+  view->normal = nsvcd__vmat3_apply(pairs->rotation, pairs->normal[0]);
+  const nsvcd__v3 lean1 = nsvcd__v3_scale(view->normal, view->k1);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(pairs->normal[1], view->k2);
   const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
   const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
   view->lean = lean;
@@ -14956,6 +15010,7 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
   const nsvcd__v3 v_across = nsvcd__v_across(v, e1);
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
+  view->time = nsvcd__v_mul(sign, view->swap);
   view->v = nsvcd__v3_scale(v, sign);
   view->w = nsvcd__v3_scale(pairs->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
@@ -14978,6 +15033,120 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->frame.z = nsvcd__v3_scale(e3, view->side);
 }
 
+// ---- gaps
+
+// Where gaps between tips are measured.
+typedef struct nsvcd__gap_axes {
+  // from the fixed patches to the moving ones
+  nsvcd__v3 u[NSVCD__GAPS];
+} nsvcd__gap_axes;
+
+static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *view,
+                               nsvcd__gap_axes *axes) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+  const nsvcd__v3 line = nsvcd__v_unit_or(between, 1e-20f, x_axis);
+  const nsvcd__v3 fixed = nsvcd__v_unit_or(pairs->normal[1], 0.5f, line);
+  const nsvcd__v3 moving = nsvcd__v_unit_or(nsvcd__v3_negate(view->normal), 0.5f, line);
+  axes->u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
+  axes->u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
+  axes->u[NSVCD__GAP_LINE] = line;
+  axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
+}
+
+// The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
+// TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
+static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
+  memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
+  for (size_t n = 0; n < 2; n++) {
+    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
+      for (size_t l = 0; l < count; l++) tips[l] = pairs->tips[n][l][NSVCD__GROUP * k];
+    }
+  }
+}
+
+static nsvcd__v3 nsvcd__tips_load(const int8_t *tips) {
+  return nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__SLICE),
+                      nsvcd__v_load_int8(tips + 2 * NSVCD__SLICE));
+}
+
+// What a direction u becomes for a patch that turns on by w, to the second order: its product with
+// q is u . (q + w x q + w x (w x q) / 2).
+static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
+  const nsvcd__v along = nsvcd__v_scale(nsvcd__v3_dot(u, w), 0.5f);
+  const nsvcd__v less = nsvcd__v_scale(nsvcd__v3_dot(w, w), -0.5f);
+  const nsvcd__v3 turned = nsvcd__v3_add(nsvcd__v3_cross(u, w), u);
+  return nsvcd__v3_fma(less, u, nsvcd__v3_fma(along, w, turned));
+}
+
+// The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
+// the interval. Seen from a frame that turns half as fast as the moving patch, in which either
+// patch may be called the one that moves: the line between the centres goes by v, one patch turns
+// by half of w, and the other the opposite way. tips: nsvcd__tips_gather.
+static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__gap_axes *axes,
+                                        const int8_t *tips, nsvcd__v tau, nsvcd__v *wide) {
+  const size_t size = 3 * NSVCD__SLICE;
+  const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
+  const nsvcd__v3 back = nsvcd__v3_negate(half);
+  nsvcd__v3 own[NSVCD__GAPS], other[NSVCD__GAPS];
+  nsvcd__v low[NSVCD__GAPS], high[NSVCD__GAPS];
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__v3 turned = nsvcd__turned_back(axes->u[d], half);
+    own[d] = nsvcd__vmat3_apply_transpose(pairs->rotation, turned);
+    other[d] = nsvcd__turned_back(axes->u[d], back);
+    low[d] = nsvcd__v_set(1e30f);
+    high[d] = nsvcd__v_set(-1e30f);
+  }
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
+    const nsvcd__v3 q = nsvcd__tips_load(tips);
+    const nsvcd__v3 x = nsvcd__tips_load(tips + NSVCD__TIPS * size);
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
+      high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
+    }
+  }
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 apart = nsvcd__v3_fma(tau, pairs->v, between);
+  const nsvcd__v step1 = nsvcd__v_scale(pairs->r1, 1.0f / 127);
+  const nsvcd__v step2 = nsvcd__v_scale(pairs->r2, 1.0f / 127);
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(axes->u[d], apart));
+    wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
+  }
+}
+
+// A gap, times so much, as it is told: x / (1 + |x|).
+static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
+  const nsvcd__v x = nsvcd__v_scale(gap, steep);
+  return nsvcd__v_div(x, nsvcd__v_plus(nsvcd__v_abs(x), 1));
+}
+
+// The facts about gaps.
+static NSVCD__APART void nsvcd__tell_gaps(const nsvcd__pairs *pairs, const nsvcd__views *view,
+                                          size_t count, float (*facts)[NSVCD__SLICE]) {
+  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  nsvcd__gap_axes axes;
+  nsvcd__gap_axes_of(pairs, view, &axes);
+  nsvcd__tips_gather(pairs, count, tips);
+  for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
+    const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
+    nsvcd__v wide[NSVCD__GAPS];
+    nsvcd__v widest = nsvcd__v_set(-1e30f);
+    nsvcd__gaps_at(pairs, &axes, tips, tau, wide);
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
+      float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      nsvcd__v_store(to, nsvcd__gap_told(gap, NSVCD__GAP_STEEP));
+      widest = nsvcd__v_max(widest, gap);
+    }
+    nsvcd__v_store(facts[NSVCD__FACT_WIDEST + m],
+                   nsvcd__gap_told(widest, NSVCD__WIDEST_STEEP));
+  }
+}
+
+// ---- inputs
+
 // What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
 typedef struct nsvcd__scenes {
   // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
@@ -14989,37 +15158,57 @@ typedef struct nsvcd__scenes {
   float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
-// Scenes of the first `count` pairs of a slice.
-static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
-                                          nsvcd__scenes *scene) {
-  nsvcd__views view;
-  nsvcd__views_of(pairs, count, &view);
-  scene->turn[0] = nsvcd__vmat3_mul(view.frame, pairs->rotation);
-  scene->turn[1] = view.frame;
-  scene->k[0] = view.k1;
-  scene->k[1] = view.k2;
-  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.swap);
+// A slice of scenes, but for the facts about gaps.
+static NSVCD__APART void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+                                                    const nsvcd__views *view,
+                                                    nsvcd__scenes *scene) {
+  scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
+  scene->turn[1] = view->frame;
+  scene->k[0] = view->k1;
+  scene->k[1] = view->k2;
+  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
 
-  const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
+  const nsvcd__v speed2 = nsvcd__v3_dot(view->v, view->v);
   const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
   // nearest approach of the centres, in half intervals
-  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
+  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
   const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
-  const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
-  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
-  const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
+  const nsvcd__v3 closest = nsvcd__v3_sub(view->d, nsvcd__v3_scale(view->v, tau));
+  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view->frame, view->v);
+  const nsvcd__v3 turn = nsvcd__vmat3_apply(view->frame, view->w);
   // an axial vector
-  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
   float(*facts)[NSVCD__SLICE] = scene->facts;
-  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
-  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
+  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
   nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
   nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
   nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
   nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
   nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
+
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v3 *fixed = &pairs->normal[1];
+  const nsvcd__v3 larger = nsvcd__v3_pick(zero, view->swap, view->normal, *fixed);
+  const nsvcd__v3 smaller = nsvcd__v3_pick(zero, view->swap, *fixed, view->normal);
+  float(*facing)[NSVCD__SLICE] = facts + NSVCD__FACT_FACING;
+  nsvcd__v_store(facing[0], nsvcd__v3_dot(larger, smaller));
+  nsvcd__v_store(facing[1], nsvcd__v3_dot(larger, view->frame.x));
+  nsvcd__v_store(facing[2], nsvcd__v3_dot(smaller, view->frame.x));
+  float(*flat)[NSVCD__SLICE] = facts + NSVCD__FACT_FLAT;
+  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, pairs->flat[0], pairs->flat[1]));
+  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, pairs->flat[1], pairs->flat[0]));
+}
+
+// Scenes of the first `count` pairs of a slice. One step after the other, so that the stack of one
+// does not lie below that of the next.
+static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
+  nsvcd__views view;
+  nsvcd__views_of(pairs, &view);
+  nsvcd__scenes_without_gaps(pairs, &view, scene);
+  nsvcd__tell_gaps(pairs, &view, count, scene->facts);
 }
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
@@ -15050,9 +15239,16 @@ static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t cou
 #endif  // NSVCD_NO_NETWORK
 
 // --------------------------------------------------------------------------------- network/decoder
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and how far the pair comes apart.
 
 #ifndef NSVCD_NO_NETWORK
+// What a decoder says of a pair.
+enum {
+  NSVCD__SAYS_LOGIT,
+  NSVCD__SAYS_APART,  // distance, negative: depth, in tenths of r1 + r2
+  NSVCD__SAYINGS
+};
+
 // Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
 typedef struct nsvcd__layer {
   size_t inputs, outputs;  // multiples of 4, and of 16
@@ -15116,13 +15312,13 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   }
 }
 
-// As nsvcd__decoder_logits, in fp32. The weights of the largest decoder do not fit into the first
+// As nsvcd__decoder_says, in fp32. The weights of the largest decoder do not fit into the first
 // cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
 // outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
 static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
                                                   const float *x, size_t count,
-                                                  float *logits) {
+                                                  float (*said)[NSVCD__SAYINGS]) {
   const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -15159,7 +15355,7 @@ static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
     pitch = NSVCD__WIDEST;
     y = y == a ? b : a;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -15282,9 +15478,9 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 }
 #endif
 
-// As nsvcd__decoder_logits, in int8 arithmetic.
+// As nsvcd__decoder_says, in int8 arithmetic.
 static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
-                                                 size_t count, float *logits) {
+                                                 size_t count, float (*said)[NSVCD__SAYINGS]) {
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {
@@ -15294,25 +15490,25 @@ static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, 
     x = y;
     pitch = NSVCD__WIDEST;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
 }
 #endif  // NSVCD_NO_INT8
 
-// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by a decoder, in fp32 or int8
+// x (ROWS, DECODER_IN) -> said (count, SAYINGS), of the first `count` pairs, in fp32 or int8
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
-                                  int int8, float *logits) {
+static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, size_t count,
+                                int int8, float (*said)[NSVCD__SAYINGS]) {
 #ifdef NSVCD_NO_INT8
   (void)int8;
-  nsvcd__decoder_by_floats(decoder, x, count, logits);
+  nsvcd__decoder_by_floats(decoder, x, count, said);
 #elif defined(NSVCD_NO_FLOAT)
   (void)int8;
-  nsvcd__decoder_by_bytes(decoder, x, count, logits);
+  nsvcd__decoder_by_bytes(decoder, x, count, said);
 #else
   if (int8)
-    nsvcd__decoder_by_bytes(decoder, x, count, logits);
+    nsvcd__decoder_by_bytes(decoder, x, count, said);
   else
-    nsvcd__decoder_by_floats(decoder, x, count, logits);
+    nsvcd__decoder_by_floats(decoder, x, count, said);
 #endif
 }
 #endif  // NSVCD_NO_NETWORK
@@ -15408,6 +15604,11 @@ typedef struct nsvcd__task {
   nsvcd__settings settings;
   // written unless NULL
   nsvcd__decisive *decisive;
+#if NSVCD__ROWS == 1
+  // (DECODER_IN) the decoder's inputs, in memory that the search has no need of between two groups:
+  // stack is scarce where rows go one by one
+  float *row;
+#endif
 #endif
 } nsvcd__task;
 
@@ -15440,8 +15641,13 @@ typedef char nsvcd__proof_constants_hold
     [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
-typedef char nsvcd__network_constants_hold
-    [NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
+typedef char
+    nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
+                                          NSVCD__LATENT == 40 &&
+                                          sizeof(float) * NSVCD__DECODER_IN <=
+                                              sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
+                                      ? 1
+                                      : -1];
 #endif
 
 // Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the
@@ -15561,8 +15767,12 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
     const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
     // The layers take some rows at a time.
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
+#if NSVCD__ROWS > 1
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
-    float logits[NSVCD__ROWS];
+#else
+    float *x = task->row;
+#endif
+    float said[NSVCD__ROWS][NSVCD__SAYINGS];
     for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
       const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
       nsvcd__pairs pairs;
@@ -15571,8 +15781,11 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
       nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
     }
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__decoder_logits(decoder, x, rows, task->settings.int8, logits);
-    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+    nsvcd__decoder_says(decoder, x, rows, task->settings.int8, said);
+    for (size_t k = 0; k < rows; k++) {
+      candidates[first + k]->score = said[k][NSVCD__SAYS_LOGIT];
+      candidates[first + k]->apart = said[k][NSVCD__SAYS_APART];
+    }
   }
 }
 
@@ -15599,10 +15812,18 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
   return 1;
 }
 
+// The sum of the radii of a candidate's patches, metres.
+static float nsvcd__candidate_reach(const nsvcd__task *task,
+                                    const nsvcd__candidate *candidate) {
+  const float own = task->motion.scale * nsvcd__body_r(task->moving)[candidate->moving];
+  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[candidate->fixed]);
+}
+
 // Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
   out->logit = candidate->score - task->settings.threshold;
+  out->distance = 0.1f * candidate->apart * nsvcd__candidate_reach(task, candidate);
   out->time = candidate->t_least;
   out->patch_a = candidate->moving;
   out->patch_b = candidate->fixed;
@@ -15729,6 +15950,7 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
   memset(&out, 0, sizeof out);
   out.asked = 1;
   out.logit = logit;
+  out.distance = HUGE_VALF;
   return out;
 }
 
@@ -16302,6 +16524,9 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   task->question = question;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
+#if NSVCD__ROWS == 1
+  task->row = (float *)(void *)query->broad_phase.met;
+#endif
 #endif
   return query;
 }
@@ -16449,7 +16674,7 @@ static nsvcd_result nsvcd__self_test(void) {
   return right ? NSVCD_OK : NSVCD_ERROR_BUILD;
 }
 
-// ============================================================= gradient: of the logit by the poses
+// ======================================================== gradient: of distance or logit, by poses
 
 // -------------------------------------------------------------------------------- gradient/by_pair
 // In: the pair that decided an answer. Out: the derivative of its logit by the poses. Reverse mode,
@@ -16492,6 +16717,11 @@ static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
   return out;
 }
 
+// a without its part along the unit vector n.
+static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
+  return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
+}
+
 // a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`,
 // times `across`. All that commutes with rotations about n is of this kind.
 static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
@@ -16520,13 +16750,14 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 #endif
 }
 
-// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at 0
-// is 0.
-static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
-                                                 float *by_x) {
+// The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
+// at 0 is 0.
+static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, size_t output,
+                                                 const float *x, float *by_x) {
   // what comes out of the layers, but for the last
   float values[5][NSVCD__WIDEST];
-  float by[NSVCD__MOST_INPUTS] = {1};
+  float by[NSVCD__MOST_INPUTS] = {0};
+  by[output] = 1;
   const size_t last = decoder->layers - 1;
   for (size_t n = 0; n < last; n++) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
@@ -16605,14 +16836,17 @@ typedef struct nsvcd__by_pair {
 // A pair in its own units: what nsvcd__views has in lane 0, number by number.
 typedef struct nsvcd__view {
   float inverse, k1, k2, swap;
-  nsvcd__f3 d, lean, v, w;
+  nsvcd__f3 d, lean, normal;
+  float time;
+  nsvcd__f3 v, w;
   nsvcd__mat3 frame;
   float side;
 } nsvcd__view;
 
-// The derivative of a logit by what the frame sees, and the torque on that, in the frame.
+// The derivative of a logit by what the frame sees, by axis 1, and the torque on all of that, in
+// the frame.
 typedef struct nsvcd__by_view {
-  nsvcd__f3 d, v, w, lean, torque;
+  nsvcd__f3 d, v, w, lean, axis1, torque;
 } nsvcd__by_view;
 
 // sum + the rows of m, times the components of a.
@@ -16684,12 +16918,175 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   }
 
   // Axis 1: of the line, or of what stands for it.
-  nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
+  nsvcd__f3 by_e1 = nsvcd__f3_across(by->axis1, e1);
+  by_e1 = nsvcd__f3_fma(by->torque.y + about * nsvcd__f3_dot(e1, a), e3, by_e1);
   by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
   if (length > 1e-5f)
     by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
   else if (nsvcd__f3_length(line) > 1e-9f)
     by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
+}
+
+// ---- gaps
+
+// What the axis of a gap is the direction of: a constant, plus so many times the moving patch's
+// normal, reversed, and the unit vector of the line between the centres.
+typedef struct nsvcd__gap_axis {
+  float of_moving, of_line;
+  float length;  // of that sum
+} nsvcd__gap_axis;
+
+// Of the axes that nsvcd__gap_axes_of makes.
+static void nsvcd__gap_axes_made(nsvcd__f3 fixed, const nsvcd__view *view, nsvcd__f3 line,
+                                 nsvcd__gap_axis *made) {
+  const nsvcd__gap_axis constant = {0, 0, 1};
+  const nsvcd__gap_axis against = {1, 0, 1};
+  const nsvcd__gap_axis along = {0, 1, 1};
+  const int has_fixed = nsvcd__f3_length(fixed) > 0.5f;
+  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const nsvcd__gap_axis of_fixed = has_fixed ? constant : along;
+  const nsvcd__gap_axis of_moving = has_moving ? against : along;
+  const nsvcd__f3 from = has_fixed ? fixed : line;
+  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
+  nsvcd__gap_axis both = {of_moving.of_moving, of_fixed.of_line + of_moving.of_line,
+                          nsvcd__f3_length(nsvcd__f3_add(from, to))};
+  if (!(both.length > 1e-3f)) both = along;
+  made[NSVCD__GAP_LARGER] = view->swap > 0 ? of_moving : of_fixed;
+  made[NSVCD__GAP_SMALLER] = view->swap > 0 ? of_fixed : of_moving;
+  made[NSVCD__GAP_LINE] = along;
+  made[NSVCD__GAP_BOTH] = both;
+}
+
+// As nsvcd__turned_back, whose adjoint by u it is too, with -w.
+static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
+  const nsvcd__f3 turned = nsvcd__f3_fma(tau, nsvcd__f3_cross(u, w), u);
+  const float along = 0.5f * tau * tau * nsvcd__f3_dot(u, w);
+  const float less = -0.5f * tau * tau * nsvcd__f3_dot(w, w);
+  return nsvcd__f3_fma(less, u, nsvcd__f3_fma(along, w, turned));
+}
+
+// The derivative of nsvcd__turned_back(u, w, tau) . q by w.
+static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, nsvcd__f3 q) {
+  const float half = 0.5f * tau * tau;
+  nsvcd__f3 out = nsvcd__f3_scale(nsvcd__f3_cross(q, u), tau);
+  out = nsvcd__f3_fma(half * nsvcd__f3_dot(w, q), u, out);
+  out = nsvcd__f3_fma(half * nsvcd__f3_dot(u, w), q, out);
+  return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
+}
+
+// Of a body's tips, from the first on, the farthest along u, in steps.
+static nsvcd__f3 nsvcd__farthest_tip(const int8_t *tips, nsvcd__f3 u) {
+  nsvcd__f3 best = {0, 0, 0};
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
+    if (k == 0 || nsvcd__f3_dot(tip, u) > nsvcd__f3_dot(best, u)) best = tip;
+  }
+  return best;
+}
+
+// Lane 0 of what gaps are measured of.
+typedef struct nsvcd__gap_pair {
+  nsvcd__f3 between, v, w;
+  float radii[2];
+  nsvcd__mat3 rotation;
+  const int8_t *tips[2];
+} nsvcd__gap_pair;
+
+// The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
+// rest, else 1.
+static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float tau,
+                               float moves, float by, nsvcd__by_pair *out) {
+  const float half = 0.5f * tau;
+  const nsvcd__f3 w = pair->w;
+  const nsvcd__f3 minus = nsvcd__f3_scale(w, -1);
+  const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
+  const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
+  const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
+  const nsvcd__f3 lowest = nsvcd__farthest_tip(pair->tips[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_tip(pair->tips[1], forth);
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
+  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
+  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
+  const nsvcd__f3 on_q = nsvcd__turned_back_by_w(u, w, half, q);
+  const nsvcd__f3 on_x = nsvcd__turned_back_by_w(u, w, -half, x);
+  out->p1 = nsvcd__f3_fma(by, u, out->p1);
+  out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
+  out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
+  out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
+  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, pair->between);
+  apart = nsvcd__f3_add(apart, nsvcd__f3_turned_back(q, minus, half));
+  apart = nsvcd__f3_sub(apart, nsvcd__f3_turned_back(x, minus, -half));
+  return nsvcd__f3_scale(apart, by);
+}
+
+// The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
+// by axis 1, to `seen`. moves: 0 at rest, else 1.
+static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__view *view,
+                                        float moves, const float *by, nsvcd__by_pair *out,
+                                        nsvcd__by_view *seen) {
+  const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
+  nsvcd__gap_pair pair;
+  nsvcd__views views;
+  nsvcd__gap_axes axes;
+  nsvcd__gap_axis made[NSVCD__GAPS];
+  nsvcd__f3 by_u[NSVCD__GAPS];
+  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
+  pair.v = nsvcd__first_f3(pairs->v);
+  pair.w = nsvcd__first_f3(pairs->w);
+  pair.tips[0] = pairs->tips[0][0];
+  pair.tips[1] = pairs->tips[1][0];
+  nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
+  nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
+  nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
+  nsvcd__views_of(pairs, &views);
+  nsvcd__gap_axes_of(pairs, &views, &axes);
+  nsvcd__tips_gather(pairs, 1, tips);
+  memset(by_u, 0, sizeof by_u);
+  for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
+    const float tau = view->time * ((float)m - 1);
+    nsvcd__v at[NSVCD__GAPS];
+    float wide[NSVCD__GAPS];
+    size_t widest = 0;
+    nsvcd__gaps_at(pairs, &axes, tips, nsvcd__v_set(tau), at);
+    nsvcd__first_lanes(at, NSVCD__GAPS, wide);
+    for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      const float gap = fabsf(view->inverse * wide[d]);
+      const float steep = NSVCD__GAP_STEEP;
+      const float steeper = d == widest ? NSVCD__WIDEST_STEEP : 0;
+      const float told = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      const float by_told = told * steep / ((1 + steep * gap) * (1 + steep * gap));
+      const float by_widest =
+          by[NSVCD__FACT_WIDEST + m] * steeper / ((1 + steeper * gap) * (1 + steeper * gap));
+      const float by_gap = view->inverse * (by_told + by_widest);
+      const nsvcd__f3 u = nsvcd__first_f3(axes.u[d]);
+      const nsvcd__f3 more = nsvcd__by_gap(&pair, u, tau, moves, by_gap, out);
+      by_u[d] = nsvcd__f3_add(by_u[d], more);
+    }
+  }
+
+  // By the axes, to what they are made of.
+  const nsvcd__f3 line = nsvcd__first_f3(axes.u[NSVCD__GAP_LINE]);
+  const float length = fmaxf(nsvcd__f3_length(pair.between), 1e-20f);
+  nsvcd__f3 by_moving = {0, 0, 0};
+  nsvcd__f3 by_line = {0, 0, 0};
+  nsvcd__gap_axes_made(fixed, view, line, made);
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], nsvcd__first_f3(axes.u[d]));
+    by_moving = nsvcd__f3_fma(-made[d].of_moving / made[d].length, across, by_moving);
+    by_line = nsvcd__f3_fma(made[d].of_line / made[d].length, across, by_line);
+  }
+  out->p1 = nsvcd__f3_fma(1 / length, nsvcd__f3_across(by_line, line), out->p1);
+
+  const float *facing = by + NSVCD__FACT_FACING;
+  const float to_moving = view->swap > 0 ? facing[1] : facing[2];
+  const float to_fixed = view->swap > 0 ? facing[2] : facing[1];
+  by_moving = nsvcd__f3_fma(facing[0], fixed, by_moving);
+  by_moving = nsvcd__f3_fma(to_moving, view->frame.x, by_moving);
+  seen->axis1 = nsvcd__f3_fma(to_moving, view->normal, seen->axis1);
+  seen->axis1 = nsvcd__f3_fma(to_fixed, fixed, seen->axis1);
+  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_moving));
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
@@ -16698,15 +17095,12 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
                                               const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
-  nsvcd__mat3 rotation;
-  nsvcd__views_of(pairs, 1, &views);
+  nsvcd__views_of(pairs, &views);
   nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
-  nsvcd__first_lanes(&pairs->rotation, 9, &rotation);
   // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
-  const float same_v = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse;
-  const float same = same_v + nsvcd__f3_dot(view.w, nsvcd__first_f3(pairs->w));
-  const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
+  const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
+  const float sign = moves < 1e-12f ? 0.0f : view.time * view.swap;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT;
@@ -16718,18 +17112,17 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   memset(&seen, 0, sizeof seen);
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
+  memset(by, 0, sizeof *by);
+  nsvcd__by_gaps(pairs, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
-  const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z[0][0]);
-  const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.swap * view.k1 / 127);
-  const nsvcd__f3 lean1 = nsvcd__mat3_apply(&rotation, scaled);
-  const nsvcd__f3 none = {0, 0, 0};
+  const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
   const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
-  by->rotation = nsvcd__add_along_rows(none, &view.frame, turned);
+  by->rotation = nsvcd__add_along_rows(by->rotation, &view.frame, turned);
   by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
-  by->p1 = nsvcd__f3_scale(seen.d, -view.swap * view.inverse);
-  by->v = nsvcd__f3_scale(seen.v, sign * view.inverse);
-  by->w = nsvcd__f3_scale(seen.w, sign);
+  by->p1 = nsvcd__f3_fma(-view.swap * view.inverse, seen.d, by->p1);
+  by->v = nsvcd__f3_fma(sign * view.inverse, seen.v, by->v);
+  by->w = nsvcd__f3_fma(sign, seen.w, by->w);
 }
 #endif  // NSVCD_NO_GRADIENT
 
@@ -16882,8 +17275,8 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   nsvcd__by_instant(motion, at, s + 1, after, none, out);
 }
 
-// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
-// ends.
+// The derivative of the decisive distance, or logit, by the poses, added to the gradients. time: of
+// the segments' ends.
 static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
   const nsvcd__motion *motion = &task->motion;
@@ -16896,7 +17289,11 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
-  nsvcd__decoder_gradient(decisive->decoder, x, by_x);
+  const int of_logit = task->question->network.of_logit;
+  const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
+  nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
+  for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
   nsvcd__by_invariants(&pairs, x, by_x, &by);
   nsvcd__instants_of(task, &candidate, time, &at);
 
@@ -17003,16 +17400,28 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
 #define NSVCD__FACT_CLOSEST NSVCD__NUMBER_AT(FACT_CLOSEST)
 #define NSVCD__FACT_DISTANCE NSVCD__NUMBER_AT(FACT_DISTANCE)
+#define NSVCD__FACT_FACING NSVCD__NUMBER_AT(FACT_FACING)
+#define NSVCD__FACT_FLAT NSVCD__NUMBER_AT(FACT_FLAT)
+#define NSVCD__FACT_GAPS NSVCD__NUMBER_AT(FACT_GAPS)
 #define NSVCD__FACT_RADIUS NSVCD__NUMBER_AT(FACT_RADIUS)
 #define NSVCD__FACT_SPEED NSVCD__NUMBER_AT(FACT_SPEED)
 #define NSVCD__FACT_SPIN NSVCD__NUMBER_AT(FACT_SPIN)
 #define NSVCD__FACT_TAU NSVCD__NUMBER_AT(FACT_TAU)
 #define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
 #define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
+#define NSVCD__FACT_WIDEST NSVCD__NUMBER_AT(FACT_WIDEST)
 #define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
+#define NSVCD__GAPS NSVCD__NUMBER_AT(GAPS)
+#define NSVCD__GAP_BOTH NSVCD__NUMBER_AT(GAP_BOTH)
+#define NSVCD__GAP_LARGER NSVCD__NUMBER_AT(GAP_LARGER)
+#define NSVCD__GAP_LINE NSVCD__NUMBER_AT(GAP_LINE)
+#define NSVCD__GAP_SMALLER NSVCD__NUMBER_AT(GAP_SMALLER)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
 #define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
+#define NSVCD__SAYINGS NSVCD__NUMBER_AT(SAYINGS)
+#define NSVCD__SAYS_APART NSVCD__NUMBER_AT(SAYS_APART)
+#define NSVCD__SAYS_LOGIT NSVCD__NUMBER_AT(SAYS_LOGIT)
 #define NSVCD__SETTLED NSVCD__NUMBER_AT(SETTLED)
 #define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
 #define NSVCD__SPENT NSVCD__NUMBER_AT(SPENT)
@@ -17057,6 +17466,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__by_contact NSVCD__AT(by_contact)
 #define nsvcd__by_facts NSVCD__AT(by_facts)
 #define nsvcd__by_frame NSVCD__AT(by_frame)
+#define nsvcd__by_gap NSVCD__AT(by_gap)
+#define nsvcd__by_gaps NSVCD__AT(by_gaps)
 #define nsvcd__by_instant NSVCD__AT(by_instant)
 #define nsvcd__by_invariants NSVCD__AT(by_invariants)
 #define nsvcd__by_length NSVCD__AT(by_length)
@@ -17064,6 +17475,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__by_poses NSVCD__AT(by_poses)
 #define nsvcd__by_view NSVCD__AT(by_view)
 #define nsvcd__candidate NSVCD__AT(candidate)
+#define nsvcd__candidate_reach NSVCD__AT(candidate_reach)
 #define nsvcd__candidates NSVCD__AT(candidates)
 #define nsvcd__candidates_add NSVCD__AT(candidates_add)
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
@@ -17121,7 +17533,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__decoder_by_bytes NSVCD__AT(decoder_by_bytes)
 #define nsvcd__decoder_by_floats NSVCD__AT(decoder_by_floats)
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
-#define nsvcd__decoder_logits NSVCD__AT(decoder_logits)
+#define nsvcd__decoder_says NSVCD__AT(decoder_says)
 #define nsvcd__deepen NSVCD__AT(deepen)
 #define nsvcd__deviation NSVCD__AT(deviation)
 #define nsvcd__discs_meet NSVCD__AT(discs_meet)
@@ -17133,10 +17545,13 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__end_of NSVCD__AT(end_of)
 #define nsvcd__exists NSVCD__AT(exists)
+#define nsvcd__f3_across NSVCD__AT(f3_across)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
+#define nsvcd__f3_turned_back NSVCD__AT(f3_turned_back)
 #define nsvcd__face_direction NSVCD__AT(face_direction)
 #define nsvcd__face_normal NSVCD__AT(face_normal)
 #define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
+#define nsvcd__farthest_tip NSVCD__AT(farthest_tip)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
@@ -17145,6 +17560,13 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__foot_within NSVCD__AT(foot_within)
 #define nsvcd__forget NSVCD__AT(forget)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
+#define nsvcd__gap_axes NSVCD__AT(gap_axes)
+#define nsvcd__gap_axes_made NSVCD__AT(gap_axes_made)
+#define nsvcd__gap_axes_of NSVCD__AT(gap_axes_of)
+#define nsvcd__gap_axis NSVCD__AT(gap_axis)
+#define nsvcd__gap_pair NSVCD__AT(gap_pair)
+#define nsvcd__gap_told NSVCD__AT(gap_told)
+#define nsvcd__gaps_at NSVCD__AT(gaps_at)
 #define nsvcd__gather_contact NSVCD__AT(gather_contact)
 #define nsvcd__gather_items NSVCD__AT(gather_items)
 #define nsvcd__gather_places NSVCD__AT(gather_places)
@@ -17230,7 +17652,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
 #define nsvcd__may_be_close NSVCD__AT(may_be_close)
-#define nsvcd__mean_direction NSVCD__AT(mean_direction)
 #define nsvcd__measure NSVCD__AT(measure)
 #define nsvcd__measure_once NSVCD__AT(measure_once)
 #define nsvcd__measure_turn NSVCD__AT(measure_turn)
@@ -17277,6 +17698,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__parted_along NSVCD__AT(parted_along)
 #define nsvcd__passage NSVCD__AT(passage)
 #define nsvcd__passing NSVCD__AT(passing)
+#define nsvcd__passing_turns NSVCD__AT(passing_turns)
 #define nsvcd__patch_reach NSVCD__AT(patch_reach)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__place_point NSVCD__AT(place_point)
@@ -17329,6 +17751,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__scale_of NSVCD__AT(scale_of)
 #define nsvcd__scenes NSVCD__AT(scenes)
 #define nsvcd__scenes_of NSVCD__AT(scenes_of)
+#define nsvcd__scenes_without_gaps NSVCD__AT(scenes_without_gaps)
 #define nsvcd__score NSVCD__AT(score)
 #define nsvcd__search NSVCD__AT(search)
 #define nsvcd__search_and_judge NSVCD__AT(search_and_judge)
@@ -17395,6 +17818,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__takes_lift NSVCD__AT(takes_lift)
 #define nsvcd__task NSVCD__AT(task)
 #define nsvcd__tell_contact NSVCD__AT(tell_contact)
+#define nsvcd__tell_gaps NSVCD__AT(tell_gaps)
 #define nsvcd__tell_manifold NSVCD__AT(tell_manifold)
 #define nsvcd__tell_safe_place NSVCD__AT(tell_safe_place)
 #define nsvcd__tick_of NSVCD__AT(tick_of)
@@ -17406,6 +17830,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__time_of NSVCD__AT(time_of)
 #define nsvcd__times_are_valid NSVCD__AT(times_are_valid)
 #define nsvcd__tips_along NSVCD__AT(tips_along)
+#define nsvcd__tips_gather NSVCD__AT(tips_gather)
+#define nsvcd__tips_load NSVCD__AT(tips_load)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
@@ -17421,6 +17847,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turned NSVCD__AT(turned)
+#define nsvcd__turned_back NSVCD__AT(turned_back)
+#define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undone NSVCD__AT(undone)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
@@ -17440,6 +17868,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v3_min NSVCD__AT(v3_min)
 #define nsvcd__v3_negate NSVCD__AT(v3_negate)
 #define nsvcd__v3_of NSVCD__AT(v3_of)
+#define nsvcd__v3_pick NSVCD__AT(v3_pick)
 #define nsvcd__v3_rows NSVCD__AT(v3_rows)
 #define nsvcd__v3_scale NSVCD__AT(v3_scale)
 #define nsvcd__v3_set NSVCD__AT(v3_set)
@@ -22216,6 +22645,7 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.manifold = 0;
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
+    question.network.of_logit = 1;
     question.clearance = 0;
     question.skin = 0;
     // a slope before contact

@@ -289,7 +289,7 @@ extern "C" {
 #include "network/latent_rotation.h"  // Wigner matrices; latents turned by them
 #include "network/winding_number.h"   // what is inside of what, for the network
 #include "network/pairs.h"            // pairs of patches -> invariants
-#include "network/decoder.h"          // invariants -> logits, in float or int8
+#include "network/decoder.h"          // invariants -> logits and distances, in float or int8
 
 // =============================================================== query: a question, and its answer
 #include "query/task.h"        // a question that has been checked, and its memory
@@ -298,7 +298,7 @@ extern "C" {
 #include "query/question.h"    // check, who moves, lay out, answer, write
 #include "query/self_test.h"   // a question by hand, whose answer is known
 
-// ============================================================= gradient: of the logit by the poses
+// ======================================================== gradient: of distance or logit, by poses
 #include "gradient/by_pair.h"   // by the decoder's inputs, and by the pair
 #include "gradient/gradient.h"  // by the poses, and by the times of contact
 

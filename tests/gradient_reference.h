@@ -1,4 +1,4 @@
-// The logit of one pair of patches as a function of the moving body's poses, in double, written
+// The logit of one pair of patches, or its distance, as a function of the moving body's poses, in double, written
 // anew from the conventions in neuralsvcd.h and not from its code: what nsvcd_sweep_gradient
 // differentiates, by its contract. The pair, the segments in which its spheres meet and part, the
 // head, the spheres' allowance and the unit of length are those of a query in float; contact,
@@ -19,10 +19,13 @@ typedef struct reference_pose {
 typedef struct reference_pair {
   double c1[3], c2[3], r1, r2, unit;  // centres, each in its body's axes; radii
   double z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+  // each in its body's axes: unit normals, or 0; tips from the centres, metres
+  double n1[3], n2[3], flat1, flat2, tips1[NSVCD__TIPS][3], tips2[NSVCD__TIPS][3];
   double to_fixed[9];
   // in which the spheres meet, and part: from, to; the distance at which they do
   double segment[2][2], reach[2];
   const nsvcd__decoder *head;
+  size_t output;  // of the head
   size_t count;
   const float *times;  // of the poses, or NULL
 } reference_pair;
@@ -188,7 +191,8 @@ static double reference_weight(size_t weights, size_t output, size_t outputs, si
 #endif
 }
 
-static double reference_head(const nsvcd__decoder *head, const double *x) {
+// An output of a head: 0 is the logit, 1 the distance in tenths of r1 + r2.
+static double reference_head(const nsvcd__decoder *head, size_t head_output, const double *x) {
   double in[256] = {0};
   double out[256];
   size_t weights = head->weights;
@@ -207,7 +211,86 @@ static double reference_head(const nsvcd__decoder *head, const double *x) {
     weights += inputs * outputs;
     output += outputs;
   }
-  return in[0];
+  return in[head_output];
+}
+
+// a / |a| where that is longer than `least`, else `instead`.
+static void reference_unit_or(const double *a, double least, const double *instead, double *out) {
+  const double length = reference_length(a);
+  for (int k = 0; k < 3; k++) out[k] = length > least ? a[k] / length : instead[k];
+}
+
+// A patch's tip from its centre, after a turn by w, to the second order.
+static void reference_turned_tip(const double *tip, const double *w, double *out) {
+  double first[3], second[3];
+  reference_cross(w, tip, first);
+  reference_cross(w, first, second);
+  for (int k = 0; k < 3; k++) out[k] = tip[k] + first[k] + second[k] / 2;
+}
+
+// The gap between two patches along u at tau: the least of the moving one's tips, less the greatest
+// of the fixed one's. Seen half way: the line between the centres goes by v, one patch turns by w /
+// 2, the other by -w / 2.
+static double reference_gap(const reference_pair *pair, const double *between, const double *v,
+                            const double *w, const double *m, double tau, const double *u) {
+  double low = 1e30;
+  double high = -1e30;
+  double forth[3], back[3], apart[3];
+  for (int k = 0; k < 3; k++) {
+    forth[k] = tau * w[k] / 2;
+    back[k] = -forth[k];
+    apart[k] = between[k] + tau * v[k];
+  }
+  for (int n = 0; n < NSVCD__TIPS; n++) {
+    double tip[3], turned[3];
+    reference_mul(m, pair->tips1[n], tip);
+    reference_turned_tip(tip, forth, turned);
+    low = fmin(low, reference_dot(u, turned));
+    reference_turned_tip(pair->tips2[n], back, turned);
+    high = fmax(high, reference_dot(u, turned));
+  }
+  return reference_dot(u, apart) + low - high;
+}
+
+static double reference_squash(double x) {
+  return x / (1 + fabs(x));
+}
+
+// What the decoder is told of gaps and normals, facts (FACTS), the first of which are of the
+// centres. time: -1 where it runs backwards; e1: from the larger patch to the smaller.
+static void reference_gap_facts(const reference_pair *pair, const double *p1, const double *v,
+                                const double *w, const double *m, double time, const double *e1,
+                                double *facts) {
+  const double x_axis[3] = {1, 0, 0};
+  const int larger_moves = pair->r1 >= pair->r2;
+  double between[3], normal[3], against[3], line[3], fixed[3], moving[3], sum[3], both[3];
+  for (int k = 0; k < 3; k++) between[k] = p1[k] - pair->c2[k];
+  reference_mul(m, pair->n1, normal);
+  for (int k = 0; k < 3; k++) against[k] = -normal[k];
+  reference_unit_or(between, 1e-20, x_axis, line);
+  reference_unit_or(pair->n2, 0.5, line, fixed);
+  reference_unit_or(against, 0.5, line, moving);
+  for (int k = 0; k < 3; k++) sum[k] = fixed[k] + moving[k];
+  reference_unit_or(sum, 1e-3, line, both);
+  const double *directions[4] = {larger_moves ? moving : fixed, larger_moves ? fixed : moving, line,
+                                 both};
+  for (int k = 0; k < 3; k++) {
+    double widest = -1e30;
+    for (int n = 0; n < 4; n++) {
+      const double gap =
+          reference_gap(pair, between, v, w, m, time * (k - 1), directions[n]) / pair->unit;
+      facts[12 + 3 * n + k] = reference_squash(8 * gap);
+      widest = fmax(widest, gap);
+    }
+    facts[24 + k] = reference_squash(40 * widest);
+  }
+  const double *larger = larger_moves ? normal : pair->n2;
+  const double *smaller = larger_moves ? pair->n2 : normal;
+  facts[27] = reference_dot(larger, smaller);
+  facts[28] = reference_dot(larger, e1);
+  facts[29] = reference_dot(smaller, e1);
+  facts[30] = larger_moves ? pair->flat1 : pair->flat2;
+  facts[31] = larger_moves ? pair->flat2 : pair->flat1;
 }
 
 // The decoder's inputs. v, w: half displacement and half rotation vector; p1: the moving centre; m:
@@ -227,11 +310,10 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   double *e1 = frame;
   double *e2 = frame + 3;
   double *e3 = frame + 6;
-  double mean[3], lean_across[3], v_across[3], ref[3], closest[3];
-  for (int k = 0; k < 3; k++) mean[k] = pair->z1[NSVCD_W_CHANNELS * k];
-  reference_mul(m, mean, lean);
+  double lean_across[3], v_across[3], ref[3], closest[3];
+  reference_mul(m, pair->n1, lean);
   for (int k = 0; k < 3; k++) {
-    lean[k] = order * (k1 * lean[k] - k2 * pair->z2[NSVCD_W_CHANNELS * k]);
+    lean[k] = order * (k1 * lean[k] - k2 * pair->n2[k]);
     d[k] = order * (pair->c2[k] - p1[k]) / unit;
     v[k] = v1[k] / unit;
     w[k] = w1[k];
@@ -284,12 +366,13 @@ static void reference_inputs(const reference_pair *pair, const double *p1, const
   }
   facts[10] = reference_length(v);
   facts[11] = reference_length(w);
+  reference_gap_facts(pair, p1, v1, w1, m, order * time, e1, facts);
 }
 
-// The logit before its threshold. times: NULL, or (2) when the spheres meet and part. graze: NULL,
+// What the head says: the logit before its threshold, or metres. times: NULL, or (2) when the spheres meet and part. graze: NULL,
 // or the lesser of the two cosines of reference_contact.
-static double reference_logit(const reference_pair *pair, const reference_pose *poses,
-                              double *times, double *graze) {
+static double reference_said(const reference_pair *pair, const reference_pose *poses, double *times,
+                             double *graze) {
   double q[3][4], m[3][9], p[3][3], place[3][3], t[3], cosine[2], turn[4], w[3], v[3], arm[3],
       x[NSVCD__INPUTS];
   t[0] = reference_contact(pair, poses, 0, &cosine[0]);
@@ -317,7 +400,8 @@ static double reference_logit(const reference_pair *pair, const reference_pose *
   reference_cross(w, arm, v);
   for (int k = 0; k < 3; k++) v[k] += 0.5 * (place[1][k] - place[0][k]);
   reference_inputs(pair, place[2], v, w, m[2], x);
-  return reference_head(pair->head, x);
+  const double said = reference_head(pair->head, pair->output, x);
+  return pair->output == NSVCD__SAYS_LOGIT ? said : 0.1 * pair->unit * said;
 }
 
 // Column k of pose n: 0 .. 2 moves it by `step` metres along an axis, 3 .. 5 turns it by `step`
@@ -342,7 +426,7 @@ static void reference_gradient(const reference_pair *pair, const reference_pose 
     for (int side = 0; side < 2; side++) {
       memcpy(moved, poses, pair->count * sizeof *poses);
       reference_displace(&moved[i / 6], i % 6, side ? step : -step);
-      value[side] = reference_logit(pair, moved, NULL, NULL);
+      value[side] = reference_said(pair, moved, NULL, NULL);
     }
     gradient[i] = (value[1] - value[0]) / (2 * step);
   }
@@ -358,6 +442,7 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, co
   const size_t j = candidate->fixed;
   double q[4], m[9];
   pair->head = head;
+  pair->output = 0;
   pair->count = count;
   pair->times = times;
   for (size_t n = 0; n < count; n++) {
@@ -376,6 +461,22 @@ static void reference_open(const nsvcd_body *moving, const nsvcd_pose *poses, co
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
     pair->z1[k] = nsvcd__body_latents(moving)[NSVCD__LATENT * i + k] / 127.0;
     pair->z2[k] = nsvcd__body_latents(fixed)[NSVCD__LATENT * j + k] / 127.0;
+  }
+  for (int n = 0; n < 2; n++) {
+    const nsvcd_body *body = n == 0 ? moving : fixed;
+    const size_t patch = n == 0 ? i : j;
+    const double radius = n == 0 ? pair->r1 : pair->r2;
+    double(*tips)[3] = n == 0 ? pair->tips1 : pair->tips2;
+    double *normal = n == 0 ? pair->n1 : pair->n2;
+    const int8_t *stored = nsvcd__group_tips(body, patch / NSVCD__GROUP) + patch % NSVCD__GROUP;
+    for (int k = 0; k < 3; k++) {
+      normal[k] = (double)nsvcd__body_areas(body)[patch + (size_t)k * body->padded];
+      for (int t = 0; t < NSVCD__TIPS; t++)
+        tips[t][k] = radius / 127 * stored[NSVCD__GROUP * (3 * t + k)];
+    }
+    const double area = reference_length(normal);
+    for (int k = 0; k < 3; k++) normal[k] = area > 1e-6 * radius * radius ? normal[k] / area : 0;
+    *(n == 0 ? &pair->flat1 : &pair->flat2) = fmin(area / (acos(-1) * radius * radius), 2);
   }
   for (size_t k = 0; k < 4; k++) q[k] = (double)fixed_pose->rotation[k];
   reference_matrix(q, m);

@@ -189,6 +189,7 @@ static int query_same_answer(const nsvcd_answer *a, const nsvcd_answer *b) {  //
   return a->verdict == b->verdict && a->by == b->by && a->inside == b->inside &&
          memcmp(&a->time, &b->time, sizeof a->time) == 0 && x->asked == y->asked &&
          memcmp(&x->logit, &y->logit, sizeof x->logit) == 0 &&
+         memcmp(&x->distance, &y->distance, sizeof x->distance) == 0 &&
          memcmp(&x->time, &y->time, sizeof x->time) == 0 && x->patch_a == y->patch_a &&
          x->patch_b == y->patch_b && x->candidates == y->candidates && x->limited == y->limited;
 }

@@ -75,16 +75,20 @@ static void half_rotation_vector(void) {
 // One pair, as nsvcd__pairs holds a slice of them.
 typedef struct pair_data {
   float p1[3], p2[3], r1, r2, rotation[9], v[3], w[3];
-  const int8_t *z1, *z2;
+  // of each patch, in its body's frame; tips as a body of one group has them
+  float normal1[3], normal2[3], flat1, flat2;
+  const int8_t *z1, *z2, *tips1, *tips2;
 } pair_data;
 
 // In lane `lane`, of a slice; the others hold the same pair, pushed apart.
 static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (DECODER_IN)
   static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
-  const float *from[5] = {pair->p1, pair->p2, pair->rotation, pair->v, pair->w};
+  const float *from[7] = {pair->p1, pair->p2,      pair->rotation, pair->v,
+                          pair->w,  pair->normal1, pair->normal2};
   nsvcd__pairs pairs;
-  nsvcd__v *to[5] = {&pairs.p1.x, &pairs.p2.x, &pairs.rotation.x.x, &pairs.v.x, &pairs.w.x};
-  for (size_t n = 0; n < 5; n++) {
+  nsvcd__v *to[7] = {&pairs.p1.x, &pairs.p2.x,        &pairs.rotation.x.x, &pairs.v.x,
+                     &pairs.w.x,  &pairs.normal[0].x, &pairs.normal[1].x};
+  for (size_t n = 0; n < 7; n++) {
     for (size_t k = 0; k < (n == 2 ? 9u : 3u); k++) {
       float lanes[NSVCD__SLICE];
       for (size_t l = 0; l < NSVCD__SLICE; l++)
@@ -94,9 +98,13 @@ static void inputs_in_lane(const pair_data *pair, size_t lane, float *x) {  // (
   }
   pairs.r1 = nsvcd__v_set(pair->r1);
   pairs.r2 = nsvcd__v_set(pair->r2);
+  pairs.flat[0] = nsvcd__v_set(pair->flat1);
+  pairs.flat[1] = nsvcd__v_set(pair->flat2);
   for (size_t l = 0; l < NSVCD__SLICE; l++) {
     pairs.z[0][l] = pair->z1;
     pairs.z[1][l] = pair->z2;
+    pairs.tips[0][l] = pair->tips1;
+    pairs.tips[1][l] = pair->tips2;
   }
   nsvcd__invariants(&pairs, NSVCD__SLICE, batch);
   memcpy(x, batch + NSVCD__DECODER_IN * lane, NSVCD__DECODER_IN * sizeof *x);
@@ -106,52 +114,63 @@ static void inputs_of(const pair_data *pair, float *x) {
   inputs_in_lane(pair, 5 % NSVCD__SLICE, x);
 }
 
-static float head_logit(const nsvcd__decoder *head, const float *x, int int8) {
+static void head_says(const nsvcd__decoder *head, const float *x, int int8, float *out) {
   static float batch[NSVCD__ROWS * NSVCD__DECODER_IN];
   const size_t rows = NSVCD__ROWS < 7 ? NSVCD__ROWS : 7;
-  float logits[NSVCD__ROWS];
+  float said[NSVCD__ROWS][NSVCD__SAYINGS];
   for (size_t p = 0; p < rows; p++)
     memcpy(batch + NSVCD__DECODER_IN * p, x, NSVCD__DECODER_IN * sizeof *x);
-  nsvcd__decoder_logits(head, batch, rows, int8, logits);
-  return logits[rows - 1];
+  nsvcd__decoder_says(head, batch, rows, int8, said);
+  memcpy(out, said[rows - 1], sizeof said[0]);
 }
 
-// golden_pair rows: p1 p2 r1 r2 q v w, logits of tiny small base.
-#define GOLDEN_ROW 21
+// golden_pair rows: two matrices, facts, what tiny, small and base say.
+#define GOLDEN_ROW (18 + NSVCD__FACTS + 3 * NSVCD__SAYINGS)
 
-static void golden_pair_at(size_t n, int8_t *z1, int8_t *z2, pair_data *pair) {
-  const float *row = golden_pair + GOLDEN_ROW * n;
+static void golden_latents(size_t n, int8_t *z1, int8_t *z2) {
   for (size_t k = 0; k < NSVCD__LATENT; k++) {
     z1[k] = (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n] + k]);
     z2[k] =
         (int8_t)lrintf(127 * golden_latent[NSVCD__LATENT * (size_t)golden_index[2 * n + 1] + k]);
   }
-  memcpy(pair->p1, row, sizeof pair->p1);
-  memcpy(pair->p2, row + 3, sizeof pair->p2);
-  pair->r1 = row[6];
-  pair->r2 = row[7];
-  matrix_of_quat(row + 8, pair->rotation);
-  memcpy(pair->v, row + 12, sizeof pair->v);
-  memcpy(pair->w, row + 15, sizeof pair->w);
-  pair->z1 = z1;
-  pair->z2 = z2;
 }
 
-static void golden_inputs(size_t n, float *x) {  // (DECODER_IN)
+// The inputs of the trainer's n-th pair, of which the first patch is the larger: x (DECODER_IN).
+static void golden_inputs(size_t n, float *x) {
+  const float *row = golden_pair + GOLDEN_ROW * n;
+  static float batch[NSVCD__SLICE * NSVCD__DECODER_IN];
   int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
-  pair_data pair;
-  golden_pair_at(n, z1, z2, &pair);
-  inputs_of(&pair, x);
+  nsvcd__pairs pairs;
+  nsvcd__scenes scene;
+  golden_latents(n, z1, z2);
+  for (size_t b = 0; b < 2; b++) {
+    nsvcd__v *to = &scene.turn[b].x.x;
+    for (size_t k = 0; k < 9; k++) to[k] = nsvcd__v_set(row[9 * b + k]);
+  }
+  for (size_t l = 0; l < NSVCD__SLICE; l++) {
+    pairs.z[0][l] = z1;
+    pairs.z[1][l] = z2;
+    for (size_t k = 0; k < NSVCD__FACTS; k++) scene.facts[k][l] = row[18 + k];
+  }
+  const float larger = row[18 + NSVCD__FACT_RADIUS];
+  scene.keep = ~0u;
+  scene.k[0] = nsvcd__v_set(larger);
+  scene.k[1] = nsvcd__v_set(1 - larger);
+  nsvcd__inputs_in(&scene, &pairs, NSVCD__SLICE, batch);
+  memcpy(x, batch, NSVCD__DECODER_IN * sizeof *x);
 }
 
 static void heads_match_the_trainer(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    float x[NSVCD__DECODER_IN];
+    float x[NSVCD__DECODER_IN], said[NSVCD__SAYINGS];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
-      float expected = golden_pair[GOLDEN_ROW * n + 18 + h];
-      CHECK_NEAR(head_logit(&nsvcd_w_decoders[h], x, 0), expected,
-                 1e-4 * fmax(1, fabs((double)expected)));
+      head_says(&nsvcd_w_decoders[h], x, 0, said);
+      for (size_t k = 0; k < NSVCD__SAYINGS; k++) {
+        const float expected =
+            golden_pair[GOLDEN_ROW * n + 18 + NSVCD__FACTS + NSVCD__SAYINGS * h + k];
+        CHECK_NEAR(said[k], expected, 1e-4 * fmax(1, fabs((double)expected)));
+      }
     }
   }
 }
@@ -164,25 +183,62 @@ static void int8_heads_follow_fp32(void) {
     float x[NSVCD__DECODER_IN];
     golden_inputs(n, x);
     for (size_t h = 0; h < 3; h++) {
-      double exact = (double)head_logit(&nsvcd_w_decoders[h], x, 0);
-      double error =
-          fabs((double)head_logit(&nsvcd_w_decoders[h], x, 1) - exact) / fmax(1, fabs(exact));
-      worst = fmax(worst, error);
-      sum += error / (3 * GOLDEN_PAIRS);
+      float exact[NSVCD__SAYINGS], rounded[NSVCD__SAYINGS];
+      head_says(&nsvcd_w_decoders[h], x, 0, exact);
+      head_says(&nsvcd_w_decoders[h], x, 1, rounded);
+      for (size_t k = 0; k < NSVCD__SAYINGS; k++) {
+        const double error =
+            fabs((double)(rounded[k] - exact[k])) / fmax(1, fabs((double)exact[k]));
+        worst = fmax(worst, error);
+        sum += error / (3 * NSVCD__SAYINGS * GOLDEN_PAIRS);
+      }
     }
   }
-  printf("  int8 logits: mean difference %.4f, worst %.4f, of max(1, |logit|)\n", sum, worst);
+  printf("  int8: mean difference %.4f, worst %.4f, of max(1, |output|)\n", sum, worst);
   CHECK_GE(worst, 1e-6);  // it is another arithmetic
   CHECK_LE(sum, 0.05);
   CHECK_LE(worst, 0.5);
 }
 
+// A random pair: latents (2, LATENT) and tips (2, TIPS, 3, GROUP) in the caller's memory.
+#define TIPS_SIZE (NSVCD__TIPS * 3 * NSVCD__GROUP)
+static void random_pair(size_t n, int8_t (*z)[NSVCD__LATENT], int8_t (*tips)[TIPS_SIZE],
+                        pair_data *pair) {
+  float *normals[2] = {pair->normal1, pair->normal2};
+  golden_latents(n, z[0], z[1]);
+  for (size_t b = 0; b < 2; b++) {
+    double square = 0;
+    for (size_t k = 0; k < 3; k++) {
+      normals[b][k] = network_uniform();
+      square += (double)(normals[b][k] * normals[b][k]);
+    }
+    // every eighth is closed, and has none
+    for (size_t k = 0; k < 3; k++) normals[b][k] *= n % 8 == b ? 0 : (float)(1 / sqrt(square));
+    for (size_t k = 0; k < TIPS_SIZE; k++) tips[b][k] = (int8_t)(100 * network_uniform());
+  }
+  random_rotation(pair->rotation);
+  for (size_t k = 0; k < 3; k++) {
+    pair->p1[k] = 0.03f * network_uniform();
+    pair->p2[k] = pair->p1[k] + 0.05f * network_uniform();
+    pair->v[k] = n == 0 ? 0 : 0.04f * network_uniform();
+    pair->w[k] = n < 2 ? 0 : 0.2f * network_uniform();
+  }
+  pair->r1 = 0.045f + 0.025f * network_uniform();
+  pair->r2 = 0.045f + 0.025f * network_uniform();
+  pair->flat1 = 0.5f + 0.5f * network_uniform();
+  pair->flat2 = 0.5f + 0.5f * network_uniform();
+  pair->z1 = z[0];
+  pair->z2 = z[1];
+  pair->tips1 = tips[0];
+  pair->tips2 = tips[1];
+}
+
 static void inputs_are_invariant(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    int8_t z[2][NSVCD__LATENT], tips[2][TIPS_SIZE];
     pair_data pair, moved;
     float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
-    golden_pair_at(n, z1, z2, &pair);
+    random_pair(n, z, tips, &pair);
     inputs_of(&pair, x);
     moved = pair;  // time runs backwards
     for (size_t k = 0; k < 3; k++) {
@@ -208,10 +264,10 @@ static void inputs_are_invariant(void) {
 // same.
 static void inputs_do_not_depend_on_who_moves(void) {
   for (size_t n = 0; n < GOLDEN_PAIRS; n++) {
-    int8_t z1[NSVCD__LATENT], z2[NSVCD__LATENT];
+    int8_t z[2][NSVCD__LATENT], tips[2][TIPS_SIZE];
     pair_data pair, other;
     float x[NSVCD__DECODER_IN], y[NSVCD__DECODER_IN];
-    golden_pair_at(n, z1, z2, &pair);
+    random_pair(n, z, tips, &pair);
     inputs_of(&pair, x);
     transpose33(pair.rotation, other.rotation);  // body 2 in the axes of body 1
     mul33_vec(other.rotation, pair.p2, other.p1);
@@ -224,8 +280,14 @@ static void inputs_do_not_depend_on_who_moves(void) {
     }
     other.r1 = pair.r2;
     other.r2 = pair.r1;
-    other.z1 = z2;
-    other.z2 = z1;
+    memcpy(other.normal1, pair.normal2, sizeof other.normal1);
+    memcpy(other.normal2, pair.normal1, sizeof other.normal2);
+    other.flat1 = pair.flat2;
+    other.flat2 = pair.flat1;
+    other.z1 = z[1];
+    other.z2 = z[0];
+    other.tips1 = tips[1];
+    other.tips2 = tips[0];
     inputs_of(&other, y);
     // where the lean is short, its direction is rough
     CHECK_LE(largest_difference(x, y, NSVCD__DECODER_IN), 2e-4);
@@ -235,6 +297,7 @@ static void inputs_do_not_depend_on_who_moves(void) {
 static void degenerate_pairs_are_finite(void) {
   int8_t z[NSVCD__LATENT] = {0};
   int8_t other[NSVCD__LATENT];
+  static int8_t tips[TIPS_SIZE];
   for (size_t k = 0; k < NSVCD__LATENT; k++) other[k] = (int8_t)(k % 100);
   for (int trial = 0; trial < 32; trial++) {
     pair_data pair;
@@ -242,6 +305,7 @@ static void degenerate_pairs_are_finite(void) {
     random_rotation(pair.rotation);
     pair.z1 = trial & 1 ? z : other;
     pair.z2 = trial & 2 ? z : other;
+    pair.tips1 = pair.tips2 = tips;
     pair.r1 = trial & 4 ? 0 : 0.1f;
     pair.r2 = 0;
     for (size_t k = 0; k < 3; k++) {
@@ -251,7 +315,11 @@ static void degenerate_pairs_are_finite(void) {
     float x[NSVCD__DECODER_IN];
     inputs_of(&pair, x);
     for (size_t k = 0; k < NSVCD__DECODER_IN; k++) CHECK(nsvcd__is_finite(x[k]));
-    for (size_t h = 0; h < 3; h++) CHECK(nsvcd__is_finite(head_logit(&nsvcd_w_decoders[h], x, 0)));
+    for (size_t h = 0; h < 3; h++) {
+      float said[NSVCD__SAYINGS];
+      head_says(&nsvcd_w_decoders[h], x, 0, said);
+      CHECK(nsvcd__is_finite(said[0]) && nsvcd__is_finite(said[1]));
+    }
   }
 }
 

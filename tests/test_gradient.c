@@ -406,7 +406,8 @@ static void settle_sides(scene *s) {
 // median of the error, and its 99th percentile where less than 1 % may be beyond 1 %. Of motions
 // exactly along the line between the centres every tenth is at a jump, for then rounding says which
 // way time runs; and where centres meet, or spheres graze, single precision has few digits left:
-// little is asked of those.
+// little is asked of those. A flat patch that does not turn is at a kink of the gaps of its tips:
+// whichever way it begins to turn, another tip is the lowest. Every tenth that flies straight is.
 typedef struct family {
   const char *name;
   int (*make)(scene *, shapes_rng *, size_t);
@@ -415,13 +416,13 @@ typedef struct family {
 
 static const family families[] = {
     {"moderate", moderate, 0.0015, 0, 2e-06, 0.0001},
-    {"straight, no turn", straight, 0.001, 0, 2e-06, 0.0001},
+    {"straight, no turn", straight, 0.12, 0, 5e-06, 0.0001},
     {"half turns", half_turns, 0.001, 0, 2e-06, 0.0001},
     {"wild samples", wild_samples, 0.001, 0, 2e-06, 0.0001},
     {"many samples", many_samples, 0.001, 0, 3e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
     {"slow", slow, 0.0085, 0.0015, 4e-05, 0.01},
-    {"nearly along the line", nearly_along_the_line, 0.001, 0, 3e-06, 0.002},
+    {"nearly along the line", nearly_along_the_line, 0.025, 0, 3e-06, 0.002},
     {"along the line", along_the_line, 0.12, 0.001, 4e-06, 1},
     {"turn about the pair", turn_about_the_pair, 0.0115, 0.001, 4e-06, 0.01},
     {"turn about the origin", turn_about_the_origin, 0.0015, 0, 2e-06, 0.0001},
@@ -430,8 +431,8 @@ static const family families[] = {
     {"far from zero", far_from_zero, 0.001, 0, 2e-06, 0.0001},
     {"tiny or huge", tiny_or_huge, 0.004, 0.001, 5e-06, 0.002},
     {"of unlike size", of_unlike_size, 0.001, 0, 2e-06, 0.0001},
-    {"one patch each", one_patch_each, 0.001, 0, 2e-06, 0.0002},
-    {"grazing spheres", grazing_spheres, 0.17, 0.0085, 0.0004, 1},
+    {"one patch each", one_patch_each, 0.002, 0, 2e-06, 0.002},
+    {"grazing spheres", grazing_spheres, 0.34, 0.055, 0.0006, 1},
     {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0, 2e-06, 0.0001},
@@ -449,6 +450,7 @@ static int scene_of(size_t f, size_t n, scene *s, nsvcd_answer *answer, nsvcd__d
   // Most scenes pass by: their pairs must be looked at to have a gradient. Without it the logit
   // jumps where planes part a pair.
   s->options.network.swell = 1;
+  s->options.network.of_logit = (int)(n % 2);
   if (!families[f].make(s, &rng, n)) return 0;
   settle_sides(s);
   return decide(s, answer, decisive);
@@ -530,8 +532,10 @@ static void gradient_matches_the_reference(void) {
         found[i] = (double)gradient[i];
         broken += !nsvcd__is_finite(gradient[i]);
       }
-      const double logit = reference_logit(&pair, poses, times, &graze);
+      const double logit = reference_said(&pair, poses, times, &graze);
       (void)logit;
+      // every other one by the distance
+      if (!s.options.network.of_logit) pair.output = NSVCD__SAYS_APART;
       reference_gradient(&pair, poses, metres, radians, expected);
       const double error = relative_error(found, expected, s.count, length);
 #ifndef NSVCD_NO_FLOAT
@@ -581,10 +585,10 @@ static scene displaced(const scene *s, double step, const double *along) {
   return out;
 }
 
-// Differences of nsvcd_sweep's logit, up the gradient and in a random direction, where the same
+// Differences of nsvcd_sweep's logit, or distance, up the gradient and in a random direction, where the same
 // pair and head decide on both sides: 1e-3 of the moving body's size apart, so that kinks within
 // that and rounding count as well.
-static void gradient_follows_the_logit(void) {
+static void gradient_follows_the_answer(void) {
   double others = 0;
   double close_others = 0;
   pool_open();
@@ -606,7 +610,7 @@ static void gradient_follows_the_logit(void) {
         double norm = 0;
         double slope = 0;
         double steepest = 0;
-        double logit[2];
+        double said[2];
         int same = 1;
         for (size_t i = 0; i < 6 * s.count; i++) {
           const double unit = i % 6 < 3 ? length : 1;
@@ -629,12 +633,13 @@ static void gradient_follows_the_logit(void) {
                  decide(&moved, &there, &beside[side]) &&
                  beside[side].decoder == decisive.decoder &&
                  fabsf(beside[side].candidate.t_least - decisive.candidate.t_least) < 0.1f;
-          logit[side] = (double)logit_of(&there);
+          const float distance = there.opinion.distance;
+          said[side] = (double)(s.options.network.of_logit ? logit_of(&there) : distance);
         }
         asked++;
         if (!same) continue;
         count[random]++;
-        close[random] += fabs((logit[1] - logit[0]) / 1e-3 - slope) <= 0.1 * steepest;
+        close[random] += fabs((said[1] - said[0]) / 1e-3 - slope) <= 0.1 * steepest;
       }
     }
     printf(
@@ -643,7 +648,7 @@ static void gradient_follows_the_logit(void) {
         families[f].name, 100 * (double)close[0] / (double)count[0], count[0],
         100 * (double)close[1] / (double)count[1], count[1]);
     CHECK_GE(count[0] + count[1], 0.68 * (double)asked);
-    CHECK_GE(close[0], 0.93 * (double)count[0]);
+    CHECK_GE(close[0], 0.91 * (double)count[0]);
     CHECK_GE(close[1], 0.97 * (double)count[1]);
     others += (double)count[1];
     close_others += (double)close[1];
@@ -783,7 +788,7 @@ static void gradient_answers_as_sweep(void) {
   size_t statuses[4] = {0, 0, 0, 0};
   pool_open();
   for (size_t f = 0; f < FAMILIES; f++) {
-    for (size_t n = 0; n < 100; n++) {
+    for (size_t n = 0; n < 120; n++) {
       scene s;
       nsvcd_answer answer, expected;
       nsvcd__decisive decisive;
@@ -886,7 +891,7 @@ static void gradient_takes_microseconds(void) {
 void test_gradient(void) {
   RUN(gradient_matches_the_reference);
 #ifndef NSVCD_NO_FLOAT  // the int8 logit has steps
-  RUN(gradient_follows_the_logit);
+  RUN(gradient_follows_the_answer);
 #endif
   RUN(gradient_refuses);
   RUN(gradient_balances);

@@ -1,16 +1,15 @@
 #!/bin/bash
-# One call on the device: every line of BATCH_FILE is a name and the arguments of train.py; all run side by side on the
-# visible GPUs, in turn. Usage: batch.sh OUT SECONDS BATCH_FILE [MORE ARGUMENTS FOR ALL]
-set -u
-out=$1 seconds=$2 file=$3 gpus=$(nvidia-smi -L | wc -l) k=0
-shift 3
-while read -r name arguments; do
-  [ -n "$name" ] || continue
-  mkdir -p "$out/$name"
-  echo "$arguments" | CUDA_VISIBLE_DEVICES=$((k % gpus)) timeout $((seconds + 85)) xargs \
-    python3 -W ignore train.py --out "$out/$name" --real ../.data --steps 1000000 --seconds "$seconds" "${@}" > "$out/$name.txt" 2>&1 &
-  k=$((k + 1))
-done < "$file"
+# Several trainings side by side, one per line of a file of arguments to train.py, spread over the GPUs.
+# Usage: batch.sh OUT LINES ARGUMENTS... - writes OUT/N/checkpoint.pt and OUT/N/log.txt for line N.
+cd "$(dirname "$0")" || exit 1
+out=$1 lines=$2
+shift 2
+gpus=$(nvidia-smi -L | wc -l)
+n=0
+while read -r line; do
+  mkdir -p "$out/$n"
+  eval "CUDA_VISIBLE_DEVICES=$((n % gpus)) python3 train.py --out $out/$n $* $line" >"$out/$n/stdout" 2>&1 &
+  n=$((n + 1))
+done < <(grep -v '^#' "$lines")
 wait
-for f in "$out"/*.txt; do echo "== $f"; grep -E "ms/step|K=8|Error|rror:" "$f" | tail -16 | cut -c10-135; done
-(cd "$out" && tar czf all.tgz -- */ *.txt && rm -r -- */ *.txt)  # the device returns few files
+tail -n 6 "$out"/*/log.txt

@@ -1,4 +1,5 @@
-"""The network: patch encoder, latent rotation, invariant pre-processing, decoder heads. neuralsvcd.h does the same, in C.
+"""The network: patch encoder, latent rotation, decoder heads. neuralsvcd.h does the same, in C, and what a pair looks like
+besides the latents (data.Batch) is computed there only.
 
 Degree-1 and degree-2 blocks stand side by side on the last axis, 3 + 5 = 8 components, as in FER-VN.
 """
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-from data import Geometry
+from data import FACTS
 
 ROOT3 = 3 ** 0.5
 
@@ -40,9 +41,9 @@ class Shape:
     pooled_scalars: int = 8
     hidden: int = 24
     patch_hidden: int = 48
-    channels: int = 8
+    channels: int = 4
     scalars: int = 8
-    heads: tuple[tuple[str, tuple[int, ...]], ...] = (("tiny", (24, 16)), ("small", (64, 40)), ("base", (128, 128, 32)))
+    heads: tuple[tuple[str, tuple[int, ...]], ...] = (("tiny", (32, 16)), ("small", (96, 32)), ("base", (160, 128, 32)))
 
     @property
     def latent(self) -> int:
@@ -135,92 +136,32 @@ class FerVn(nn.Module):
         return torch.cat([shorten(z[..., :3]).flatten(-2), shorten(z[..., 3:]).flatten(-2), scalars], -1)
 
 
-FACTS = 12
-
-
-def invariants(s: Shape, z1: Tensor, z2: Tensor, g: Geometry, scaling: str = "sum", roll: str = "velocity",
-               canonical: bool = True) -> Tensor:
-    """Inputs of the decoder, invariant to rigid motion, scale, swap, mirror and time reversal (the paper, appendix F).
-
-    z1, z2 (..., latent) in their bodies' frames; g of shape (...). Larger patch first; the line between the centres is
-    axis 1; the velocity across it, with a little of the difference of the mean directions so that it has a limit where
-    the velocity vanishes, is axis 2; time runs, and axis 3 points, so that this difference has positive components."""
+def inputs(s: Shape, z: Tensor, slots: Tensor, turns: Tensor, facts: Tensor) -> Tensor:
+    """Inputs of the decoder for pairs of patches z (N, latent): slots (..., 2), turns (..., 2, 3, 3), facts (..., FACTS).
+    The latents' vectors are turned into the pair's frame and scaled by the share of r1 + r2 that their patch's radius has."""
     c = s.channels
-    split = lambda z: (z[..., : 3 * c].unflatten(-1, (c, 3)), z[..., 3 * c : 8 * c].unflatten(-1, (c, 5)), z[..., 8 * c :])
-    q = g.q
-    x, y, zz, w = q.unbind(-1)
-    rot = torch.stack([1 - 2 * (y * y + zz * zz), 2 * (x * y - zz * w), 2 * (x * zz + y * w),
-                       2 * (x * y + zz * w), 1 - 2 * (x * x + zz * zz), 2 * (y * zz - x * w),
-                       2 * (x * zz - y * w), 2 * (y * zz + x * w), 1 - 2 * (x * x + y * y)], -1).unflatten(-1, (3, 3))
-    a1, b1, s1 = split(z1)
-    a2, b2, s2 = split(z2)
-    reach = g.r1 + g.r2
-    d, v, turn = (g.p2 - g.p1) / reach[..., None], g.v / reach[..., None], g.w
-    swap = (g.r2 > g.r1)[..., None]
-    d = torch.where(swap, -d, d)
-    lean = (rot @ a1[..., 0, :, None])[..., 0] * (g.r1 / reach)[..., None] - a2[..., 0, :] * (g.r2 / reach)[..., None]
-    lean = torch.where(swap, -lean, lean).detach()  # the frame is a choice, not a thing to learn
-    # Body 2 seen from body 1 moves the other way; time reversal makes the sign free, so the swap leaves v and w alone.
-    length = d.norm(dim=-1, keepdim=True)
-    fallback = lean + torch.tensor([1e-6, 0, 0], dtype=d.dtype, device=d.device)
-    e1 = torch.where(length > 1e-5, d / length.clamp_min(1e-5), fallback / fallback.norm(dim=-1, keepdim=True).clamp_min(1e-9))
-    across = lambda a: a - (a * e1).sum(-1, keepdim=True) * e1
-    lean_across, v_across = across(lean), across(v)
-    if canonical:
-        back = ((lean_across * v_across).sum(-1, keepdim=True) < 0)
-        v, turn, v_across = (torch.where(back, -a, a) for a in (v, turn, v_across))
-    ref = v_across + 0.05 * lean_across if roll == "velocity" else lean_across
-    tiny = ref.norm(dim=-1, keepdim=True) < 1e-7
-    least = torch.nn.functional.one_hot(e1.abs().argmin(-1), 3).to(d.dtype)  # any axis across the line
-    ref = torch.where(tiny, across(least), ref)
-    e2 = ref / ref.norm(dim=-1, keepdim=True).clamp_min(1e-9)
-    e3 = torch.linalg.cross(e1, e2)
-    mirror = torch.ones_like(length)
-    if canonical:
-        mirror = torch.where((lean * e3).sum(-1, keepdim=True) < -1e-4, -mirror, mirror)  # 1e-4: NSVCD__SIDE
-    frame = torch.stack([e1, e2, mirror * e3], -2)  # (..., 3, 3) world -> pair; improper where mirrored
-    f1 = frame @ rot
-    turned = lambda a, b, m: (a @ m.mT, b @ wigner2(m).mT)
-    a1, b1 = turned(a1, b1, f1)
-    a2, b2 = turned(a2, b2, frame)
-    if scaling == "sum":
-        k1, k2 = (g.r1 / reach)[..., None], (g.r2 / reach)[..., None]
-    else:  # appendix F: by the larger latent
-        n1, n2 = (torch.cat([a.flatten(-2), b.flatten(-2)], -1).norm(dim=-1) * r for a, b, r in ((a1, b1, g.r1), (a2, b2, g.r2)))
-        top = torch.maximum(n1, n2).clamp_min(1e-9)
-        k1, k2 = (g.r1 / top)[..., None], (g.r2 / top)[..., None]
-    full = lambda a, b, k: torch.cat([a.flatten(-2), b.flatten(-2)], -1) * k
-    x1, x2 = full(a1, b1, k1), full(a2, b2, k2)
-    x1, x2 = torch.where(swap, x2, x1), torch.where(swap, x1, x2)
-    s1, s2 = torch.where(swap, s2, s1), torch.where(swap, s1, s2)
-    vf = (frame @ v[..., None])[..., 0]
-    wf = (frame @ turn[..., None])[..., 0] * mirror  # an axial vector
-    speed2 = (v * v).sum(-1, keepdim=True)
-    tau = (-(d * -v).sum(-1, keepdim=True) / (speed2 + 1e-6)).clamp(-1, 1)  # nearest approach of the two centres
-    near = (d - tau * v).norm(dim=-1, keepdim=True)
-    ratio = torch.maximum(g.r1, g.r2)[..., None] / reach[..., None]
-    facts = torch.cat([length, ratio, near, tau, vf, wf, speed2.sqrt(), turn.norm(dim=-1, keepdim=True)], -1)
-    return torch.cat([x1, x2, s1, s2, facts], -1)
+    share = facts[..., 1:2]  # of the larger one: NSVCD__FACT_RADIUS
+    vectors, scalars = [], []
+    for n, k in ((0, share), (1, 1 - share)):
+        own, m = z[slots[..., n]], turns[..., n, :, :]
+        a, b = own[..., : 3 * c].unflatten(-1, (c, 3)), own[..., 3 * c : 8 * c].unflatten(-1, (c, 5))
+        vectors.append(torch.cat([(a @ m.mT).flatten(-2), (b @ wigner2(m).mT).flatten(-2)], -1) * k)
+        scalars.append(own[..., 8 * c :])
+    return torch.cat([*vectors, *scalars, facts], -1)
 
 
 class Network(nn.Module):
-    def __init__(self, s: Shape = Shape(), scaling: str = "sum", roll: str = "velocity", canonical: bool = True,
-                 encoder: str = "context"):
+    def __init__(self, s: Shape = Shape(), encoder: str = "context"):
         super().__init__()
-        self.s, self.options = s, dict(scaling=scaling, roll=roll, canonical=canonical)
+        self.s = s
         self.encoder = {"context": Encoder, "fervn": FerVn, "no-normals": NoNormals}[encoder](s)
-        inputs = 2 * s.latent + FACTS
-        self.heads = nn.ModuleDict({name: mlp([inputs, *sizes, 1]) for name, sizes in s.heads})
-        # Training only: the distance of the pair, off the last hidden layer.
-        self.distance = nn.ModuleDict({name: nn.Linear(sizes[-1], 1) for name, sizes in s.heads})
+        # of two outputs: a logit, and how far the pair comes apart, in tenths of r1 + r2
+        self.heads = nn.ModuleDict({name: mlp([2 * s.latent + FACTS, *sizes, 2]) for name, sizes in s.heads})
 
-    def decode(self, z1: Tensor, z2: Tensor, g: Geometry) -> dict[str, tuple[Tensor, Tensor]]:
-        x = invariants(self.s, z1, z2, g, **self.options)
-        out = {}
-        for name, head in self.heads.items():
-            h = head[:-1](x)
-            out[name] = (head[-1](h)[..., 0], self.distance[name](h)[..., 0])
-        return out
+    def decode(self, z: Tensor, slots: Tensor, turns: Tensor, facts: Tensor) -> dict[str, Tensor]:
+        """-> for each head (..., 2)"""
+        x = inputs(self.s, z, slots, turns, facts)
+        return {name: head(x) for name, head in self.heads.items()}
 
 
 def quantise(z: Tensor) -> Tensor:

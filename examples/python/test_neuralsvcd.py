@@ -287,12 +287,12 @@ class Queries(unittest.TestCase):
         differences = []
         for poses in (path, rest):
             for place in np.ndindex(len(poses), 3):
-                logits = []
+                distances = []
                 for step in (2e-5, -4e-5):
                     poses[place] += step
-                    logits.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).opinion.logit)
+                    distances.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).opinion.distance)
                 poses[place] += 2e-5
-                differences.append((logits[0] - logits[1]) / 4e-5)
+                differences.append((distances[0] - distances[1]) / 4e-5)
         np.testing.assert_allclose(differences, found, atol=0.05 * np.abs(found).max())
         self.assertEqual(nsvcd.sweep_gradient(MUG, RACK, options=BY_NETWORK).by_a.shape, (1, 6))
 

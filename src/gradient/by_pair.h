@@ -40,6 +40,11 @@ static nsvcd__f3 nsvcd__first_f3(nsvcd__v3 a) {
   return out;
 }
 
+// a without its part along the unit vector n.
+static nsvcd__f3 nsvcd__f3_across(nsvcd__f3 a, nsvcd__f3 n) {
+  return nsvcd__f3_fma(-nsvcd__f3_dot(a, n), n, a);
+}
+
 // a's part along the unit vector n (or 0), times `along`, and the rest, turned about n by `angle`,
 // times `across`. All that commutes with rotations about n is of this kind.
 static nsvcd__f3 nsvcd__turned(nsvcd__f3 a, nsvcd__f3 n, float along, float across,
@@ -68,13 +73,14 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 #endif
 }
 
-// The derivative of a decoder's logit by its inputs: x, by_x (DECODER_IN). A ReLU's derivative at 0
-// is 0.
-static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, const float *x,
-                                                 float *by_x) {
+// The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
+// at 0 is 0.
+static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, size_t output,
+                                                 const float *x, float *by_x) {
   // what comes out of the layers, but for the last
   float values[5][NSVCD__WIDEST];
-  float by[NSVCD__MOST_INPUTS] = {1};
+  float by[NSVCD__MOST_INPUTS] = {0};
+  by[output] = 1;
   const size_t last = decoder->layers - 1;
   for (size_t n = 0; n < last; n++) {
     const nsvcd__layer layer = nsvcd__layer_of(decoder, n);
@@ -153,14 +159,17 @@ typedef struct nsvcd__by_pair {
 // A pair in its own units: what nsvcd__views has in lane 0, number by number.
 typedef struct nsvcd__view {
   float inverse, k1, k2, swap;
-  nsvcd__f3 d, lean, v, w;
+  nsvcd__f3 d, lean, normal;
+  float time;
+  nsvcd__f3 v, w;
   nsvcd__mat3 frame;
   float side;
 } nsvcd__view;
 
-// The derivative of a logit by what the frame sees, and the torque on that, in the frame.
+// The derivative of a logit by what the frame sees, by axis 1, and the torque on all of that, in
+// the frame.
 typedef struct nsvcd__by_view {
-  nsvcd__f3 d, v, w, lean, torque;
+  nsvcd__f3 d, v, w, lean, axis1, torque;
 } nsvcd__by_view;
 
 // sum + the rows of m, times the components of a.
@@ -232,12 +241,175 @@ static void nsvcd__by_frame(const nsvcd__view *view, nsvcd__by_view *by) {
   }
 
   // Axis 1: of the line, or of what stands for it.
-  nsvcd__f3 by_e1 = nsvcd__f3_scale(e3, by->torque.y + about * nsvcd__f3_dot(e1, a));
+  nsvcd__f3 by_e1 = nsvcd__f3_across(by->axis1, e1);
+  by_e1 = nsvcd__f3_fma(by->torque.y + about * nsvcd__f3_dot(e1, a), e3, by_e1);
   by_e1 = nsvcd__f3_fma(-by->torque.z, e2, by_e1);
   if (length > 1e-5f)
     by->d = nsvcd__f3_fma(1 / length, by_e1, by->d);
   else if (nsvcd__f3_length(line) > 1e-9f)
     by->lean = nsvcd__f3_fma(1 / nsvcd__f3_length(line), by_e1, by->lean);
+}
+
+// ---- gaps
+
+// What the axis of a gap is the direction of: a constant, plus so many times the moving patch's
+// normal, reversed, and the unit vector of the line between the centres.
+typedef struct nsvcd__gap_axis {
+  float of_moving, of_line;
+  float length;  // of that sum
+} nsvcd__gap_axis;
+
+// Of the axes that nsvcd__gap_axes_of makes.
+static void nsvcd__gap_axes_made(nsvcd__f3 fixed, const nsvcd__view *view, nsvcd__f3 line,
+                                 nsvcd__gap_axis *made) {
+  const nsvcd__gap_axis constant = {0, 0, 1};
+  const nsvcd__gap_axis against = {1, 0, 1};
+  const nsvcd__gap_axis along = {0, 1, 1};
+  const int has_fixed = nsvcd__f3_length(fixed) > 0.5f;
+  const int has_moving = nsvcd__f3_length(view->normal) > 0.5f;
+  const nsvcd__gap_axis of_fixed = has_fixed ? constant : along;
+  const nsvcd__gap_axis of_moving = has_moving ? against : along;
+  const nsvcd__f3 from = has_fixed ? fixed : line;
+  const nsvcd__f3 to = has_moving ? nsvcd__f3_scale(view->normal, -1) : line;
+  nsvcd__gap_axis both = {of_moving.of_moving, of_fixed.of_line + of_moving.of_line,
+                          nsvcd__f3_length(nsvcd__f3_add(from, to))};
+  if (!(both.length > 1e-3f)) both = along;
+  made[NSVCD__GAP_LARGER] = view->swap > 0 ? of_moving : of_fixed;
+  made[NSVCD__GAP_SMALLER] = view->swap > 0 ? of_fixed : of_moving;
+  made[NSVCD__GAP_LINE] = along;
+  made[NSVCD__GAP_BOTH] = both;
+}
+
+// As nsvcd__turned_back, whose adjoint by u it is too, with -w.
+static nsvcd__f3 nsvcd__f3_turned_back(nsvcd__f3 u, nsvcd__f3 w, float tau) {
+  const nsvcd__f3 turned = nsvcd__f3_fma(tau, nsvcd__f3_cross(u, w), u);
+  const float along = 0.5f * tau * tau * nsvcd__f3_dot(u, w);
+  const float less = -0.5f * tau * tau * nsvcd__f3_dot(w, w);
+  return nsvcd__f3_fma(less, u, nsvcd__f3_fma(along, w, turned));
+}
+
+// The derivative of nsvcd__turned_back(u, w, tau) . q by w.
+static nsvcd__f3 nsvcd__turned_back_by_w(nsvcd__f3 u, nsvcd__f3 w, float tau, nsvcd__f3 q) {
+  const float half = 0.5f * tau * tau;
+  nsvcd__f3 out = nsvcd__f3_scale(nsvcd__f3_cross(q, u), tau);
+  out = nsvcd__f3_fma(half * nsvcd__f3_dot(w, q), u, out);
+  out = nsvcd__f3_fma(half * nsvcd__f3_dot(u, w), q, out);
+  return nsvcd__f3_fma(-2 * half * nsvcd__f3_dot(u, q), w, out);
+}
+
+// Of a body's tips, from the first on, the farthest along u, in steps.
+static nsvcd__f3 nsvcd__farthest_tip(const int8_t *tips, nsvcd__f3 u) {
+  nsvcd__f3 best = {0, 0, 0};
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__GROUP) {
+    const nsvcd__f3 tip = nsvcd__f3_of(tips[0], tips[NSVCD__GROUP], tips[2 * NSVCD__GROUP]);
+    if (k == 0 || nsvcd__f3_dot(tip, u) > nsvcd__f3_dot(best, u)) best = tip;
+  }
+  return best;
+}
+
+// Lane 0 of what gaps are measured of.
+typedef struct nsvcd__gap_pair {
+  nsvcd__f3 between, v, w;
+  float radii[2];
+  nsvcd__mat3 rotation;
+  const int8_t *tips[2];
+} nsvcd__gap_pair;
+
+// The adjoint of a gap along u at tau, times `by`, added to `out`, and returned by u. moves: 0 at
+// rest, else 1.
+static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float tau,
+                               float moves, float by, nsvcd__by_pair *out) {
+  const float half = 0.5f * tau;
+  const nsvcd__f3 w = pair->w;
+  const nsvcd__f3 minus = nsvcd__f3_scale(w, -1);
+  const nsvcd__f3 back = nsvcd__f3_turned_back(u, w, half);
+  const nsvcd__f3 forth = nsvcd__f3_turned_back(u, w, -half);
+  const nsvcd__f3 own = nsvcd__mat3_apply_transpose(&pair->rotation, back);
+  const nsvcd__f3 lowest = nsvcd__farthest_tip(pair->tips[0], nsvcd__f3_scale(own, -1));
+  const nsvcd__f3 highest = nsvcd__farthest_tip(pair->tips[1], forth);
+  const nsvcd__f3 turned = nsvcd__mat3_apply(&pair->rotation, lowest);
+  const nsvcd__f3 q = nsvcd__f3_scale(turned, pair->radii[0] / 127);
+  const nsvcd__f3 x = nsvcd__f3_scale(highest, pair->radii[1] / 127);
+  const nsvcd__f3 on_q = nsvcd__turned_back_by_w(u, w, half, q);
+  const nsvcd__f3 on_x = nsvcd__turned_back_by_w(u, w, -half, x);
+  out->p1 = nsvcd__f3_fma(by, u, out->p1);
+  out->v = nsvcd__f3_fma(moves * tau * by, u, out->v);
+  out->w = nsvcd__f3_fma(moves * by, nsvcd__f3_sub(on_q, on_x), out->w);
+  out->rotation = nsvcd__f3_fma(by, nsvcd__f3_cross(q, back), out->rotation);
+  nsvcd__f3 apart = nsvcd__f3_fma(tau, pair->v, pair->between);
+  apart = nsvcd__f3_add(apart, nsvcd__f3_turned_back(q, minus, half));
+  apart = nsvcd__f3_sub(apart, nsvcd__f3_turned_back(x, minus, -half));
+  return nsvcd__f3_scale(apart, by);
+}
+
+// The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
+// by axis 1, to `seen`. moves: 0 at rest, else 1.
+static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__view *view,
+                                        float moves, const float *by, nsvcd__by_pair *out,
+                                        nsvcd__by_view *seen) {
+  const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
+  nsvcd__gap_pair pair;
+  nsvcd__views views;
+  nsvcd__gap_axes axes;
+  nsvcd__gap_axis made[NSVCD__GAPS];
+  nsvcd__f3 by_u[NSVCD__GAPS];
+  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  pair.between = nsvcd__f3_sub(nsvcd__first_f3(pairs->p1), nsvcd__first_f3(pairs->p2));
+  pair.v = nsvcd__first_f3(pairs->v);
+  pair.w = nsvcd__first_f3(pairs->w);
+  pair.tips[0] = pairs->tips[0][0];
+  pair.tips[1] = pairs->tips[1][0];
+  nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
+  nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
+  nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
+  nsvcd__views_of(pairs, &views);
+  nsvcd__gap_axes_of(pairs, &views, &axes);
+  nsvcd__tips_gather(pairs, 1, tips);
+  memset(by_u, 0, sizeof by_u);
+  for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
+    const float tau = view->time * ((float)m - 1);
+    nsvcd__v at[NSVCD__GAPS];
+    float wide[NSVCD__GAPS];
+    size_t widest = 0;
+    nsvcd__gaps_at(pairs, &axes, tips, nsvcd__v_set(tau), at);
+    nsvcd__first_lanes(at, NSVCD__GAPS, wide);
+    for (size_t d = 1; d < NSVCD__GAPS; d++) widest = wide[d] > wide[widest] ? d : widest;
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      const float gap = fabsf(view->inverse * wide[d]);
+      const float steep = NSVCD__GAP_STEEP;
+      const float steeper = d == widest ? NSVCD__WIDEST_STEEP : 0;
+      const float told = by[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      const float by_told = told * steep / ((1 + steep * gap) * (1 + steep * gap));
+      const float by_widest =
+          by[NSVCD__FACT_WIDEST + m] * steeper / ((1 + steeper * gap) * (1 + steeper * gap));
+      const float by_gap = view->inverse * (by_told + by_widest);
+      const nsvcd__f3 u = nsvcd__first_f3(axes.u[d]);
+      const nsvcd__f3 more = nsvcd__by_gap(&pair, u, tau, moves, by_gap, out);
+      by_u[d] = nsvcd__f3_add(by_u[d], more);
+    }
+  }
+
+  // By the axes, to what they are made of.
+  const nsvcd__f3 line = nsvcd__first_f3(axes.u[NSVCD__GAP_LINE]);
+  const float length = fmaxf(nsvcd__f3_length(pair.between), 1e-20f);
+  nsvcd__f3 by_moving = {0, 0, 0};
+  nsvcd__f3 by_line = {0, 0, 0};
+  nsvcd__gap_axes_made(fixed, view, line, made);
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__f3 across = nsvcd__f3_across(by_u[d], nsvcd__first_f3(axes.u[d]));
+    by_moving = nsvcd__f3_fma(-made[d].of_moving / made[d].length, across, by_moving);
+    by_line = nsvcd__f3_fma(made[d].of_line / made[d].length, across, by_line);
+  }
+  out->p1 = nsvcd__f3_fma(1 / length, nsvcd__f3_across(by_line, line), out->p1);
+
+  const float *facing = by + NSVCD__FACT_FACING;
+  const float to_moving = view->swap > 0 ? facing[1] : facing[2];
+  const float to_fixed = view->swap > 0 ? facing[2] : facing[1];
+  by_moving = nsvcd__f3_fma(facing[0], fixed, by_moving);
+  by_moving = nsvcd__f3_fma(to_moving, view->frame.x, by_moving);
+  seen->axis1 = nsvcd__f3_fma(to_moving, view->normal, seen->axis1);
+  seen->axis1 = nsvcd__f3_fma(to_fixed, fixed, seen->axis1);
+  out->rotation = nsvcd__f3_add(out->rotation, nsvcd__f3_cross(view->normal, by_moving));
 }
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
@@ -246,15 +418,12 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
                                               const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
-  nsvcd__mat3 rotation;
-  nsvcd__views_of(pairs, 1, &views);
+  nsvcd__views_of(pairs, &views);
   nsvcd__first_lanes(&views, sizeof view / sizeof(float), &view);
-  nsvcd__first_lanes(&pairs->rotation, 9, &rotation);
   // Which way time runs. 0 at rest, to rounding: the logit is even in the motion, with a kink
   // there, and the mean of its two sides is 0.
-  const float same_v = nsvcd__f3_dot(view.v, nsvcd__first_f3(pairs->v)) * view.inverse;
-  const float same = same_v + nsvcd__f3_dot(view.w, nsvcd__first_f3(pairs->w));
-  const float sign = fabsf(same) < 1e-12f ? 0.0f : same < 0 ? -1.0f : 1.0f;
+  const float moves = nsvcd__f3_dot(view.v, view.v) + nsvcd__f3_dot(view.w, view.w);
+  const float sign = moves < 1e-12f ? 0.0f : view.time * view.swap;
 
   // Torques in the frame: on the moving patch's latent, then on all that the frame sees.
   const size_t facts = 2 * NSVCD__LATENT;
@@ -266,17 +435,16 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   memset(&seen, 0, sizeof seen);
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
+  memset(by, 0, sizeof *by);
+  nsvcd__by_gaps(pairs, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
-  const nsvcd__f3 mean = nsvcd__mean_direction(pairs->z[0][0]);
-  const nsvcd__f3 scaled = nsvcd__f3_scale(mean, view.swap * view.k1 / 127);
-  const nsvcd__f3 lean1 = nsvcd__mat3_apply(&rotation, scaled);
-  const nsvcd__f3 none = {0, 0, 0};
+  const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
   const nsvcd__f3 turned = nsvcd__f3_scale(on_moving, view.side);
-  by->rotation = nsvcd__add_along_rows(none, &view.frame, turned);
+  by->rotation = nsvcd__add_along_rows(by->rotation, &view.frame, turned);
   by->rotation = nsvcd__f3_add(by->rotation, nsvcd__f3_cross(lean1, seen.lean));
-  by->p1 = nsvcd__f3_scale(seen.d, -view.swap * view.inverse);
-  by->v = nsvcd__f3_scale(seen.v, sign * view.inverse);
-  by->w = nsvcd__f3_scale(seen.w, sign);
+  by->p1 = nsvcd__f3_fma(-view.swap * view.inverse, seen.d, by->p1);
+  by->v = nsvcd__f3_fma(sign * view.inverse, seen.v, by->v);
+  by->w = nsvcd__f3_fma(sign, seen.w, by->w);
 }
 #endif  // NSVCD_NO_GRADIENT

@@ -149,8 +149,8 @@ static void nsvcd__by_contact(const nsvcd__motion *motion, nsvcd__instants *at, 
   nsvcd__by_instant(motion, at, s + 1, after, none, out);
 }
 
-// The derivative of the decisive logit by the poses, added to the gradients. time: of the segments'
-// ends.
+// The derivative of the decisive distance, or logit, by the poses, added to the gradients. time: of
+// the segments' ends.
 static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *decisive,
                             const float *time, float *const *out) {
   const nsvcd__motion *motion = &task->motion;
@@ -163,7 +163,11 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
-  nsvcd__decoder_gradient(decisive->decoder, x, by_x);
+  const int of_logit = task->question->network.of_logit;
+  const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
+  const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
+  nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
+  for (size_t k = 0; k < NSVCD__DECODER_IN; k++) by_x[k] *= unit;
   nsvcd__by_invariants(&pairs, x, by_x, &by);
   nsvcd__instants_of(task, &candidate, time, &at);
 

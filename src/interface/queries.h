@@ -55,6 +55,8 @@ typedef struct nsvcd_network_options {
   // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
   // more of what is near a hit. 0: as much as `recall` needs
   float swell;
+  // 1: nsvcd_sweep_gradient differentiates the logit; 0: the distance
+  int of_logit;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -198,6 +200,10 @@ typedef struct nsvcd_opinion {
   // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
   // decoder was needed
   float logit;
+  // metres, of the same pair: by how much it misses, or, negative, how deep it is, to within some
+  // hundredths of a patch's radius where that is within one radius. HUGE_VALF where no decoder was
+  // needed
+  float distance;
   // in [0,1]: when the most suspicious pair comes closest
   float time;
   // that pair
@@ -297,7 +303,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 592 + 32 * (segments) + 96 * (pairs))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
 // Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
 // the one before it ask the network about the same two bodies, it is first asked where that one
@@ -315,7 +321,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of its logit by the poses of a and b.
+// Answers a question by the network, with the derivatives of opinion.distance, or of its logit, by
+// the poses of a and b: to go along them, by the distance's length, is the shortest way out.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
 //   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep
@@ -329,9 +336,9 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   source     reverse mode; this library
 //
 // Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
-// the gradient of the pair and the stretch of time that decided: the logit is the greatest of
-// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs.
-// Where the pair is at rest, or does not turn, it is the mean of both sides. The ends of the
+// the gradient of the pair and the stretch of time that decided: its logit is the greatest of
+// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and
+// where a flat patch does not turn. At rest it is the mean of both sides. The ends of the
 // stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
 // begins or ends. The unit of length, and the spheres' allowance for what the motion does
 // between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float

@@ -25,7 +25,9 @@ NSVCD__INLINE nsvcd__vquat nsvcd__vquat_set(nsvcd__quat q) {
 }
 // Rows of x, y, z and w, so many numbers apart.
 NSVCD__INLINE nsvcd__vquat nsvcd__vquat_load(const float *p, size_t stride) {
-  return nsvcd__vquat_of(nsvcd__v3_load_rows(p, stride), nsvcd__v_load(p + 3 * stride));
+  const nsvcd__vquat q = {nsvcd__v_load(p), nsvcd__v_load(p + stride),
+                          nsvcd__v_load(p + 2 * stride), nsvcd__v_load(p + 3 * stride)};
+  return q;
 }
 NSVCD__INLINE void nsvcd__vquat_store(nsvcd__vquat q, float *p, size_t stride) {
   nsvcd__v3_store_rows(nsvcd__vquat_axis(q), p, stride);
@@ -64,7 +66,8 @@ NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_rows(nsvcd__v3 x, nsvcd__v3 y, nsvcd__v3
   return out;
 }
 NSVCD__INLINE nsvcd__vmat3 nsvcd__vmat3_set(const nsvcd__mat3 *m) {
-  return nsvcd__vmat3_rows(nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z));
+  const nsvcd__vmat3 out = {nsvcd__v3_set(m->x), nsvcd__v3_set(m->y), nsvcd__v3_set(m->z)};
+  return out;
 }
 // The matrix in lane l of p (9, LANES), row-major.
 static inline nsvcd__mat3 nsvcd__mat3_lane(float (*p)[NSVCD__LANES], size_t l) {

@@ -63,8 +63,8 @@ typedef struct nsvcd__candidate {
   float t_least;  // where the gap is least
   // rank, 1 - least distance / (r1 + r2): the deepest go on to the network
   float depth;
-  // what the network says, or NSVCD__NO_SCORE
-  float score;
+  // what the network says: a logit, or NSVCD__NO_SCORE; and a distance, in tenths of r1 + r2
+  float score, apart;
 } nsvcd__candidate;
 
 #define NSVCD__NO_SCORE (-1e30f)

@@ -1,8 +1,15 @@
-// In: invariants of pairs (n, DECODER_IN). Out: a logit each.
+// In: invariants of pairs (n, DECODER_IN). Out: a logit each, and how far the pair comes apart.
 #pragma once
 #include "pairs.h"
 
 #ifndef NSVCD_NO_NETWORK
+// What a decoder says of a pair.
+enum {
+  NSVCD__SAYS_LOGIT,
+  NSVCD__SAYS_APART,  // distance, negative: depth, in tenths of r1 + r2
+  NSVCD__SAYINGS
+};
+
 // Where a layer's numbers lie: y = w^T x + bias, then ReLU but for the last layer.
 typedef struct nsvcd__layer {
   size_t inputs, outputs;  // multiples of 4, and of 16
@@ -66,13 +73,13 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
   }
 }
 
-// As nsvcd__decoder_logits, in fp32. The weights of the largest decoder do not fit into the first
+// As nsvcd__decoder_says, in fp32. The weights of the largest decoder do not fit into the first
 // cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
 // outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
 static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
                                                   const float *x, size_t count,
-                                                  float *logits) {
+                                                  float (*said)[NSVCD__SAYINGS]) {
   const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -109,7 +116,7 @@ static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
     pitch = NSVCD__WIDEST;
     y = y == a ? b : a;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
 }
 #endif  // NSVCD_NO_FLOAT
 
@@ -232,9 +239,9 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 }
 #endif
 
-// As nsvcd__decoder_logits, in int8 arithmetic.
+// As nsvcd__decoder_says, in int8 arithmetic.
 static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
-                                                 size_t count, float *logits) {
+                                                 size_t count, float (*said)[NSVCD__SAYINGS]) {
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {
@@ -244,25 +251,25 @@ static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, 
     x = y;
     pitch = NSVCD__WIDEST;
   }
-  for (size_t p = 0; p < count; p++) logits[p] = x[pitch * p];
+  for (size_t p = 0; p < count; p++) memcpy(said[p], x + pitch * p, sizeof said[p]);
 }
 #endif  // NSVCD_NO_INT8
 
-// x (ROWS, DECODER_IN) -> the logits of the first `count` pairs by a decoder, in fp32 or int8
+// x (ROWS, DECODER_IN) -> said (count, SAYINGS), of the first `count` pairs, in fp32 or int8
 // arithmetic. Some rows at a time: x must hold numbers up to a multiple of ROW_STEP.
-static void nsvcd__decoder_logits(const nsvcd__decoder *decoder, const float *x, size_t count,
-                                  int int8, float *logits) {
+static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, size_t count,
+                                int int8, float (*said)[NSVCD__SAYINGS]) {
 #ifdef NSVCD_NO_INT8
   (void)int8;
-  nsvcd__decoder_by_floats(decoder, x, count, logits);
+  nsvcd__decoder_by_floats(decoder, x, count, said);
 #elif defined(NSVCD_NO_FLOAT)
   (void)int8;
-  nsvcd__decoder_by_bytes(decoder, x, count, logits);
+  nsvcd__decoder_by_bytes(decoder, x, count, said);
 #else
   if (int8)
-    nsvcd__decoder_by_bytes(decoder, x, count, logits);
+    nsvcd__decoder_by_bytes(decoder, x, count, said);
   else
-    nsvcd__decoder_by_floats(decoder, x, count, logits);
+    nsvcd__decoder_by_floats(decoder, x, count, said);
 #endif
 }
 #endif  // NSVCD_NO_NETWORK

@@ -8,8 +8,7 @@
 //   swap           the larger patch comes first
 //   axis 1         the line between the centres
 //   axis 2         the velocity across the line, plus a twentieth of the lean (the difference of
-//                  the patches' mean directions, latent channel 0), so that it has a limit where
-//                  the velocity vanishes
+//                  the patches' normals), so that it has a limit where the velocity vanishes
 //   time reversal  time runs so that velocity and lean, across the line, do not oppose each other
 //   mirror         axis 3 points to the side of the lean; where the lean is on neither side, as it
 //                  is for a pair at rest, the frame is right-handed
@@ -50,8 +49,23 @@ enum {
   NSVCD__FACT_TURN = 7,
   NSVCD__FACT_SPEED = 10,  // the lengths of these two
   NSVCD__FACT_SPIN = 11,
-  NSVCD__FACTS = 12
+  // of the gaps between the tips: (GAPS, MOMENTS), and the widest at each moment
+  NSVCD__FACT_GAPS = 12,
+  NSVCD__FACT_WIDEST = 24,
+  // products of the normals: of both, of the larger patch's and the smaller one's with the line
+  // from the larger to the smaller
+  NSVCD__FACT_FACING = 27,
+  // how flat the larger patch is, and the smaller
+  NSVCD__FACT_FLAT = 30,
+  NSVCD__FACTS = 32
 };
+// Directions, from the fixed patch to the moving one, in which gaps are measured, and when.
+enum { NSVCD__GAP_LARGER, NSVCD__GAP_SMALLER, NSVCD__GAP_LINE, NSVCD__GAP_BOTH, NSVCD__GAPS };
+#define NSVCD__MOMENTS 3
+// A gap g in units of r1 + r2 is told as x / (1 + |x|), x being g times this; the widest as well
+// with the second, so that what decides is not lost in the steps of int8.
+#define NSVCD__GAP_STEEP 8.0f
+#define NSVCD__WIDEST_STEEP 40.0f
 #define NSVCD__INPUTS (2 * NSVCD__LATENT + NSVCD__FACTS)
 #define NSVCD__DECODER_IN ((NSVCD__INPUTS + 15) / 16 * 16)  // zeros at the end
 // Most outputs of a layer, of the heads that are compiled; the tests hold them against weights.h.
@@ -82,8 +96,13 @@ typedef struct nsvcd__pairs {
   // half displacement of the point midway between p1 and p2, as part of the moving body
   nsvcd__v3 v;
   nsvcd__v3 w;  // half rotation vector
-  // latents, in the bodies' frames
+  // of both patches, in the bodies' frames: unit normals, or 0 where a patch has none; how flat
+  // they are, which is the normal area over that of the ball's greatest disc; latents; and tips,
+  // (TIPS, 3) at a stride of GROUP
+  nsvcd__v3 normal[2];
+  nsvcd__v flat[2];
   const int8_t *z[2][NSVCD__SLICE];
+  const int8_t *tips[2][NSVCD__SLICE];
 } nsvcd__pairs;
 
 // Half the rotation vector of a unit quaternion, from the sine s of half the angle: asin(s) / s
@@ -202,6 +221,8 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   nsvcd__v_pose at[3];
   float centres[2][3 * NSVCD__SLICE] = {{0}, {0}};
   float radii[2][NSVCD__SLICE] = {{0}, {0}};
+  float normals[2][3 * NSVCD__SLICE] = {{0}, {0}};
+  float flat[2][NSVCD__SLICE] = {{0}, {0}};
   for (size_t l = 0; l < count; l++) {
     const nsvcd__candidate *candidate = candidates[l];
     for (size_t n = 0; n < 2; n++) {
@@ -212,6 +233,15 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
       nsvcd__f3_put(nsvcd__f3_scale(patch.centre, scale), centres[n] + l, NSVCD__SLICE);
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
+      pairs->tips[n][l] = nsvcd__group_tips(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
+      // the normal area, over the square of the radius; a patch that is closed has none
+      const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
+      const nsvcd__f3 stored = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
+      const nsvcd__f3 area = nsvcd__f3_scale(nsvcd__f3_scale(stored, inverse), inverse);
+      const float length = nsvcd__f3_length(area);
+      const nsvcd__f3 normal = nsvcd__f3_scale(area, length > 1e-6f ? 1 / length : 0);
+      nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
+      flat[n][l] = fminf(0.31830989f * length, 2);
     }
     times[0][l] = candidate->t_enter;
     times[1][l] = candidate->t_exit;
@@ -220,6 +250,10 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
   pairs->p2 = nsvcd__v3_load_rows(centres[1], NSVCD__SLICE);
   pairs->r1 = nsvcd__v_load(radii[0]);
   pairs->r2 = nsvcd__v_load(radii[1]);
+  for (size_t n = 0; n < 2; n++) {
+    pairs->normal[n] = nsvcd__v3_load_rows(normals[n], NSVCD__SLICE);
+    pairs->flat[n] = nsvcd__v_load(flat[n]);
+  }
   for (size_t k = 0; k < 3; k++) at[k] = nsvcd__v_poses_at(motion, times[k], count);
   nsvcd__pairs_in_passing(at, centres[0], pairs);
 }
@@ -235,7 +269,11 @@ typedef struct nsvcd__views {
   // the line from the larger patch to the smaller one
   nsvcd__v3 d;
   nsvcd__v3 lean;
-  // reversed where time is to run backwards
+  // the moving patch's
+  nsvcd__v3 normal;
+  // -1 where time is to run backwards, else 1
+  nsvcd__v time;
+  // the larger patch's, as time runs
   nsvcd__v3 v, w;
   // rows are its axes in the fixed body's frame
   nsvcd__vmat3 frame;
@@ -246,6 +284,12 @@ typedef struct nsvcd__views {
 // Removes from a its part along the unit vector e.
 static nsvcd__v3 nsvcd__v_across(nsvcd__v3 a, nsvcd__v3 e) {
   return nsvcd__v3_fma(nsvcd__v_negate(nsvcd__v3_dot(a, e)), e, a);
+}
+
+// x where a <= b, elsewhere y.
+static nsvcd__v3 nsvcd__v3_pick(nsvcd__v a, nsvcd__v b, nsvcd__v3 x, nsvcd__v3 y) {
+  return nsvcd__v3_of(nsvcd__v_pick(a, b, x.x, y.x), nsvcd__v_pick(a, b, x.y, y.y),
+                      nsvcd__v_pick(a, b, x.z, y.z));
 }
 
 // a over its length, where that exceeds `least`; elsewhere `instead`.
@@ -259,25 +303,11 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
                       nsvcd__v_pick(length, floor, instead.z, unit.z));
 }
 
-// The mean direction of a stored latent, channel 0 of degree 1, in steps of 1/127.
-static nsvcd__f3 nsvcd__mean_direction(const int8_t *z) {
-  return nsvcd__f3_of((float)z[0], (float)z[NSVCD_W_CHANNELS], (float)z[2 * NSVCD_W_CHANNELS]);
-}
-
-// Views of the first `count` pairs of a slice.
-static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__views *view) {
+// Views of a slice of pairs.
+static NSVCD__APART void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
-  const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
-  float means[2][3 * NSVCD__SLICE] = {{0}, {0}};
-  for (size_t n = 0; n < 2; n++) {
-    for (size_t l = 0; l < count; l++)
-      nsvcd__f3_put(nsvcd__mean_direction(pairs->z[n][l]), means[n] + l, NSVCD__SLICE);
-  }
-  const nsvcd__v3 own1 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[0], NSVCD__SLICE), step);
-  const nsvcd__v3 mean2 = nsvcd__v3_scale(nsvcd__v3_load_rows(means[1], NSVCD__SLICE), step);
-  const nsvcd__v3 mean1 = nsvcd__vmat3_apply(pairs->rotation, own1);
   const nsvcd__v3 between = nsvcd__v3_sub(pairs->p2, pairs->p1);
   // The unit of length: r1 + r2; for points without extent whatever keeps the inputs finite.
   const nsvcd__v lengths = nsvcd__v_add(nsvcd__v3_length(between), nsvcd__v3_length(pairs->v));
@@ -288,10 +318,11 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->k1 = nsvcd__v_mul(pairs->r1, inverse);
   view->k2 = nsvcd__v_mul(pairs->r2, inverse);
   view->swap = nsvcd__v_pick(pairs->r2, pairs->r1, one, minus);
-  // Seen from the other body the motion is reversed as well, but time may run either way: v and w
-  // can stay.
-  const nsvcd__v3 lean1 = nsvcd__v3_scale(mean1, view->k1);
-  const nsvcd__v3 lean2 = nsvcd__v3_scale(mean2, view->k2);
+  // Seen from the other body the motion is reversed as well, and time may run either way: v and w
+  // change their signs no more than once.
+  view->normal = nsvcd__vmat3_apply(pairs->rotation, pairs->normal[0]);
+  const nsvcd__v3 lean1 = nsvcd__v3_scale(view->normal, view->k1);
+  const nsvcd__v3 lean2 = nsvcd__v3_scale(pairs->normal[1], view->k2);
   const nsvcd__v3 lean = nsvcd__v3_scale(nsvcd__v3_sub(lean1, lean2), view->swap);
   const nsvcd__v3 v = nsvcd__v3_scale(pairs->v, inverse);
   view->lean = lean;
@@ -305,6 +336,7 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   const nsvcd__v3 lean_across = nsvcd__v_across(lean, e1);
   const nsvcd__v3 v_across = nsvcd__v_across(v, e1);
   const nsvcd__v sign = nsvcd__v_sign(nsvcd__v3_dot(lean_across, v_across));
+  view->time = nsvcd__v_mul(sign, view->swap);
   view->v = nsvcd__v3_scale(v, sign);
   view->w = nsvcd__v3_scale(pairs->w, sign);
   const nsvcd__v3 forward = nsvcd__v3_scale(v_across, sign);
@@ -327,6 +359,120 @@ static void nsvcd__views_of(const nsvcd__pairs *pairs, size_t count, nsvcd__view
   view->frame.z = nsvcd__v3_scale(e3, view->side);
 }
 
+// ---- gaps
+
+// Where gaps between tips are measured.
+typedef struct nsvcd__gap_axes {
+  // from the fixed patches to the moving ones
+  nsvcd__v3 u[NSVCD__GAPS];
+} nsvcd__gap_axes;
+
+static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *view,
+                               nsvcd__gap_axes *axes) {
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 x_axis = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
+  const nsvcd__v3 line = nsvcd__v_unit_or(between, 1e-20f, x_axis);
+  const nsvcd__v3 fixed = nsvcd__v_unit_or(pairs->normal[1], 0.5f, line);
+  const nsvcd__v3 moving = nsvcd__v_unit_or(nsvcd__v3_negate(view->normal), 0.5f, line);
+  axes->u[NSVCD__GAP_LARGER] = nsvcd__v3_pick(zero, view->swap, moving, fixed);
+  axes->u[NSVCD__GAP_SMALLER] = nsvcd__v3_pick(zero, view->swap, fixed, moving);
+  axes->u[NSVCD__GAP_LINE] = line;
+  axes->u[NSVCD__GAP_BOTH] = nsvcd__v_unit_or(nsvcd__v3_add(fixed, moving), 1e-3f, line);
+}
+
+// The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
+// TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
+static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
+  memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
+  for (size_t n = 0; n < 2; n++) {
+    for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
+      for (size_t l = 0; l < count; l++) tips[l] = pairs->tips[n][l][NSVCD__GROUP * k];
+    }
+  }
+}
+
+static nsvcd__v3 nsvcd__tips_load(const int8_t *tips) {
+  return nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__SLICE),
+                      nsvcd__v_load_int8(tips + 2 * NSVCD__SLICE));
+}
+
+// What a direction u becomes for a patch that turns on by w, to the second order: its product with
+// q is u . (q + w x q + w x (w x q) / 2).
+static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
+  const nsvcd__v along = nsvcd__v_scale(nsvcd__v3_dot(u, w), 0.5f);
+  const nsvcd__v less = nsvcd__v_scale(nsvcd__v3_dot(w, w), -0.5f);
+  const nsvcd__v3 turned = nsvcd__v3_add(nsvcd__v3_cross(u, w), u);
+  return nsvcd__v3_fma(less, u, nsvcd__v3_fma(along, w, turned));
+}
+
+// The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
+// the interval. Seen from a frame that turns half as fast as the moving patch, in which either
+// patch may be called the one that moves: the line between the centres goes by v, one patch turns
+// by half of w, and the other the opposite way. tips: nsvcd__tips_gather.
+static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__gap_axes *axes,
+                                        const int8_t *tips, nsvcd__v tau, nsvcd__v *wide) {
+  const size_t size = 3 * NSVCD__SLICE;
+  const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
+  const nsvcd__v3 back = nsvcd__v3_negate(half);
+  nsvcd__v3 own[NSVCD__GAPS], other[NSVCD__GAPS];
+  nsvcd__v low[NSVCD__GAPS], high[NSVCD__GAPS];
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__v3 turned = nsvcd__turned_back(axes->u[d], half);
+    own[d] = nsvcd__vmat3_apply_transpose(pairs->rotation, turned);
+    other[d] = nsvcd__turned_back(axes->u[d], back);
+    low[d] = nsvcd__v_set(1e30f);
+    high[d] = nsvcd__v_set(-1e30f);
+  }
+  for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
+    const nsvcd__v3 q = nsvcd__tips_load(tips);
+    const nsvcd__v3 x = nsvcd__tips_load(tips + NSVCD__TIPS * size);
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
+      high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
+    }
+  }
+  const nsvcd__v3 between = nsvcd__v3_sub(pairs->p1, pairs->p2);
+  const nsvcd__v3 apart = nsvcd__v3_fma(tau, pairs->v, between);
+  const nsvcd__v step1 = nsvcd__v_scale(pairs->r1, 1.0f / 127);
+  const nsvcd__v step2 = nsvcd__v_scale(pairs->r2, 1.0f / 127);
+  for (size_t d = 0; d < NSVCD__GAPS; d++) {
+    const nsvcd__v above = nsvcd__v_fma(step1, low[d], nsvcd__v3_dot(axes->u[d], apart));
+    wide[d] = nsvcd__v_sub(above, nsvcd__v_mul(step2, high[d]));
+  }
+}
+
+// A gap, times so much, as it is told: x / (1 + |x|).
+static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
+  const nsvcd__v x = nsvcd__v_scale(gap, steep);
+  return nsvcd__v_div(x, nsvcd__v_plus(nsvcd__v_abs(x), 1));
+}
+
+// The facts about gaps.
+static NSVCD__APART void nsvcd__tell_gaps(const nsvcd__pairs *pairs, const nsvcd__views *view,
+                                          size_t count, float (*facts)[NSVCD__SLICE]) {
+  int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
+  nsvcd__gap_axes axes;
+  nsvcd__gap_axes_of(pairs, view, &axes);
+  nsvcd__tips_gather(pairs, count, tips);
+  for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
+    const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
+    nsvcd__v wide[NSVCD__GAPS];
+    nsvcd__v widest = nsvcd__v_set(-1e30f);
+    nsvcd__gaps_at(pairs, &axes, tips, tau, wide);
+    for (size_t d = 0; d < NSVCD__GAPS; d++) {
+      const nsvcd__v gap = nsvcd__v_mul(view->inverse, wide[d]);
+      float *to = facts[NSVCD__FACT_GAPS + NSVCD__MOMENTS * d + m];
+      nsvcd__v_store(to, nsvcd__gap_told(gap, NSVCD__GAP_STEEP));
+      widest = nsvcd__v_max(widest, gap);
+    }
+    nsvcd__v_store(facts[NSVCD__FACT_WIDEST + m],
+                   nsvcd__gap_told(widest, NSVCD__WIDEST_STEEP));
+  }
+}
+
+// ---- inputs
+
 // What the decoder sees of a slice of pairs, besides the latents, which it sees turned.
 typedef struct nsvcd__scenes {
   // of the moving patches and of the fixed ones: from their bodies' frames to the pairs', and their
@@ -338,37 +484,57 @@ typedef struct nsvcd__scenes {
   float facts[NSVCD__FACTS][NSVCD__SLICE];
 } nsvcd__scenes;
 
-// Scenes of the first `count` pairs of a slice.
-static NSVCD__APART void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count,
-                                          nsvcd__scenes *scene) {
-  nsvcd__views view;
-  nsvcd__views_of(pairs, count, &view);
-  scene->turn[0] = nsvcd__vmat3_mul(view.frame, pairs->rotation);
-  scene->turn[1] = view.frame;
-  scene->k[0] = view.k1;
-  scene->k[1] = view.k2;
-  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view.swap);
+// A slice of scenes, but for the facts about gaps.
+static NSVCD__APART void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+                                                    const nsvcd__views *view,
+                                                    nsvcd__scenes *scene) {
+  scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
+  scene->turn[1] = view->frame;
+  scene->k[0] = view->k1;
+  scene->k[1] = view->k2;
+  scene->keep = nsvcd__v_le(nsvcd__v_set(0), view->swap);
 
-  const nsvcd__v speed2 = nsvcd__v3_dot(view.v, view.v);
+  const nsvcd__v speed2 = nsvcd__v3_dot(view->v, view->v);
   const nsvcd__v above = nsvcd__v_plus(speed2, 1e-6f);
   // nearest approach of the centres, in half intervals
-  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view.d, view.v), above);
+  const nsvcd__v nearest = nsvcd__v_div(nsvcd__v3_dot(view->d, view->v), above);
   const nsvcd__v tau = nsvcd__v_clamp(nearest, -1, 1);
-  const nsvcd__v3 closest = nsvcd__v3_sub(view.d, nsvcd__v3_scale(view.v, tau));
-  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view.frame, view.v);
-  const nsvcd__v3 turn = nsvcd__vmat3_apply(view.frame, view.w);
+  const nsvcd__v3 closest = nsvcd__v3_sub(view->d, nsvcd__v3_scale(view->v, tau));
+  const nsvcd__v3 velocity = nsvcd__vmat3_apply(view->frame, view->v);
+  const nsvcd__v3 turn = nsvcd__vmat3_apply(view->frame, view->w);
   // an axial vector
-  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view.side);
+  const nsvcd__v3 mirrored = nsvcd__v3_scale(turn, view->side);
 
   float(*facts)[NSVCD__SLICE] = scene->facts;
-  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view.d));
-  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view.k1, view.k2));
+  nsvcd__v_store(facts[NSVCD__FACT_DISTANCE], nsvcd__v3_length(view->d));
+  nsvcd__v_store(facts[NSVCD__FACT_RADIUS], nsvcd__v_max(view->k1, view->k2));
   nsvcd__v_store(facts[NSVCD__FACT_CLOSEST], nsvcd__v3_length(closest));
   nsvcd__v_store(facts[NSVCD__FACT_TAU], tau);
   nsvcd__v3_store_rows(velocity, facts[NSVCD__FACT_VELOCITY], NSVCD__SLICE);
   nsvcd__v3_store_rows(mirrored, facts[NSVCD__FACT_TURN], NSVCD__SLICE);
   nsvcd__v_store(facts[NSVCD__FACT_SPEED], nsvcd__v_sqrt(speed2));
-  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view.w));
+  nsvcd__v_store(facts[NSVCD__FACT_SPIN], nsvcd__v3_length(view->w));
+
+  const nsvcd__v zero = nsvcd__v_set(0);
+  const nsvcd__v3 *fixed = &pairs->normal[1];
+  const nsvcd__v3 larger = nsvcd__v3_pick(zero, view->swap, view->normal, *fixed);
+  const nsvcd__v3 smaller = nsvcd__v3_pick(zero, view->swap, *fixed, view->normal);
+  float(*facing)[NSVCD__SLICE] = facts + NSVCD__FACT_FACING;
+  nsvcd__v_store(facing[0], nsvcd__v3_dot(larger, smaller));
+  nsvcd__v_store(facing[1], nsvcd__v3_dot(larger, view->frame.x));
+  nsvcd__v_store(facing[2], nsvcd__v3_dot(smaller, view->frame.x));
+  float(*flat)[NSVCD__SLICE] = facts + NSVCD__FACT_FLAT;
+  nsvcd__v_store(flat[0], nsvcd__v_pick(zero, view->swap, pairs->flat[0], pairs->flat[1]));
+  nsvcd__v_store(flat[1], nsvcd__v_pick(zero, view->swap, pairs->flat[1], pairs->flat[0]));
+}
+
+// Scenes of the first `count` pairs of a slice. One step after the other, so that the stack of one
+// does not lie below that of the next.
+static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__scenes *scene) {
+  nsvcd__views view;
+  nsvcd__views_of(pairs, &view);
+  nsvcd__scenes_without_gaps(pairs, &view, scene);
+  nsvcd__tell_gaps(pairs, &view, count, scene->facts);
 }
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,

@@ -57,8 +57,12 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
     const size_t rows = left < NSVCD__ROWS ? left : NSVCD__ROWS;
     // The layers take some rows at a time.
     const size_t unused = nsvcd__round_up(rows, NSVCD__ROW_STEP) - rows;
+#if NSVCD__ROWS > 1
     float x[NSVCD__ROWS * NSVCD__DECODER_IN];
-    float logits[NSVCD__ROWS];
+#else
+    float *x = task->row;
+#endif
+    float said[NSVCD__ROWS][NSVCD__SAYINGS];
     for (size_t l = 0; l < rows; l += NSVCD__SLICE) {
       const size_t size = rows - l < NSVCD__SLICE ? rows - l : NSVCD__SLICE;
       nsvcd__pairs pairs;
@@ -67,8 +71,11 @@ static void nsvcd__decode(const nsvcd__task *task, nsvcd__candidate *const *cand
       nsvcd__invariants(&pairs, size, x + NSVCD__DECODER_IN * l);
     }
     memset(x + NSVCD__DECODER_IN * rows, 0, unused * NSVCD__DECODER_IN * sizeof *x);
-    nsvcd__decoder_logits(decoder, x, rows, task->settings.int8, logits);
-    for (size_t k = 0; k < rows; k++) candidates[first + k]->score = logits[k];
+    nsvcd__decoder_says(decoder, x, rows, task->settings.int8, said);
+    for (size_t k = 0; k < rows; k++) {
+      candidates[first + k]->score = said[k][NSVCD__SAYS_LOGIT];
+      candidates[first + k]->apart = said[k][NSVCD__SAYS_APART];
+    }
   }
 }
 
@@ -95,10 +102,18 @@ static int nsvcd__score(const nsvcd__task *task, nsvcd__candidates *kept, size_t
   return 1;
 }
 
+// The sum of the radii of a candidate's patches, metres.
+static float nsvcd__candidate_reach(const nsvcd__task *task,
+                                    const nsvcd__candidate *candidate) {
+  const float own = task->motion.scale * nsvcd__body_r(task->moving)[candidate->moving];
+  return task->motion.unit * (own + nsvcd__body_r(task->fixed)[candidate->fixed]);
+}
+
 // Answers with a candidate, of which a decoder has given the score.
 static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *candidate,
                                const nsvcd__decoder *decoder, nsvcd_opinion *out) {
   out->logit = candidate->score - task->settings.threshold;
+  out->distance = 0.1f * candidate->apart * nsvcd__candidate_reach(task, candidate);
   out->time = candidate->t_least;
   out->patch_a = candidate->moving;
   out->patch_b = candidate->fixed;
@@ -225,6 +240,7 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
   memset(&out, 0, sizeof out);
   out.asked = 1;
   out.logit = logit;
+  out.distance = HUGE_VALF;
   return out;
 }
 

@@ -152,6 +152,9 @@ static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *questi
   task->question = question;
 #ifndef NSVCD_NO_NETWORK
   task->decisive = NULL;
+#if NSVCD__ROWS == 1
+  task->row = (float *)(void *)query->broad_phase.met;
+#endif
 #endif
   return query;
 }

@@ -90,6 +90,11 @@ typedef struct nsvcd__task {
   nsvcd__settings settings;
   // written unless NULL
   nsvcd__decisive *decisive;
+#if NSVCD__ROWS == 1
+  // (DECODER_IN) the decoder's inputs, in memory that the search has no need of between two groups:
+  // stack is scarce where rows go one by one
+  float *row;
+#endif
 #endif
 } nsvcd__task;
 
@@ -122,8 +127,13 @@ typedef char nsvcd__proof_constants_hold
     [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
-typedef char nsvcd__network_constants_hold
-    [NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 96 && NSVCD__LATENT == 40 ? 1 : -1];
+typedef char
+    nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
+                                          NSVCD__LATENT == 40 &&
+                                          sizeof(float) * NSVCD__DECODER_IN <=
+                                              sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
+                                      ? 1
+                                      : -1];
 #endif
 
 // Lays a query out at base, which is aligned, or, where that is NULL, only counts. Returns the

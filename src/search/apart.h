@@ -104,11 +104,11 @@ typedef struct nsvcd__ranges {
 typedef struct nsvcd__sheets {
   // normals; how many were found, of which the last ones are kept; the one that parted last
   nsvcd__f3 planes[NSVCD__PLANES];
-  size_t found, best;
+  uint32_t found, best;
   float swell;  // of patches, shares of their radii
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
-  uint32_t moving_known, resting_known;
+  uint16_t moving_known, resting_known;
 } nsvcd__sheets;
 
 // Begins the search of a motion.
@@ -182,8 +182,8 @@ static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, 
     nsvcd__resting_ranges(search->fixed, h, normal, sheets->swell, &sheets->resting[n]);
   if (!(sheets->moving_known >> n & 1))
     nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
-  sheets->resting_known |= 1u << n;
-  sheets->moving_known |= 1u << n;
+  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
+  sheets->moving_known = (uint16_t)(sheets->moving_known | 1u << n);
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
@@ -231,7 +231,7 @@ static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t 
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) sheets->best = n;
+    if (met & parted) sheets->best = (uint32_t)n;
     met &= ~parted;
   }
   return met;
@@ -247,6 +247,17 @@ enum {
   NSVCD__DIRECTIONS
 };
 
+// Fills in how the moving body is turned in segment s.
+static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
+                                              nsvcd__passing *p) {
+  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
+  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
+  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
+  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
+  p->start = nsvcd__vmat3_set(&start);
+  p->end = nsvcd__vmat3_set(&end);
+}
+
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
 static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
@@ -255,17 +266,11 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
-  nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__chords *c = &search->members[s];
-  const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
-  const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
-  const nsvcd__mat3 end = nsvcd__mat3_mix(1, &start, 1, &turned);
-  const nsvcd__mat3 middle = nsvcd__mat3_mix(1, &start, 0.5f, &turned);
   nsvcd__passing p;
-  p.start = nsvcd__vmat3_set(&start);
-  p.end = nsvcd__vmat3_set(&end);
+  nsvcd__passing_turns(search, s, &p);
   for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
-    float directions[3][NSVCD__LANES];
+    nsvcd__f3 plane = {0, 0, 0};
     uint32_t parted = 0;
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
@@ -282,20 +287,26 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       } else if (n != NSVCD__ALONG_RESTING) {
         const float *areas = nsvcd__body_areas(moving) + i;
         const nsvcd__v3 area = nsvcd__v3_load_rows(areas, moving->padded);
+        const nsvcd__v3 before = nsvcd__vmat3_apply(p.start, area);
+        // halfway
         const nsvcd__v3 own =
-            nsvcd__v3_unit(nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), area));
+            nsvcd__v3_unit(nsvcd__v3_add(before, nsvcd__vmat3_apply(p.end, area)));
         u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
       }
-      nsvcd__v3_store(directions, l, u);
-      parted |= nsvcd__parted_along(&p, &rest, u) << l;
+      const uint32_t here = nsvcd__parted_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
+      if (here && !parted) {
+        float lanes[3 * NSVCD__SLICE];
+        nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
+        plane = nsvcd__f3_get(lanes + nsvcd__low_bit(here), NSVCD__SLICE);
+      }
+      parted |= here << l;
     }
-    parted &= met;
     met &= ~parted;
     if (!parted) continue;
     const size_t oldest = sheets->found++ % NSVCD__PLANES;
-    sheets->planes[oldest] = nsvcd__lane_of(directions, nsvcd__low_bit(parted));
-    sheets->moving_known &= ~(1u << oldest);
-    sheets->resting_known &= ~(1u << oldest);
+    sheets->planes[oldest] = plane;
+    sheets->moving_known = (uint16_t)(sheets->moving_known & ~(1u << oldest));
+    sheets->resting_known = (uint16_t)(sheets->resting_known & ~(1u << oldest));
   }
   return met;
 }

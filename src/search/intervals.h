@@ -109,6 +109,7 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
     candidate.t_least = nsvcd__time_in_segment(search, (size_t)least_segment[l], least[l]);
     candidate.depth = depth[l];
     candidate.score = NSVCD__NO_SCORE;
+    candidate.apart = 0;
     // Rounding must not put the least distance outside.
     if (candidate.t_enter > candidate.t_least) candidate.t_enter = candidate.t_least;
     if (candidate.t_exit < candidate.t_least) candidate.t_exit = candidate.t_least;
@@ -140,9 +141,10 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
 // segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
-static void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i, size_t j,
-                                       uint64_t wanted, const uint16_t *all_met, uint64_t cuts,
-                                       nsvcd__candidates *kept) {
+static NSVCD__APART void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+                                                    size_t j, uint64_t wanted,
+                                                    const uint16_t *all_met, uint64_t cuts,
+                                                    nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);

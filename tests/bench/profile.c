@@ -46,7 +46,7 @@ static void logits_of(const nsvcd__decoder *head, const float *x, size_t count, 
                       float *logits) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
-    nsvcd__decoder_logits(head, x + NSVCD__DECODER_IN * first, rows, int8, logits + first);
+    nsvcd__decoder_says(head, x + NSVCD__DECODER_IN * first, rows, int8, said + first);
   }
 }
 

@@ -188,7 +188,7 @@ _BodyFacts = _struct(
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
-                          swell=c_float)
+                          swell=c_float, of_logit=c_int)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
@@ -199,8 +199,8 @@ _Contact = _struct(
     triangle_b=c_uint32, patch_a=c_uint32, patch_b=c_uint32, id=c_uint32)
 _SafePlace = _struct("nsvcd_safe_place", time=c_float, a=_Pose, b=_Pose)
 _Opinion = _struct(
-    "nsvcd_opinion", asked=c_int, logit=c_float, time=c_float, patch_a=c_uint32, patch_b=c_uint32, candidates=c_size_t,
-    limited=c_int)
+    "nsvcd_opinion", asked=c_int, logit=c_float, distance=c_float, time=c_float, patch_a=c_uint32, patch_b=c_uint32,
+    candidates=c_size_t, limited=c_int)
 _Answer = _struct(
     "nsvcd_answer", verdict=c_int, by=c_int, why=c_int, inside=c_int, time=_Range, distance=_Range, safe=_SafePlace,
     depth=c_float, lift=c_float * 3, contact_count=c_size_t, contacts=_Contact * _MAX_CONTACTS, nearest=_Contact,
@@ -756,6 +756,7 @@ class Options(_Options):
     pairs      of patches that it looks at, 1 to 256; 8
     model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
     swell      of patches, a share of their radii, so that the logit rises before contact; 0
+    of_logit   sweep_gradient differentiates the logit, and not the distance
     """
     ask: Union[Ask, str] = Ask.HIT
     to: float = 0
@@ -772,6 +773,7 @@ class Options(_Options):
     precision: Union[Precision, str] = Precision.FLOAT
     recall: float = 0
     swell: float = 0
+    of_logit: bool = False
     _struct = _Question
 
     def __post_init__(self) -> None:
@@ -825,12 +827,14 @@ class Opinion(NamedTuple):
     """What the network thinks: nsvcd_opinion.
 
     logit       of collision, positive is yes
+    distance    metres, of the same pair: by how much it misses, or, negative, how deep it is; inf: no decoder was needed
     time        in [0, 1]: when the most suspicious pair comes closest
     patch_a, patch_b  that pair
     candidates  pairs of patches whose spheres meet, and that no plane parts
     limited     there were more than options.pairs let through
     """
     logit: float
+    distance: float
     time: float
     patch_a: int
     patch_b: int
@@ -902,10 +906,10 @@ def _contact_of(v: Any) -> Contact:
 def _answer_of(c: Any) -> Answer:
     v: Any = _FIELDS.unpack(c)
     contacts = [_contact_of(_CONTACT.unpack_from(c, _CONTACTS + k * _CONTACT.size)) for k in range(v[27])]
-    opinion = Opinion(v[42], v[43], v[44], v[45], v[46], bool(v[47])) if v[41] else None
+    opinion = Opinion(v[42], v[43], v[44], v[45], v[46], v[47], bool(v[48])) if v[41] else None
     return Answer(_VERDICTS[v[0]], _BYS[v[1]], _WHYS[v[2]], bool(v[3]), Range(v[4], v[5]), Range(v[6], v[7]),
                   SafePlace(v[8], v[9:12] + v[12:16], v[16:19] + v[19:23]), v[23], v[24:27], contacts,
-                  _contact_of(v[28:41]), opinion, v[48])
+                  _contact_of(v[28:41]), opinion, v[49])
 
 
 def poses_from_matrices(matrices: ArrayLike) -> Doubles:
@@ -1012,7 +1016,7 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
 
 
 class Gradient(NamedTuple):
-    """The network's answer, and the derivatives of its logit by the poses.
+    """The network's answer, and the derivatives of opinion.distance, or of the logit, by the poses.
 
     by_a, by_b  (k, 6) float32, one row for a body without poses: by a displacement of the body's origin (metres,
                 world), then by a small rotation about it (rotation vector, radians, world, applied on the left)
