@@ -38,7 +38,7 @@ endif
 .PHONY: test check-text check-rooms check-header check-examples check-newcomer check-gradient check-tiles check-fast-math check-levels
 .PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
 .PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
-.PHONY: bench bench-certificates bench-asks bench-casts bench-flags bench-level bench-scale bench-plan race profile instructions sizes
+.PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
 PLANNERS = build/dish_insertion build/bimanual_insertion build/mining_site
@@ -518,9 +518,11 @@ race: build/bench $(BENCH_FILES) $(call files,$(RACE))  ## the proof against the
 
 bench-scale: build/bench_scale  ## bytes and microseconds against triangles and against N: table, build/scale.svg
 	build/bench_scale
+ASKED = $(call files,standard hollow rest)
+bench-distance: build/bench_distance $(ASKED)  ## the network's distance and its gradient against exact margins
+	build/bench_distance $(ASKED)
 bench-level: build/bench_level  ## a level of 20 m as one body: encoding, memory, and motions of a frame
 	for n in 20000 60000 200000 1000000; do build/bench_level $$n $(or $(LEVEL_MOTIONS),200) || exit 1; done
-ASKED = $(call files,standard hollow rest)
 bench-certificates: build/bench_certificates $(call files,$(SETS))  ## bytes and milliseconds of certificates, on all sets
 	build/bench_certificates $(call files,$(SETS))
 bench-one-path:  ## what NSVCD_ONE_PATH costs

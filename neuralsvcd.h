@@ -895,9 +895,9 @@ typedef struct nsvcd_opinion {
   // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
   // decoder was needed
   float logit;
-  // metres, of the same pair: by how much it misses, or, negative, how deep it is, to within some
-  // hundredths of a patch's radius where that is within one radius. HUGE_VALF where no decoder was
-  // needed
+  // metres, of the same pair: by how much it misses, or, negative, how deep it is. Within a patch's
+  // radius of contact it is off by a tenth of that, or less, as a rule. HUGE_VALF where no decoder
+  // was needed
   float distance;
   // in [0,1]: when the most suspicious pair comes closest
   float time;
