@@ -402,18 +402,34 @@ static size_t body_of_family(shapes_rng *rng, family family) {
   return first + shapes_next(rng) % in_group[family];
 }
 
-// A problem near contact, or 0. wanted: 1 for a hit.
-static int problem_make(problem *p, worker *w, const model *const *models, const size_t *body_sizes,
-                        int wanted) {
-  shapes_rng *rng = &w->rng;
-  double *path = w->path;
-  double offset[3], direction[3], low[3], high[3];
+// Where the moving body's path is, and the unit vector along which it is moved.
+typedef struct placement {
+  double offset[3], direction[3];
+} placement;
+
+// Moves the path by the offset and so much along the direction.
+static void put_at(problem *p, const double *path, const placement *place, double along) {
+  double offset[3];
+  for (int k = 0; k < 3; k++) offset[k] = place->offset[k] + along * place->direction[k];
+  put(p, path, offset);
+}
+
+static int is_upright(const problem *p) {
+  return p->kind == ON_FLOOR || p->kind == ON_FACE;
+}
+static double extent_of(const problem *p, size_t n) {
+  return p->scale[n] * SET_EXTENT;
+}
+
+// Draws the kind, the bodies, their sizes, and of the path its length and how far it turns. 0: one
+// body was drawn twice.
+static int problem_draw(problem *p, shapes_rng *rng, const model *const *models,
+                        const size_t *body_sizes, double *length, double *angle) {
+  static const family families[KINDS][2] = {{SOLID, SOLID},   {SOLID, HOLLOW}, {SOLID, SOLID},
+                                            {RESTING, FLOOR}, {SOLID, SOLID},  {SOLID, SHELL}};
   int at = shapes_pick(rng, 100);
   p->kind = OPEN;
   while (at >= kind_shares[p->kind]) at -= kind_shares[p->kind], p->kind = (kind)(p->kind + 1);
-  const int upright = p->kind == ON_FLOOR || p->kind == ON_FACE;
-  const family families[KINDS][2] = {{SOLID, SOLID},   {SOLID, HOLLOW}, {SOLID, SOLID},
-                                     {RESTING, FLOOR}, {SOLID, SOLID},  {SOLID, SHELL}};
   for (size_t n = 0; n < 2; n++) {
     family f = families[p->kind][n];
     if (f == SOLID && shapes_pick(rng, 8) == 0) f = shapes_pick(rng, 2) ? RESTING : HOLLOW;
@@ -423,123 +439,139 @@ static int problem_make(problem *p, worker *w, const model *const *models, const
     p->models[n] = models[p->body[n]];
   }
   if (p->body[0] == p->body[1]) return 0;
-  const double big[2] = {p->kind == OPEN ? 0.1 : p->kind == ANY ? 0.05 : 0.15, 0.45};
-  double size_a = shapes_uniform(rng, 0.1, 0.4);
-  if (p->kind == INTO || p->kind == CAVITY) size_a = shapes_uniform(rng, 0.02, 0.1);
-  if (p->kind == ANY || upright) size_a = log_uniform(rng, 0.02, 0.4);
-  const double size_b =
-      p->kind == ANY ? log_uniform(rng, 0.05, 0.4) : shapes_uniform(rng, big[0], big[1]);
-  double length = shapes_uniform(rng, 0.05, 0.6);
-  if (p->kind == INTO || p->kind == CAVITY) length = shapes_uniform(rng, 0.02, 0.3);
-  if (p->kind == ANY) length = log_uniform(rng, 0.0005, 0.4);
-  double angle = shapes_uniform(rng, 0, 2.1);
-  if (p->kind == ANY) angle = shapes_pick(rng, 5) ? shapes_uniform(rng, 0, 3.1) : 0;
-  p->scale[0] = size_a / SET_EXTENT;
-  p->scale[1] = size_b / SET_EXTENT;
+  const int is_small = p->kind == INTO || p->kind == CAVITY;
+  double size = shapes_uniform(rng, 0.1, 0.4);
+  if (is_small) size = shapes_uniform(rng, 0.02, 0.1);
+  if (p->kind == ANY || is_upright(p)) size = log_uniform(rng, 0.02, 0.4);
+  p->scale[0] = size / SET_EXTENT;
+  size = p->kind == ANY ? log_uniform(rng, 0.05, 0.4)
+                        : shapes_uniform(rng, p->kind == OPEN ? 0.1 : 0.15, 0.45);
+  p->scale[1] = size / SET_EXTENT;
+  *length = shapes_uniform(rng, 0.05, 0.6);
+  if (is_small) *length = shapes_uniform(rng, 0.02, 0.3);
+  if (p->kind == ANY) *length = log_uniform(rng, 0.0005, 0.4);
+  *angle = shapes_uniform(rng, 0, 2.1);
+  if (p->kind == ANY) *angle = shapes_pick(rng, 5) ? shapes_uniform(rng, 0, 3.1) : 0;
   p->count = p->kind == ANY && shapes_pick(rng, 6) == 0 ? 1 : POSES;
   const int swelling = shapes_pick(rng, 10);
-  p->swell = swelling < 5   ? 0
-             : swelling < 7 ? shapes_uniform(rng, 0, 0.05)
-             : swelling < 9 ? 0.25
-                            : 1;
+  p->swell = swelling < 9 ? 0.25 : 1;
+  if (swelling < 7) p->swell = swelling < 5 ? 0 : shapes_uniform(rng, 0, 0.05);
+  return 1;
+}
 
-  // 1. where, and which way
-  shapes_direction(rng, direction);
-  if (upright) {
+// A path, somewhere about the other body or above it, and a direction in which to go from there.
+static void problem_place(problem *p, shapes_rng *rng, double length, double angle, double *path,
+                          placement *place) {
+  const model *other = p->models[1];
+  double low[3], high[3];
+  shapes_direction(rng, place->direction);
+  if (is_upright(p)) {
     double up[3] = {0, 0, 1};
-    if (p->kind == ON_FACE || p->models[1]->family != FLOOR) random_face(p->models[1], rng, up);
-    path_on(p, rng, up, path, offset);
-    memcpy(direction, up, sizeof direction);
-  } else {
-    random_path(rng, length, angle, path);
-    const double *on = path + 7 * (shapes_next(rng) % POSES);
-    const double wide = p->kind == CAVITY ? 0.3 : p->kind == INTO ? 0.5 : 0.7;
-    bounds_of(p->models[1], p->scale[1], low, high);
-    for (int k = 0; k < 3; k++) {
-      const double reach = 0.5 * (high[k] - low[k]) + (p->kind == OPEN ? 0.3 * size_a : 0);
-      offset[k] = 0.5 * (low[k] + high[k]) + 2 * wide * reach * shapes_uniform(rng, -1, 1) - on[k];
-    }
+    if (p->kind == ON_FACE || other->family != FLOOR) random_face(other, rng, up);
+    path_on(p, rng, up, path, place->offset);
+    memcpy(place->direction, up, sizeof up);
+    return;
   }
+  random_path(rng, length, angle, path);
+  const double *on = path + 7 * (shapes_next(rng) % POSES);
+  const double wide = p->kind == CAVITY ? 0.3 : p->kind == INTO ? 0.5 : 0.7;
+  bounds_of(other, p->scale[1], low, high);
+  for (int k = 0; k < 3; k++) {
+    const double beyond = p->kind == OPEN ? 0.3 * extent_of(p, 0) : 0;
+    const double reach = 0.5 * (high[k] - low[k]) + beyond;
+    const double middle = 0.5 * (low[k] + high[k]);
+    place->offset[k] = middle + 2 * wide * reach * shapes_uniform(rng, -1, 1) - on[k];
+  }
+}
 
-  // 2. free at `out` along the direction, and not at `in`
-  nsvcd_answer answer;
-  double at_step[3];
-#define AT(s)                                                              \
-  do {                                                                     \
-    for (int k = 0; k < 3; k++) at_step[k] = offset[k] + (s)*direction[k]; \
-    put(p, path, at_step);                                                 \
-  } while (0)
+// Goes along the direction until the bodies are free of each other and nearly touch. On success
+// *answer is about that, with the least distance.
+static int problem_touch(problem *p, worker *w, placement *place, nsvcd_answer *answer) {
+  // along the direction: free, and not free
   double out = 0;
   double in = 0;
-  AT(0);
-  nsvcd_verdict verdict = ask(p, w, NSVCD_ASK_HIT, &answer);
+  put_at(p, w->path, place, 0);
+  nsvcd_verdict verdict = ask(p, w, NSVCD_ASK_HIT, answer);
   if (verdict == NSVCD_UNDECIDED) return 0;
   const int begins_free = verdict == NSVCD_FREE;
-  double step = (begins_free ? 0.1 : 0.02) * shapes_uniform(rng, 0.2, 1) * fmin(size_a, size_b);
-  if (begins_free && !upright) {
+  const double size = fmin(extent_of(p, 0), extent_of(p, 1));
+  double step = (begins_free ? 0.1 : 0.02) * shapes_uniform(&w->rng, 0.2, 1) * size;
+  if (begins_free && !is_upright(p)) {
     // towards the middle of the other, from the middle of the motion
     double norm = 0;
     for (int k = 0; k < 3; k++) {
-      direction[k] = offset[k] + path[7 * (POSES / 2) + k] + 0.3 * size_b * shapes_normal(rng);
-      norm += direction[k] * direction[k];
+      const double from = place->offset[k] + w->path[7 * (POSES / 2) + k];
+      place->direction[k] = from + 0.3 * extent_of(p, 1) * shapes_normal(&w->rng);
+      norm += place->direction[k] * place->direction[k];
     }
-    for (int k = 0; k < 3; k++) direction[k] /= sqrt(fmax(norm, 1e-12));
+    for (int k = 0; k < 3; k++) place->direction[k] /= sqrt(fmax(norm, 1e-12));
   }
+  const nsvcd_verdict wanted = begins_free ? NSVCD_HIT : NSVCD_FREE;
+  double *end = begins_free ? &in : &out;
   for (int tries = 0;; tries++) {
+    const double before = *end;
     if (tries == 40) return 0;
-    if (begins_free)
-      in -= step;
-    else
-      out += step;
+    *end += begins_free ? -step : step;
     if (tries > 6) step *= 1.25;
-    AT(begins_free ? in : out);
-    verdict = ask(p, w, NSVCD_ASK_HIT, &answer);
+    put_at(p, w->path, place, *end);
+    verdict = ask(p, w, NSVCD_ASK_HIT, answer);
     if (verdict == NSVCD_UNDECIDED) return 0;
-    if (begins_free ? verdict == NSVCD_HIT : verdict == NSVCD_FREE) break;
     if (begins_free)
-      out = in;
+      out = before;
     else
-      in = out;
+      in = before;
+    if (verdict == wanted) break;
   }
   while (out - in > 2e-4) {
     const double middle = 0.5 * (in + out);
-    AT(middle);
-    verdict = ask(p, w, NSVCD_ASK_HIT, &answer);
-    if (verdict == NSVCD_FREE)
+    put_at(p, w->path, place, middle);
+    if (ask(p, w, NSVCD_ASK_HIT, answer) == NSVCD_FREE)
       out = middle;
     else
       in = middle;
   }
-  AT(out);
-  if (ask(p, w, NSVCD_ASK_DISTANCE, &answer) != NSVCD_FREE) return 0;
-  const double gap = 0.5 * (double)(answer.distance.low + answer.distance.high);
-  if (answer.distance.high - answer.distance.low > 4e-5f ||
-      answer.nearest.triangle_a == NSVCD_NO_TRIANGLE)
-    return 0;
-  memcpy(offset, at_step, sizeof offset);
+  put_at(p, w->path, place, out);
+  for (int k = 0; k < 3; k++) place->offset[k] += out * place->direction[k];
+  return ask(p, w, NSVCD_ASK_DISTANCE, answer) == NSVCD_FREE &&
+         answer->distance.high - answer->distance.low <= 4e-5f &&
+         answer->nearest.triangle_a != NSVCD_NO_TRIANGLE;
+}
 
-  // 3. on to a gap or a depth
+// The gap, or, negative, the depth that a problem is to have.
+static double problem_margin(const problem *p, shapes_rng *rng, int hit) {
   static const double sigmas[2][4] = {{0.008, 0.003, 0.001, 0.0004}, {0.016, 0.005, 0.002, 0.0005}};
-  const double small = fmin(size_a, size_b);
-  const double limit = fmin(1, small / 0.1);
-  double margin = fabs(shapes_normal(rng)) * sigmas[wanted][shapes_pick(rng, 4)] * limit;
-  if (upright && shapes_pick(rng, 2)) margin = log_uniform(rng, 1e-4, wanted ? 0.005 : 0.02);
+  const double size = fmin(extent_of(p, 0), extent_of(p, 1));
+  double margin = fabs(shapes_normal(rng)) * sigmas[hit][shapes_pick(rng, 4)] * fmin(1, size / 0.1);
+  if (is_upright(p) && shapes_pick(rng, 2)) margin = log_uniform(rng, 1e-4, hit ? 0.005 : 0.02);
   if (p->swell > 0.2) {
     // any distance at which the swollen patches may meet
-    const nsvcd_body *body = p->models[0]->network[p->size[0]];
-    const nsvcd_body *other = p->models[1]->network[p->size[1]];
-    const double radius =
-        (double)nsvcd__body_r(body)[shapes_next(rng) % body->patches] * p->scale[0] +
-        (double)nsvcd__body_r(other)[shapes_next(rng) % other->patches] * p->scale[1];
-    margin = shapes_uniform(rng, 0, 0.6 * fmin(p->swell, 0.8)) * radius;
+    double radii = 0;
+    for (size_t n = 0; n < 2; n++) {
+      const nsvcd_body *body = p->models[n]->network[p->size[n]];
+      radii += (double)nsvcd__body_r(body)[shapes_next(rng) % body->patches] * p->scale[n];
+    }
+    margin = shapes_uniform(rng, 0, 0.6 * fmin(p->swell, 0.8)) * radii;
   }
-  margin = fmin(margin, 0.3 * small) * (wanted ? -1 : 1);
-  for (int k = 0; k < 3; k++) direction[k] = (double)answer.nearest.normal[k];
-  AT(margin - gap);
-  verdict = ask(p, w, wanted ? NSVCD_ASK_HIT : NSVCD_ASK_DISTANCE, &answer);
-  if (verdict != (wanted ? NSVCD_HIT : NSVCD_FREE)) return 0;
-  p->margin = margin;
-  if (!wanted) p->margin = 0.5 * (double)(answer.distance.low + answer.distance.high);
+  margin = fmin(margin, 0.3 * size);
+  return hit ? -margin : margin;
+}
+
+// A problem near contact, or 0.
+static int problem_make(problem *p, worker *w, const model *const *models, const size_t *body_sizes,
+                        int hit) {
+  double length, angle;
+  placement place;
+  nsvcd_answer answer;
+  if (!problem_draw(p, &w->rng, models, body_sizes, &length, &angle)) return 0;
+  problem_place(p, &w->rng, length, angle, w->path, &place);
+  if (!problem_touch(p, w, &place, &answer)) return 0;
+  const double gap = 0.5 * (double)(answer.distance.low + answer.distance.high);
+  p->margin = problem_margin(p, &w->rng, hit);
+  for (int k = 0; k < 3; k++) place.direction[k] = (double)answer.nearest.normal[k];
+  put_at(p, w->path, &place, p->margin - gap);
+  const nsvcd_verdict verdict = ask(p, w, hit ? NSVCD_ASK_HIT : NSVCD_ASK_DISTANCE, &answer);
+  if (verdict != (hit ? NSVCD_HIT : NSVCD_FREE)) return 0;
+  if (!hit) p->margin = 0.5 * (double)(answer.distance.low + answer.distance.high);
   return fabs(p->margin) > LEAST_MARGIN;
 }
 
