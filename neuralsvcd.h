@@ -14908,14 +14908,16 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
       radii[n][l] = scale * patch.radius;
       pairs->z[n][l] = nsvcd__body_latents(body) + NSVCD__LATENT * i;
       pairs->tips[n][l] = nsvcd__group_tips(body, i / NSVCD__GROUP) + i % NSVCD__GROUP;
-      // the normal area, over the square of the radius; a patch that is closed has none
+      // a patch that is closed has no normal; bodies that were loaded may hold any numbers
       const float inverse = patch.radius > 0 ? 1 / patch.radius : 0;
-      const nsvcd__f3 stored = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
-      const nsvcd__f3 area = nsvcd__f3_scale(nsvcd__f3_scale(stored, inverse), inverse);
-      const float length = nsvcd__f3_length(area);
-      const nsvcd__f3 normal = nsvcd__f3_scale(area, length > 1e-6f ? 1 / length : 0);
+      const nsvcd__f3 area = nsvcd__f3_get(nsvcd__body_areas(body) + i, body->padded);
+      const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
+      const nsvcd__f3 even = nsvcd__f3_scale(area, most > 1e-37f ? 1 / most : 0);
+      const float length = nsvcd__f3_length(even);
+      const float share = most * inverse * (length * inverse);
+      const nsvcd__f3 normal = nsvcd__f3_scale(even, share > 1e-6f ? 1 / length : 0);
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
-      flat[n][l] = fminf(0.31830989f * length, 2);
+      flat[n][l] = fminf(0.31830989f * share, 2);
     }
     times[0][l] = candidate->t_enter;
     times[1][l] = candidate->t_exit;

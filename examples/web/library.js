@@ -67,8 +67,8 @@ async function createLibrary(response) {
   // nsvcd_answer.
   function answer() {
     const at = c.web_answer();
-    const f = floats(at, 101);
-    const w = words(at, 101);
+    const f = floats(at, 102);
+    const w = words(at, 102);
     return {
       verdict: w[0],
       by: w[1],

@@ -17,7 +17,7 @@
 #include "../scenery/mesh_files.h"
 
 // library.js counts on it.
-_Static_assert(sizeof(nsvcd_answer) == 4 * 101 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
+_Static_assert(sizeof(nsvcd_answer) == 4 * 102 && sizeof(nsvcd_pose) == 4 * 7, "a field is a word");
 _Static_assert(offsetof(nsvcd_certificate, size) == 4 * 6, "behind a double");
 
 // What printf of wasi-libc would ask a host for; only snprintf is used, which does not.
