@@ -83,7 +83,7 @@ static void cost_is_bounded(void) {
     }
     memset(&tally, 0, sizeof tally);
     const size_t segments = cost_search(&s);
-    const size_t bound = (NSVCD__SLICE < NSVCD__LANES ? 34 : 18) * segments * groups + 3 * segments;
+    const size_t bound = 18 * segments * groups + 3 * segments;
     CHECK_GE(bound, tally.tests);
     share = fmax(share, (double)tally.tests / (double)bound);
     for (size_t n = 0; n < 12; n++) {

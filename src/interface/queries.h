@@ -279,10 +279,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
-// spheres against one; by the network, for motions that turn by more than 45 degrees, on machines
-// of less than 16 lanes, 34 S Ga Gb. Of bodies of more than 512 patches only those groups count
-// that the other body comes near, and some 16 tests more for each level of spheres and each 16
-// spheres of it that it comes near. Then a proof takes question.work units. The network takes the
+// spheres against one. Of bodies of more than 512 patches only those groups count that the other
+// body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
+// it comes near. Then a proof takes question.work units. The network takes the
 // tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances for
 // each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
