@@ -7985,6 +7985,10 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
                       nsvcd__v_load(p + 2 * stride));
 }
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
+                      nsvcd__v_load_int8(p + 2 * stride));
+}
 NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
   nsvcd__v_store(p, a.x);
   nsvcd__v_store(p + stride, a.y);
@@ -9410,9 +9414,7 @@ NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *
   *low = nsvcd__v_set(1e30f);
   *high = nsvcd__v_set(-1e30f);
   for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
-                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__LANES);
     const nsvcd__v along = nsvcd__v3_dot(q, u);
     *low = nsvcd__v_min(*low, along);
     *high = nsvcd__v_max(*high, along);
@@ -15067,11 +15069,6 @@ static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *
   }
 }
 
-static nsvcd__v3 nsvcd__tips_load(const int8_t *tips) {
-  return nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__SLICE),
-                      nsvcd__v_load_int8(tips + 2 * NSVCD__SLICE));
-}
-
 // What a direction u becomes for a patch that turns on by w, to the second order: its product with
 // q is u . (q + w x q + w x (w x q) / 2).
 static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
@@ -15100,8 +15097,8 @@ static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__
     high[d] = nsvcd__v_set(-1e30f);
   }
   for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
-    const nsvcd__v3 q = nsvcd__tips_load(tips);
-    const nsvcd__v3 x = nsvcd__tips_load(tips + NSVCD__TIPS * size);
+    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__SLICE);
+    const nsvcd__v3 x = nsvcd__v3_load_int8(tips + NSVCD__TIPS * size, NSVCD__SLICE);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));
@@ -17021,13 +17018,12 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
 }
 
 // The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. moves: 0 at rest, else 1.
-static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__view *view,
-                                        float moves, const float *by, nsvcd__by_pair *out,
-                                        nsvcd__by_view *seen) {
+// by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
+static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__views *views,
+                                        const nsvcd__view *view, float moves, const float *by,
+                                        nsvcd__by_pair *out, nsvcd__by_view *seen) {
   const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
   nsvcd__gap_pair pair;
-  nsvcd__views views;
   nsvcd__gap_axes axes;
   nsvcd__gap_axis made[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
@@ -17040,8 +17036,7 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
   nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
-  nsvcd__views_of(pairs, &views);
-  nsvcd__gap_axes_of(pairs, &views, &axes);
+  nsvcd__gap_axes_of(pairs, views, &axes);
   nsvcd__tips_gather(pairs, 1, tips);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
@@ -17114,7 +17109,7 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(pairs, &views, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);
@@ -17832,7 +17827,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__times_are_valid NSVCD__AT(times_are_valid)
 #define nsvcd__tips_along NSVCD__AT(tips_along)
 #define nsvcd__tips_gather NSVCD__AT(tips_gather)
-#define nsvcd__tips_load NSVCD__AT(tips_load)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
@@ -17864,6 +17858,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v3_fma NSVCD__AT(v3_fma)
 #define nsvcd__v3_length NSVCD__AT(v3_length)
 #define nsvcd__v3_load NSVCD__AT(v3_load)
+#define nsvcd__v3_load_int8 NSVCD__AT(v3_load_int8)
 #define nsvcd__v3_load_rows NSVCD__AT(v3_load_rows)
 #define nsvcd__v3_max NSVCD__AT(v3_max)
 #define nsvcd__v3_min NSVCD__AT(v3_min)

@@ -216,15 +216,6 @@ static void about(const double *axis, double angle, double *out) {
   for (int k = 0; k < 3; k++) out[k] = sin(angle / 2) * axis[k];
   out[3] = cos(angle / 2);
 }
-static void turned(const double *q, const double *v, double *out) {
-  double t[3];
-  for (int k = 0; k < 3; k++)
-    t[k] = 2 * (q[(k + 1) % 3] * v[(k + 2) % 3] - q[(k + 2) % 3] * v[(k + 1) % 3]);
-  for (int k = 0; k < 3; k++) {
-    const double cross = q[(k + 1) % 3] * t[(k + 2) % 3] - q[(k + 2) % 3] * t[(k + 1) % 3];
-    out[k] = v[k] + q[3] * t[k] + cross;
-  }
-}
 // The rotation that takes unit vector a to b.
 static void from_to(const double *a, const double *b, double *out) {
   const double w = 1 + a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -343,13 +343,12 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
 }
 
 // The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
-// by axis 1, to `seen`. moves: 0 at rest, else 1.
-static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__view *view,
-                                        float moves, const float *by, nsvcd__by_pair *out,
-                                        nsvcd__by_view *seen) {
+// by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
+static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__views *views,
+                                        const nsvcd__view *view, float moves, const float *by,
+                                        nsvcd__by_pair *out, nsvcd__by_view *seen) {
   const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
   nsvcd__gap_pair pair;
-  nsvcd__views views;
   nsvcd__gap_axes axes;
   nsvcd__gap_axis made[NSVCD__GAPS];
   nsvcd__f3 by_u[NSVCD__GAPS];
@@ -362,8 +361,7 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
   nsvcd__first_lanes(&pairs->r1, 1, &pair.radii[0]);
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
-  nsvcd__views_of(pairs, &views);
-  nsvcd__gap_axes_of(pairs, &views, &axes);
+  nsvcd__gap_axes_of(pairs, views, &axes);
   nsvcd__tips_gather(pairs, 1, tips);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
@@ -436,7 +434,7 @@ static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const f
   seen.torque = nsvcd__f3_add(on_moving, on_fixed);
   nsvcd__by_facts(&view, x + facts, by_x + facts, &seen);
   memset(by, 0, sizeof *by);
-  nsvcd__by_gaps(pairs, &view, fabsf(sign), by_x + facts, by, &seen);
+  nsvcd__by_gaps(pairs, &views, &view, fabsf(sign), by_x + facts, by, &seen);
   nsvcd__by_frame(&view, &seen);
 
   const nsvcd__f3 lean1 = nsvcd__f3_scale(view.normal, view.swap * view.k1);

@@ -288,6 +288,10 @@ NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_rows(const float *p, size_t stride) {
   return nsvcd__v3_of(nsvcd__v_load(p), nsvcd__v_load(p + stride),
                       nsvcd__v_load(p + 2 * stride));
 }
+NSVCD__INLINE nsvcd__v3 nsvcd__v3_load_int8(const int8_t *p, size_t stride) {
+  return nsvcd__v3_of(nsvcd__v_load_int8(p), nsvcd__v_load_int8(p + stride),
+                      nsvcd__v_load_int8(p + 2 * stride));
+}
 NSVCD__INLINE void nsvcd__v3_store_rows(nsvcd__v3 a, float *p, size_t stride) {
   nsvcd__v_store(p, a.x);
   nsvcd__v_store(p + stride, a.y);

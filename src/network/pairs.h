@@ -394,11 +394,6 @@ static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *
   }
 }
 
-static nsvcd__v3 nsvcd__tips_load(const int8_t *tips) {
-  return nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__SLICE),
-                      nsvcd__v_load_int8(tips + 2 * NSVCD__SLICE));
-}
-
 // What a direction u becomes for a patch that turns on by w, to the second order: its product with
 // q is u . (q + w x q + w x (w x q) / 2).
 static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
@@ -427,8 +422,8 @@ static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__
     high[d] = nsvcd__v_set(-1e30f);
   }
   for (size_t k = 0; k < NSVCD__TIPS; k++, tips += size) {
-    const nsvcd__v3 q = nsvcd__tips_load(tips);
-    const nsvcd__v3 x = nsvcd__tips_load(tips + NSVCD__TIPS * size);
+    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__SLICE);
+    const nsvcd__v3 x = nsvcd__v3_load_int8(tips + NSVCD__TIPS * size, NSVCD__SLICE);
     for (size_t d = 0; d < NSVCD__GAPS; d++) {
       low[d] = nsvcd__v_min(low[d], nsvcd__v3_dot(own[d], q));
       high[d] = nsvcd__v_max(high[d], nsvcd__v3_dot(other[d], x));

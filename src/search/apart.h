@@ -55,9 +55,7 @@ NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *
   *low = nsvcd__v_set(1e30f);
   *high = nsvcd__v_set(-1e30f);
   for (size_t k = 0; k < NSVCD__TIPS; k++, tips += 3 * NSVCD__LANES) {
-    const nsvcd__v3 q =
-        nsvcd__v3_of(nsvcd__v_load_int8(tips), nsvcd__v_load_int8(tips + NSVCD__LANES),
-                     nsvcd__v_load_int8(tips + 2 * NSVCD__LANES));
+    const nsvcd__v3 q = nsvcd__v3_load_int8(tips, NSVCD__LANES);
     const nsvcd__v along = nsvcd__v3_dot(q, u);
     *low = nsvcd__v_min(*low, along);
     *high = nsvcd__v_max(*high, along);
