@@ -432,7 +432,7 @@ static const family families[] = {
     {"tiny or huge", tiny_or_huge, 0.004, 0.001, 5e-06, 0.002},
     {"of unlike size", of_unlike_size, 0.001, 0.001, 2e-06, 0.0001},
     {"one patch each", one_patch_each, 0.002, 0.001, 2e-06, 0.002},
-    {"grazing spheres", grazing_spheres, 0.34, 0.055, 0.0006, 1},
+    {"grazing spheres", grazing_spheres, 0.34, 0.06, 0.0006, 1},
     {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0.001, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0.001, 2e-06, 0.0001},
