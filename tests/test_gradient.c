@@ -422,7 +422,7 @@ static const family families[] = {
     {"many samples", many_samples, 0.001, 0.001, 3e-06, 0.0001},
     {"at rest", at_rest, 0.004, 0.001, 0.0001, 0.004},
     {"slow", slow, 0.011, 0.0015, 4e-05, 0.01},
-    {"nearly along the line", nearly_along_the_line, 0.03, 0.001, 3e-06, 0.002},
+    {"nearly along the line", nearly_along_the_line, 0.03, 0.001, 4e-06, 0.002},
     {"along the line", along_the_line, 0.12, 0.001, 4e-06, 1},
     {"turn about the pair", turn_about_the_pair, 0.0115, 0.001, 4e-06, 0.01},
     {"turn about the origin", turn_about_the_origin, 0.0015, 0.001, 2e-06, 0.0001},
@@ -436,7 +436,7 @@ static const family families[] = {
     {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0.001, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0.001, 2e-06, 0.0001},
-    {"at their times", at_their_times, 0.001, 0.001, 2e-06, 0.0001},
+    {"at their times", at_their_times, 0.001, 0.001, 3e-06, 0.0001},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
 #define SHALLOW 12

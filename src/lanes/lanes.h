@@ -328,3 +328,33 @@ static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
                       nsvcd__v_pick(length, least, zero, unit.y),
                       nsvcd__v_pick(length, least, zero, unit.z));
 }
+
+// The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
+static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
+  return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
+}
+
+// A ray in a body's frame, so wide.
+typedef struct nsvcd__beam {
+  nsvcd__f3 from, along;  // a unit vector
+  float width;
+} nsvcd__beam;
+
+// A filter of a walk: spheres that a beam meets.
+static uint32_t nsvcd__is_on_beam(const void *what, nsvcd__spheres all) {
+  const nsvcd__beam *beam = (const nsvcd__beam *)what;
+  uint32_t met = 0;
+  NSVCD__EACH_SLICE(l) {
+    const nsvcd__v3 n = nsvcd__v3_set(beam->along);
+    const nsvcd__v3 from = nsvcd__v3_set(beam->from);
+    const nsvcd__v3 d = nsvcd__v3_sub(nsvcd__v3_centres(all, l), from);
+    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
+    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), beam->width);
+    const nsvcd__v square = nsvcd__v3_dot(off, off);
+    const nsvcd__v limit = nsvcd__v_signed_square(reach);
+    const nsvcd__v behind = nsvcd__v_negate(reach);
+    const uint32_t ahead = nsvcd__v_le(behind, nsvcd__v3_dot(d, n));
+    met |= (ahead & nsvcd__v_le(square, limit)) << l;
+  }
+  return met;
+}

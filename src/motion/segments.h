@@ -179,8 +179,9 @@ typedef struct nsvcd__search {
   uint16_t order[NSVCD__TILE_SLOTS];
   // how many they are, and which of them is being searched
   size_t steps, step;
-  // fixed groups that it has yet to be searched against
+  // fixed groups that it has yet to be searched against, and which of them is next
   uint32_t waiting;
+  size_t at;
   uint64_t posed;  // segments for which members[] is filled
   // no part of these members is farther from the body's origin
   float remote;
@@ -722,11 +723,6 @@ static void nsvcd__chords_of_members(nsvcd__segments *b, size_t s, nsvcd__sphere
     const nsvcd__v reach = nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);
     nsvcd__chords_store(out, l, start, way, reach);
   }
-}
-
-// The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
-static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
-  return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
 }
 
 // Squared distance of the chord from the resting centre. d: from that centre to the start of the

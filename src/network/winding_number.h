@@ -16,7 +16,7 @@
 // and of what is above them, where the place is farther than NSVCD__DIPOLE of their spheres' radii:
 // w is then within 0.05 of the sum over all patches (tests/test_level.c).
 // Cost: at most NSVCD__PLACES * N distances each way, where one body's centres lie in the other's
-// sphere; of large bodies only those of groups nearby.
+// sphere and the straight way out of it is barred; of large bodies only those of groups nearby.
 #pragma once
 #include "../motion/segments.h"
 
@@ -194,6 +194,23 @@ static size_t nsvcd__next_place(nsvcd__places *places, uint32_t marked) {
   return next;
 }
 
+// Does a patch's ball lie on the straight way out of a body, from its centre on? A place from which
+// there is none is outside: a closed surface would bar the way.
+static int nsvcd__way_out_is_barred(const nsvcd_body *body, nsvcd__f3 place) {
+  const nsvcd__f3 away = nsvcd__f3_sub(place, nsvcd__f3_load(body->centre));
+  const float length = nsvcd__f3_length(away);
+  const nsvcd__f3 along = nsvcd__f3_scale(away, length > 0 ? 1 / length : 0);
+  const nsvcd__beam out = {place, along, NSVCD__ROUNDING * body->extent};
+  const nsvcd__spheres patches = nsvcd__body_patches(body);
+  nsvcd__walk walk;
+  size_t g;
+  nsvcd__walk_begin(&walk, body, nsvcd__is_on_beam, &out);
+  while (nsvcd__walk_next(&walk, &g)) {
+    if (nsvcd__is_on_beam(&out, nsvcd__spheres_from(patches, NSVCD__GROUP * g))) return 1;
+  }
+  return 0;
+}
+
 // 1 if `inner`, of this scale and at this pose in the frame of `outer`, or a part of it, lies
 // inside that.
 static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, float scale,
@@ -215,6 +232,10 @@ static int nsvcd__is_inside(const nsvcd_body *inner, const nsvcd_body *outer, fl
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 off = nsvcd__v3_sub(nsvcd__v3_load(places.at, l), centre);
     within |= nsvcd__v_le(nsvcd__v3_length(off), nsvcd__v_set(outer->radius)) << l;
+  }
+  for (uint32_t left = within; left; left &= left - 1) {
+    const size_t k = nsvcd__low_bit(left);
+    if (!nsvcd__way_out_is_barred(outer, nsvcd__lane_of(places.at, k))) within &= ~(1u << k);
   }
   if (!within) return 0;
   nsvcd__places_measure(outer, &places);

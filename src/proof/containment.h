@@ -51,25 +51,6 @@ static int nsvcd__ray_crosses(const nsvcd__ray *ray, const nsvcd__d3 *t, double 
   return slope > 0 ? 1 : slope < 0 ? -1 : 0;
 }
 
-// Lanes of 16 spheres, in the body's frame, that the ray meets; a filter of a walk.
-static uint32_t nsvcd__is_on_ray(const void *what, nsvcd__spheres all) {
-  const nsvcd__ray *ray = (const nsvcd__ray *)what;
-  const nsvcd__f3 from = nsvcd__f3_round(ray->from);
-  const nsvcd__f3 direction = nsvcd__f3_round(ray->direction);
-  uint32_t met = 0;
-  NSVCD__EACH_SLICE(l) {
-    const nsvcd__v3 centre = nsvcd__v3_centres(all, l);
-    const nsvcd__v3 n = nsvcd__v3_set(direction);
-    const nsvcd__v3 d = nsvcd__v3_sub(centre, nsvcd__v3_set(from));
-    const nsvcd__v3 off = nsvcd__v3_cross(d, n);
-    const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(all.r + l), ray->rounding);
-    const nsvcd__v square = nsvcd__v3_dot(off, off);
-    const uint32_t near_line = nsvcd__v_le(square, nsvcd__v_signed_square(reach));
-    met |= (near_line & nsvcd__v_le(nsvcd__v_negate(reach), nsvcd__v3_dot(d, n))) << l;
-  }
-  return met;
-}
-
 // Is the triangle new to the list of those that a ray has crossed? Then it is added; *unclear if
 // there is no room.
 static int nsvcd__is_new(nsvcd__proof *p, size_t *count, uint32_t number, int *unclear) {
@@ -131,11 +112,13 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
   int sum = 0;
   size_t count = 0;
   size_t g;
+  const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
+                            ray->rounding};
   nsvcd__walk walk;
-  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_ray, ray);
+  nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_beam, &beam);
   while (!*unclear && nsvcd__walk_next(&walk, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
-    uint32_t patches = nsvcd__is_on_ray(ray, nsvcd__spheres_from(all, NSVCD__GROUP * g));
+    uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;

@@ -128,15 +128,15 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
 }
 
-// Is the most suspicious of the candidates scored so far clearly a collision, or, where they are
-// all, clearly none? Then that is the answer, and no other decoder needs to look.
+// Is the most suspicious of the candidates scored so far clearly a collision, by this logit, or,
+// where they are all, clearly none? Then that is the answer, and no other decoder needs to look.
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
-                           nsvcd_opinion *out) {
+                           float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
-  const int yes = most->score > NSVCD__CLEAR_LOGIT + (threshold > 0 ? threshold : 0);
+  const int yes = most->score > logit + (threshold > 0 ? threshold : 0);
   const int no = all && nsvcd__is_harmless(most, threshold);
   if (yes || no) nsvcd__answer_with(task, most, task->settings.ranker, out);
   return yes || no;
@@ -192,7 +192,7 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
   out->candidates = kept.total;
   out->limited = kept.total > settings->pairs;
-  if (nsvcd__is_clear(task, &kept, 0, out)) return 1;
+  if (nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out)) return 1;
   if (settings->decoder == settings->ranker) return 0;
   nsvcd__judge(task, &kept, out);
   return out->logit >= NSVCD__CLEAR_LOGIT;
@@ -210,14 +210,26 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   int clear = 0;
   nsvcd__sheets_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
-  nsvcd__candidates_start(&kept, query->kept, shortlist);
+  if (more) {
+    // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
+    // there; planes would take most of the time.
+    nsvcd__candidates_start(&kept, query->kept, worth);
+    search->sheets->unasked = 1;
+    nsvcd__search_pair(search, &kept);
+    search->sheets->unasked = 0;
+    if (nsvcd__score(task, &kept, worth, worth)) {
+      left -= worth;
+      clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
+    }
+  }
+  if (!clear) nsvcd__candidates_start(&kept, query->kept, shortlist);
   while (more && !clear) {
     more = nsvcd__search_step(search, &kept);
     // A deep collision shows early. What is scored now need not be scored later, so that looking
     // costs little.
     if (!more || left < worth || !nsvcd__score(task, &kept, worth, worth)) continue;
     left -= worth;
-    clear = nsvcd__is_clear(task, &kept, 0, out);
+    clear = nsvcd__is_clear(task, &kept, 0, NSVCD__CLEAR_LOGIT, out);
     if (worth == NSVCD__FIRST_LOOK) worth = NSVCD__BATCH;
   }
 
@@ -225,7 +237,8 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   out->limited = kept.total > task->settings.pairs;
   if (clear || kept.count == 0) return;
   nsvcd__score(task, &kept, 1, kept.count);
-  if (!nsvcd__is_clear(task, &kept, 1, out)) nsvcd__judge(task, &kept, out);
+  if (!nsvcd__is_clear(task, &kept, 1, NSVCD__CLEAR_LOGIT, out))
+    nsvcd__judge(task, &kept, out);
 }
 
 // Is a part of one body inside of the other at the start?

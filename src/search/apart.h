@@ -3,9 +3,9 @@
 //
 // Planes are tried along the resting patch's normal, the moving patches', both together, the lines
 // between the centres, and the last few that parted others of the same query: what stands on a
-// table is parted from all of it by one plane. The tips go on chords, as centres do, and what
-// points stray from theirs is allowed for. But tips are not all of a patch, so that this is no
-// proof: where a greater recall is asked for, patches swell before.
+// table is parted from all of it by one plane, whole groups at a time. The tips go on chords, as
+// centres do, and what points stray from theirs is allowed for. But tips are not all of a patch, so
+// that this is no proof: where a greater recall is asked for, patches swell before.
 #pragma once
 #include "../motion/segments.h"
 
@@ -104,6 +104,7 @@ typedef struct nsvcd__sheets {
   nsvcd__f3 planes[NSVCD__PLANES];
   uint32_t found, best;
   float swell;  // of patches, shares of their radii
+  int unasked;  // balls that meet are all that counts
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
@@ -113,6 +114,7 @@ typedef struct nsvcd__sheets {
 static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
   search->sheets->swell = swell;
+  search->sheets->unasked = 0;
   search->balls_met = 0;
 }
 
@@ -171,16 +173,23 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
   }
 }
 
-// The ranges along plane n of moving group g in segment s, and of group h of the fixed body.
+// Fills in the ranges along plane n of group h of the fixed body.
+static void nsvcd__resting_know(const nsvcd__search *search, size_t h, size_t n) {
+  nsvcd__sheets *sheets = search->sheets;
+  if (sheets->resting_known >> n & 1) return;
+  nsvcd__resting_ranges(search->fixed, h, sheets->planes[n], sheets->swell,
+                        &sheets->resting[n]);
+  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
+}
+
+// The same, and those of moving group g in segment s.
 static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
                                size_t n, float stray) {
   nsvcd__sheets *sheets = search->sheets;
   const nsvcd__f3 normal = sheets->planes[n];
-  if (!(sheets->resting_known >> n & 1))
-    nsvcd__resting_ranges(search->fixed, h, normal, sheets->swell, &sheets->resting[n]);
+  nsvcd__resting_know(search, h, n);
   if (!(sheets->moving_known >> n & 1))
     nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
-  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
   sheets->moving_known = (uint16_t)(sheets->moving_known | 1u << n);
 }
 
@@ -197,18 +206,50 @@ static float nsvcd__least_lane(const float *lanes, float sign) {
   return nsvcd__v_least(least);
 }
 
-// Does the plane that did so last part all of moving group g from all of group h, in segment s?
-static int nsvcd__all_are_parted(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                                 float stray) {
+// Of the segments `wanted`, those in which the plane that parted last does not part the ball of a
+// moving group, whose chords these are, from all of group h of the fixed body.
+static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
+                                         uint64_t wanted) {
   nsvcd__sheets *sheets = search->sheets;
   const size_t n = sheets->best;
-  if (n >= nsvcd__planes_known(search)) return 0;
-  nsvcd__sheets_know(search, g, s, h, n, stray);
-  const nsvcd__ranges *moving = &sheets->moving[n];
+  uint64_t parted = 0;
+  if (n >= nsvcd__planes_known(search)) return wanted;
+  nsvcd__resting_know(search, h, n);
   const nsvcd__ranges *resting = &sheets->resting[n];
-  const float above = nsvcd__least_lane(moving->low, 1) + nsvcd__least_lane(resting->high, -1);
-  const float below = nsvcd__least_lane(resting->low, 1) + nsvcd__least_lane(moving->high, -1);
-  return above > 0 || below > 0;
+  const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
+  const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
+  const nsvcd__v3 u = nsvcd__v3_set(sheets->planes[n]);
+  for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
+    const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
+      const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), start);
+      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + sheets->swell);
+      const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
+      const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
+      const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
+      parted |= (uint64_t)here << (s + l);
+    }
+  }
+  return wanted & ~parted;
+}
+
+// Of the members `bits` of group h of the fixed body, those that the same plane does not part from
+// all of moving group g, in segment s.
+static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, size_t s,
+                                        size_t h, float stray, uint32_t bits) {
+  nsvcd__sheets *sheets = search->sheets;
+  const size_t n = sheets->best;
+  if (n >= nsvcd__planes_known(search)) return bits;
+  nsvcd__sheets_know(search, g, s, h, n, stray);
+  const nsvcd__ranges *resting = &sheets->resting[n];
+  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(sheets->moving[n].low, 1));
+  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(sheets->moving[n].high, -1));
+  NSVCD__EACH_SLICE(l) {
+    bits &= ~(nsvcd__v_lt(high, nsvcd__v_load(resting->low + l)) << l);
+    bits &= ~(nsvcd__v_lt(nsvcd__v_load(resting->high + l), low) << l);
+  }
+  return bits;
 }
 
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
@@ -317,6 +358,7 @@ static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, s
                                     uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
+  if (search->sheets->unasked) return met;
   if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;

@@ -303,9 +303,9 @@ static uint32_t nsvcd__group_against_members(const nsvcd__search *search, size_t
 }
 #endif
 
-// Turns to the moving group that is next in order. Returns the fixed group, its place in the tile,
-// that it meets for the longest time.
-static size_t nsvcd__search_group(nsvcd__search *search) {
+// Turns to the moving group that is next in order, and the fixed group that it meets for the
+// longest time.
+static void nsvcd__search_group(nsvcd__search *search) {
   const size_t g = search->order[search->step];
   const uint64_t *nearby = nsvcd__nearby(search, g);
   size_t longest = 0;
@@ -320,7 +320,7 @@ static size_t nsvcd__search_group(nsvcd__search *search) {
   }
   if (search->waiting) nsvcd__chords_of_group(search, search->moving_tile.groups[g]);
   search->posed = 0;
-  return longest;
+  search->at = longest;
 }
 
 #ifndef NSVCD_NO_NETWORK
@@ -336,6 +336,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   uint32_t any = 0;
   nsvcd__sheets *sheets = search->sheets;
   sheets->resting_known = 0;
+  wanted = nsvcd__unparted_segments(search, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
     const nsvcd__chords *chords = &search->group[s / NSVCD__LANES];
@@ -345,7 +346,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     const float stray = nsvcd__segment_stray(search, s);
     sheets->moving_known = 0;
     // where no balls are known to meet yet, that is looked at
-    if (search->balls_met && nsvcd__all_are_parted(search, g, s, h, stray)) continue;
+    if (search->balls_met) bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
@@ -370,21 +371,25 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   }
 }
 
+// All contact intervals of the pair of groups that is next.
+static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
+  if (!search->waiting) nsvcd__search_group(search);
+  const size_t next = search->order[search->step];
+  const size_t g = search->moving_tile.groups[next];
+  const size_t h = search->fixed_tile.groups[search->at];
+  const uint64_t wanted = nsvcd__nearby(search, next)[search->at];
+  nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
+}
+
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
 static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
-  size_t at;
+  nsvcd__search_pair(search, kept);
+  search->waiting &= ~((uint32_t)1 << search->at);
   if (search->waiting)
-    at = nsvcd__low_bit(search->waiting);
+    search->at = nsvcd__low_bit(search->waiting);
   else
-    at = nsvcd__search_group(search);
-  const size_t next = search->order[search->step];
-  const size_t g = search->moving_tile.groups[next];
-  const size_t h = search->fixed_tile.groups[at];
-  const uint64_t wanted = nsvcd__nearby(search, next)[at];
-  nsvcd__group_against_group(search, g, h, 0xffff, wanted, kept);
-  search->waiting &= ~((uint32_t)1 << at);
-  if (!search->waiting) search->step++;
+    search->step++;
   return search->step < search->steps || nsvcd__search_next_tile(search);
 }
 
