@@ -1959,12 +1959,14 @@ static void proof_knows_what_is_within(void) {
 // As nsvcd__crossings, but all triangles of a patch whose sphere the ray meets are asked in double.
 static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
   static uint32_t crossed[1000];
+  const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
+                            ray->rounding};
   size_t count = 0;
   int sum = 0;
   for (size_t i = 0; i < f->body->patches; i++) {
     const size_t first = i / NSVCD__GROUP * NSVCD__GROUP;
     const nsvcd__spheres members = nsvcd__spheres_from(nsvcd__body_patches(f->body), first);
-    if (!(nsvcd__is_on_ray(ray, members) >> (i - first) & 1)) continue;
+    if (!(nsvcd__is_on_beam(&beam, members) >> (i - first) & 1)) continue;
     nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
     for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
       nsvcd__d3 corners[3];
