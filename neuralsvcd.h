@@ -8028,7 +8028,7 @@ static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
 
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
 static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
-  return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
+  return nsvcd__v_mul(reach, nsvcd__v_abs(reach));
 }
 
 // A ray in a body's frame, so wide.
@@ -10304,8 +10304,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
     sheets->moving_known = 0;
-    // where no balls are known to meet yet, that is looked at
-    if (search->balls_met) bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
+    bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       const nsvcd__sphere ball = nsvcd__sphere_of(members, k);

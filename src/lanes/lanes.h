@@ -331,7 +331,7 @@ static inline nsvcd__v3 nsvcd__v3_unit(nsvcd__v3 a) {
 
 // The square of a sum of radii, with its sign: a negative sum (padding) meets nothing.
 static inline nsvcd__v nsvcd__v_signed_square(nsvcd__v reach) {
-  return nsvcd__v_mul(reach, nsvcd__v_max(reach, nsvcd__v_sub(nsvcd__v_set(0), reach)));
+  return nsvcd__v_mul(reach, nsvcd__v_abs(reach));
 }
 
 // A ray in a body's frame, so wide.

@@ -345,8 +345,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
     sheets->moving_known = 0;
-    // where no balls are known to meet yet, that is looked at
-    if (search->balls_met) bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
+    bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
       const nsvcd__sphere ball = nsvcd__sphere_of(members, k);
