@@ -16,6 +16,7 @@ void test_broad_phase(void);
 
 static nsvcd__search *work;
 static nsvcd__candidate items[1 << 20], few[64];
+static float swollen;  // patches swell by that share of their radii
 
 static int deepest_first(const void *a, const void *b) {
   return nsvcd__is_shallower((const nsvcd__candidate *)a, (const nsvcd__candidate *)b) ? 1 : -1;
@@ -26,7 +27,7 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
                    nsvcd__search *space, nsvcd__candidate *found, size_t limit,
                    nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
-  nsvcd__sheets_begin(space, 0);
+  nsvcd__sheets_begin(space, swollen);
   int more = nsvcd__search_begin(moving, fixed, ~(uint64_t)0, space);
   nsvcd__candidates_start(kept, found, limit);
   while (more) more = nsvcd__search_step(space, kept);
@@ -80,8 +81,9 @@ static void tips_at(const nsvcd_body *body, size_t i, const pose64 *at, const po
   }
 }
 
-// Do the hulls of two patches' tips meet, as far as 3,000 steps of Gilbert's algorithm can tell?
-static int hulls_meet(double (*a)[3], double (*b)[3]) {
+// Do the hulls of two patches' tips come as near as that, as far as 3,000 steps of Gilbert's
+// algorithm can tell?
+static int hulls_meet(double (*a)[3], double (*b)[3], double reach) {
   double x[3] = {a[0][0] - b[0][0], a[0][1] - b[0][1], a[0][2] - b[0][2]};
   for (int step = 0; step < 3000; step++) {
     double least = HUGE_VAL;
@@ -94,7 +96,8 @@ static int hulls_meet(double (*a)[3], double (*b)[3]) {
       if (along < least) memcpy(next, d, sizeof d);
       least = fmin(least, along);
     }
-    if (least > 0) return 0;  // across x
+    // across x
+    if (least > reach * sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])) return 0;
     double way[3];
     double square = 0;
     double back = 0;
@@ -163,7 +166,7 @@ static void try_motion(const nsvcd_body *moving, const nsvcd_body *fixed, size_t
         double other[NSVCD__TIPS][3];
         tips_at(moving, i, &at, &f, own);
         tips_at(fixed, j, NULL, NULL, other);
-        const int meet = hulls_meet(own, other);
+        const int meet = hulls_meet(own, other, r * (double)swollen);
         sum->lost += meet != 0;
         sum->parted += !meet;
       }
@@ -230,6 +233,10 @@ static void conservative_tips(void) {
   conservative("tips", 3000, 1, 120 * degrees, 1, 200, 1, 1, 0);
   conservative("tips, spin", 4000, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
   conservative("tips, far", 100, 1, 90 * degrees, 2, 20, 1, 1, 1e4);
+  swollen = 0.25f;  // what swells is parted only where more than that is between the hulls
+  conservative("tips, swell", 3000, 1, 120 * degrees, 1, 200, 1, 1, 0);
+  conservative("swell, spin", 4000, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
+  swollen = 0;
   random_tips = 0;
 }
 
