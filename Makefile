@@ -563,9 +563,9 @@ build/scenes: train/scenes.c tests/bench/set_shapes.h $(LIBRARY)
 	$(CC) -O3 -march=native -std=gnu99 -Wall -Wextra -Wno-unused-function -o $@ $< -lm -lpthread
 build/train/checkpoint.pt: | build/scenes
 	mkdir -p build/train/set build/train/held
-	build/scenes build/train/set --seed 1 --meshes 10000 --groups 2400 --threads $$(nproc)
+	build/scenes build/train/set --seed 1 --meshes 20000 --groups 4600 --threads $$(nproc)
 	build/scenes build/train/held --seed 2 --meshes 600 --groups 32 --threads $$(nproc)
-	cd train && $(PYTHON) train.py --data ../build/train/set --held ../build/train/held --out ../build/train --steps 73745
+	cd train && $(PYTHON) train.py --data ../build/train/set --held ../build/train/held --out ../build/train --steps 50038
 # Sets as SET:COUNT:SEED.
 CALIBRATES = standard:4000:301 hollow:3000:302 rest:2000:303 cavity:1000:304
 CALIBRATED = $(foreach set,$(CALIBRATES),$(CALIBRATION)/$(firstword $(subst :, ,$(set))).txt)

@@ -710,7 +710,7 @@ typedef enum nsvcd_ask {
   NSVCD_ASK_HIT = 0,
   // and when first?
   NSVCD_ASK_FIRST,
-  // do they, and how near do they come?
+  // do they, and how near do they come? The network, where it is named, tells its opinion of that
   NSVCD_ASK_DISTANCE
 } nsvcd_ask;
 
@@ -748,10 +748,8 @@ typedef struct nsvcd_network_options {
   float recall;
   // Patches swell by this share of their radii before planes part them, so that patches which only
   // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
-  // more of what is near a hit. 0: as much as `recall` needs
+  // more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked for, 1
   float swell;
-  // 1: nsvcd_sweep_gradient differentiates the logit; 0: the distance
-  int of_logit;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -815,8 +813,8 @@ typedef struct nsvcd_question {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // where it is the network that answers; it knows neither FIRST nor DISTANCE, nor a clearance or a
-  // skin
+  // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
+  // no bounds of a DISTANCE: `to` is a proof's
   nsvcd_network_options network;
 } nsvcd_question;
 
@@ -893,11 +891,11 @@ typedef struct nsvcd_opinion {
   // of collision, positive is yes: the greatest of the pairs looked at, less the threshold that
   // `recall` asks for; the search ends at the first above 3. Where the tiny decoder, which ranks
   // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
-  // decoder was needed
+  // decoder was needed. Asked for the distance: of the pair that comes nearest
   float logit;
-  // metres, of the same pair: by how much it misses, or, negative, how deep it is. Within a patch's
-  // radius of contact it is off by a tenth of that, or less, as a rule. HUGE_VALF where no decoder
-  // was needed
+  // metres, of the same pair: by how much it misses, or, negative, how deep it is. Asked for, it is
+  // the least of all pairs looked at, and within a patch's radius of contact off by a tenth of it
+  // or less, as a rule; else a by-product. HUGE_VALF where no decoder was needed
   float distance;
   // in [0,1]: when the most suspicious pair comes closest
   float time;
@@ -1015,8 +1013,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of opinion.distance, or of its logit, by
-// the poses of a and b: to go along them, by the distance's length, is the shortest way out.
+// Answers a question by the network, with the derivatives, by the poses of a and b, of its logit,
+// or, where a distance is asked for, of opinion.distance: along that is the shortest way out.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
 //   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep
@@ -9499,7 +9497,8 @@ typedef struct nsvcd__sheets {
 static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
   search->sheets->swell = swell;
-  search->sheets->unasked = 0;
+  // patches whose balls meet are then no farther apart than that
+  search->sheets->unasked = swell >= 1;
   search->balls_met = 0;
 }
 
@@ -15629,10 +15628,12 @@ static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, s
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
-// that patches swell before planes part them, shares of their radii: at a recall of 0.999, and of
-// 0.9999
-#define NSVCD__SWELL 0.02f
-#define NSVCD__SWELL_MOST 0.05f
+// that patches swell before planes part them, shares of their radii, at N = 32 and less the more
+// there are: at a recall of 0.999, and of 0.9999
+#define NSVCD__SWELL 0.04f
+#define NSVCD__SWELL_MOST 0.1f
+// and where a distance is asked for: patches are told of within their radii
+#define NSVCD__SWELL_DISTANCE 1.0f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
 // sets, N = 128 to 512, are the same as with twice this, but for one, which is better
@@ -15655,6 +15656,8 @@ typedef struct nsvcd__settings {
   float threshold;
   // of patches, shares of their radii, before planes part them
   float swell;
+  // 1: what comes nearest decides, not what is most suspicious, and nothing is clear before
+  int of_distance;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.
@@ -15829,8 +15832,12 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    const float least = k == 2 ? NSVCD__SWELL : k == 3 ? NSVCD__SWELL_MOST : 0;
-    settings->swell = o->swell > least ? o->swell : least;
+    const float n = sqrtf((float)points1 * (float)points2);
+    float least = 0;
+    if (k == 2) least = NSVCD__SWELL * 32 / n;
+    if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
+    settings->swell = fmaxf(o->swell, least);
+    settings->of_distance = 0;
     return NSVCD_OK;
   }
   return NSVCD_ERROR_ARGUMENT;
@@ -15910,6 +15917,12 @@ static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
+// The candidate for which this is greatest decides.
+static float nsvcd__doubt(const nsvcd__task *task, const nsvcd__candidate *c) {
+  if (!task->settings.of_distance) return c->score;
+  return -c->apart * nsvcd__candidate_reach(task, c);
+}
+
 // Does the tiny decoder see no collision there, clearly?
 static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
@@ -15920,6 +15933,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
+  if (task->settings.of_distance) return 0;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
@@ -15940,16 +15954,20 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float d = items[i].score - items[best].score;
+      const float here = nsvcd__doubt(task, &items[i]);
+      const float d = here - nsvcd__doubt(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
     items[best] = items[k];
     items[k] = first;
   }
-  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
+  const int all = settings->of_distance;
+  float most = -HUGE_VALF;
+  while (!all && count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
+    count--;
   for (size_t first = 0; first < count; first += NSVCD__PORTION) {
-    if (!(out->logit < NSVCD__CLEAR_LOGIT)) break;
+    if (!all && !(out->logit < NSVCD__CLEAR_LOGIT)) break;
     nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
@@ -15959,9 +15977,10 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const int is_first = first + k == 0;
-      if (is_first || portion[k]->score - settings->threshold > out->logit)
-        nsvcd__answer_with(task, portion[k], settings->decoder, out);
+      const float doubt = nsvcd__doubt(task, portion[k]);
+      if (!(doubt > most)) continue;
+      most = doubt;
+      nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
@@ -15997,13 +16016,13 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   int clear = 0;
   nsvcd__sheets_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
-  if (more) {
+  if (more && !task->settings.of_distance) {
     // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
     // there; planes would take most of the time.
     nsvcd__candidates_start(&kept, query->kept, worth);
     search->sheets->unasked = 1;
     nsvcd__search_pair(search, &kept);
-    search->sheets->unasked = 0;
+    search->sheets->unasked = task->settings.swell >= 1;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
@@ -16048,10 +16067,14 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
 // whether one body seems to be inside the other at the start.
 static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
-  const int hinted = hint && hint->known;
+  const int hinted = hint && hint->known && task->question->ask == NSVCD_ASK_HIT;
   // checked before
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
+  if (task->question->ask == NSVCD_ASK_DISTANCE) {
+    task->settings.of_distance = 1;
+    if (task->question->network.swell <= 0) task->settings.swell = NSVCD__SWELL_DISTANCE;
+  }
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
@@ -16513,8 +16536,11 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
-  const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
-  if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const int by_network = q->method == NSVCD_METHOD_NETWORK;
+  int needs_proof = q->clearance > 0 || q->skin > 0;
+  needs_proof |= q->ask == NSVCD_ASK_FIRST || q->to > 0;
+  needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
+  if (needs_proof && by_network) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
     return NSVCD_ERROR_BODY;
@@ -17377,7 +17403,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
-  const int of_logit = task->question->network.of_logit;
+  const int of_logit = task->question->ask != NSVCD_ASK_DISTANCE;
   const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
   const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);
@@ -17626,6 +17652,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__deviation NSVCD__AT(deviation)
 #define nsvcd__discs_meet NSVCD__AT(discs_meet)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
+#define nsvcd__doubt NSVCD__AT(doubt)
 #define nsvcd__edges_cross NSVCD__AT(edges_cross)
 #define nsvcd__edges_nearest NSVCD__AT(edges_nearest)
 #define nsvcd__encloses_any NSVCD__AT(encloses_any)
@@ -22738,7 +22765,6 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.manifold = 0;
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
-    question.network.of_logit = 1;
     question.clearance = 0;
     question.skin = 0;
     // a slope before contact

@@ -8,8 +8,10 @@ that are left. Each recall is asked for, since patches swell by it. Certified an
 from __future__ import annotations
 
 import math
+import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import torch
@@ -59,17 +61,16 @@ def main() -> None:
     path, svcd = Path(sys.argv[1]), sys.argv[2]
     saved = torch.load(path, map_location="cpu")
     table = []
+    pool = ThreadPoolExecutor(os.cpu_count())
     for head in HEADS:
         table.append([])
         for points in SIZES:
-            by_recall = []
-            for recall in RECALLS:
-                logits, labels = [], []
-                for name in sys.argv[3:]:
-                    a, b = answers(svcd, head, points, recall, Path(name))
-                    logits += a
-                    labels += b
-                by_recall.append((logits, labels))
+            asked = [(recall, Path(name)) for recall in RECALLS for name in sys.argv[3:]]
+            told = pool.map(lambda ask: answers(svcd, head, points, *ask), asked)
+            by_recall = [([], []) for _ in RECALLS]
+            for (recall, _), (logits, labels) in zip(asked, told):
+                by_recall[RECALLS.index(recall)][0].extend(logits)
+                by_recall[RECALLS.index(recall)][1].extend(labels)
             row = thresholds(by_recall)
             pairs = [sides(answered) for answered in by_recall]
             share = lambda values, t: 100 * sum(v > t for v in values) / len(values)

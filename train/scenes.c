@@ -50,7 +50,7 @@ static const size_t sizes[] = {32, 64, 128, 256, 512};
 // ---- bodies
 
 typedef enum family { SOLID, HOLLOW, RESTING, FLOOR, SHELL, FAMILIES } family;
-static const size_t shares[FAMILIES] = {60, 18, 10, 6, 6};  // per cent
+static const size_t shares[FAMILIES] = {50, 16, 14, 14, 6};  // per cent
 // of a group: bodies of each family, and of what size the k-th of a family is
 static const size_t in_group[FAMILIES] = {22, 6, 5, 4, 3};
 static const size_t size_of[] = {4, 3, 2, 3, 4, 1, 3, 0, 4, 2};
@@ -445,8 +445,8 @@ static int problem_draw(problem *p, shapes_rng *rng, const model *const *models,
   if (p->kind == ANY) *angle = shapes_pick(rng, 5) ? shapes_uniform(rng, 0, 3.1) : 0;
   p->count = p->kind == ANY && shapes_pick(rng, 6) == 0 ? 1 : POSES;
   const int swelling = shapes_pick(rng, 10);
-  p->swell = swelling < 9 ? 0.25 : 1;
-  if (swelling < 7) p->swell = swelling < 5 ? 0 : shapes_uniform(rng, 0, 0.05);
+  p->swell = swelling < 8 ? 0.25 : 1;
+  if (swelling < 6) p->swell = swelling < 4 ? 0 : log_uniform(rng, 0.001, 0.05);
   return 1;
 }
 
@@ -541,10 +541,31 @@ static double problem_margin(const problem *p, shapes_rng *rng, int hit) {
       const nsvcd_body *body = p->models[n]->network[p->size[n]];
       radii += (double)nsvcd__body_r(body)[shapes_next(rng) % body->patches] * p->scale[n];
     }
-    margin = shapes_uniform(rng, 0, 0.6 * fmin(p->swell, 0.8)) * radii;
+    margin = shapes_uniform(rng, 0, 0.7 * fmin(p->swell, 0.9)) * radii;
   }
   margin = fmin(margin, 0.3 * size);
   return hit ? -margin : margin;
+}
+
+// Of a hit that went beyond contact by `depth`: the shortest way back after which it is free. That
+// is less where there is room on the way, as in what is hollow.
+static double way_out(problem *p, worker *w, const placement *place, double depth, double gap) {
+  const double pressed = -depth - gap;
+  double in = 0;
+  double out = depth;
+  nsvcd_answer answer;
+  for (int n = 1; n < 8 && depth > 1e-3 && out >= depth; n++) {
+    const double back = depth * n / 8;
+    put_at(p, w->path, place, pressed + back);
+    *(ask(p, w, NSVCD_ASK_HIT, &answer) == NSVCD_FREE ? &out : &in) = back;
+  }
+  while (out < depth && out - in > 1e-4) {
+    const double middle = 0.5 * (in + out);
+    put_at(p, w->path, place, pressed + middle);
+    *(ask(p, w, NSVCD_ASK_HIT, &answer) == NSVCD_FREE ? &out : &in) = middle;
+  }
+  put_at(p, w->path, place, pressed);
+  return out;
 }
 
 // A problem near contact, or 0.
@@ -563,6 +584,7 @@ static int problem_make(problem *p, worker *w, const model *const *models, const
   const nsvcd_verdict verdict = ask(p, w, hit ? NSVCD_ASK_HIT : NSVCD_ASK_DISTANCE, &answer);
   if (verdict != (hit ? NSVCD_HIT : NSVCD_FREE)) return 0;
   if (!hit) p->margin = 0.5 * (double)(answer.distance.low + answer.distance.high);
+  if (hit) p->margin = -way_out(p, w, &place, -p->margin, gap);
   return fabs(p->margin) > LEAST_MARGIN;
 }
 

@@ -12,7 +12,7 @@ from calibrate import thresholds
 from data import BODIES, FACTS, PAIRS, PROBLEMS, Dataset
 from export import by_component, int8_rows
 from model import Encoder, FerVn, Network, NoNormals, Shape, degree2, inputs, quantise, wigner2
-from train import losses, pooled
+from train import losses, nearest_pair
 
 HERE = Path(__file__).resolve().parent
 
@@ -151,15 +151,19 @@ class ScenesTest(unittest.TestCase):
         seen = torch.ones(1, PAIRS, dtype=torch.bool)
         values = []
         for _ in range(25):
-            loss, _ = losses(net, u, n, torch.zeros(len(u), net.s.latent), few, seen, (0.3, 0.3))
+            loss, _ = losses(net, u, n, torch.zeros(len(u), net.s.latent), few, seen, (0.3, 0.3, 1.0))
             optimizer.zero_grad()
             loss.backward()
             optimizer.step()
             values.append(loss.item())
         self.assertLess(values[-1], 0.8 * values[0])
         z = quantise(net.encoder(u, n))
-        logit, distance, pair = pooled(net.decode(z, few[0].clamp_min(0), few[1], few[2])["base"], few[0][..., 0] >= 0)
-        self.assertTrue(bool((few[0][torch.arange(128), pair, 0] >= 0).all()))  # never of an empty place
+        distance = net.decode(z, few[0].clamp_min(0), few[1], few[2])["base"][..., 1]
+        valid = few[0][..., 0] >= 0
+        pair = nearest_pair(distance, few[3], valid)
+        self.assertTrue(bool(valid.gather(1, pair).all()))  # never of an empty place
+        metres = (distance * few[3])
+        self.assertTrue(bool((metres.gather(1, pair) <= torch.where(valid, metres, 1e9)).all()))
 
 
 if __name__ == "__main__":

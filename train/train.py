@@ -15,18 +15,18 @@ from data import FACTS, Batch, Dataset
 from model import Network, Shape, quantise
 
 HEAD_WEIGHT = {"tiny": 0.35, "small": 0.6, "base": 1.0}
-FAR = 5.0  # distances are clipped there, in tenths of r1 + r2: about one radius
+FAR = 7.0  # distances are clipped there, in tenths of r1 + r2: beyond one radius
 KINDS = ("open", "into", "any", "floor", "face", "cavity")
 
 
-def pooled(out: Tensor, valid: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-    """out (P, K, 2) -> the greatest logit of each problem, the distance of that pair, and which pair it is, (P,)."""
-    logit, pair = out[..., 0].masked_fill(~valid, -30).max(1)
-    return logit, out[..., 1].gather(1, pair[:, None])[:, 0], pair
+def nearest_pair(distance: Tensor, reach: Tensor, valid: Tensor) -> Tensor:
+    """Which pair comes nearest, in metres, (P, 1); distance (P, K) in tenths of reach."""
+    return (distance * reach).masked_fill(~valid, 1e9).argmin(1, keepdim=True)
 
 
-def losses(net: Network, u: Tensor, n: Tensor, noise: Tensor, b: tuple[Tensor, ...], seen: Tensor, weights: tuple[float, float]) -> tuple[Tensor, Tensor]:
-    """Cross-entropy of the greatest logit; of the pairs, weights[0]; of the distances, weights[1]. -> loss, base head's first part."""
+def losses(net: Network, u: Tensor, n: Tensor, noise: Tensor, b: tuple[Tensor, ...], seen: Tensor, weights: tuple[float, float, float]) -> tuple[Tensor, Tensor]:
+    """Cross-entropy of the greatest logit; of the pairs, weights[0]; of the distances, weights[1]; of the least distance, weights[2].
+    -> loss, base head's first part."""
     slots, turns, facts, reach, nearest, margin = b
     z = net.encoder(u, n) + noise
     valid = (slots[..., 0] >= 0) & seen
@@ -45,7 +45,9 @@ def losses(net: Network, u: Tensor, n: Tensor, noise: Tensor, b: tuple[Tensor, .
         off = F.smooth_l1_loss(distance, apart, reduction="none", beta=0.1)
         near = torch.where(owned, off, off * (distance < apart))  # what is not the nearest is no nearer
         near = (near * (owned.float() + 0.1 * share)).sum(1).mean()
-        total = total + HEAD_WEIGHT[name] * (main + weights[0] * pair + weights[1] * near)
+        least = nearest_pair(distance, reach, valid)
+        whole = F.smooth_l1_loss(distance.gather(1, least), apart.gather(1, least), beta=0.1)
+        total = total + HEAD_WEIGHT[name] * (main + weights[0] * pair + weights[1] * near + weights[2] * whole)
         if name == "base":
             shown = main.detach()
     return total, shown
@@ -58,9 +60,11 @@ def validate(net: Network, d: Dataset, head: str, groups: int, int8: bool = True
         b = d.batch(g)
         z = net.encoder(*d.patches(g))
         out = net.decode(quantise(z), b.slots.clamp_min(0), b.turns, b.facts)[head]
-        logit, distance, pair = pooled(out, b.slots[..., 0] >= 0)
-        reach = b.reach.gather(1, pair[:, None])[:, 0]
-        rows.append(torch.stack([logit, distance * reach / 10, b.margin, reach, b.kind.float()]))
+        valid = b.slots[..., 0] >= 0
+        logit = out[..., 0].masked_fill(~valid, -30).amax(1)
+        pair = nearest_pair(out[..., 1], b.reach, valid)
+        reach = b.reach.gather(1, pair)[:, 0]
+        rows.append(torch.stack([logit, out[..., 1].gather(1, pair)[:, 0] * reach / 10, b.margin, reach, b.kind.float()]))
     logit, distance, margin, reach, kind = torch.cat(rows, 1)
     hit = margin < 0
     share = lambda x: f"{100 * x.float().mean().item():.2f}"
@@ -86,6 +90,7 @@ def main() -> None:
     p.add_argument("--rate", type=float, default=6e-3)
     p.add_argument("--pair-weight", type=float, default=0.3)
     p.add_argument("--distance-weight", type=float, default=0.3)
+    p.add_argument("--least-weight", type=float, default=1.0)
     p.add_argument("--encoder", choices=["context", "fervn", "no-normals"], default="context")
     p.add_argument("--shape", type=json.loads, default={}, help="sizes of the network that differ, as JSON")
     p.add_argument("--blind", type=json.loads, default=[], help="facts that are always 0, for the ablation")
@@ -156,7 +161,7 @@ def main() -> None:
         b = d.batch(g)
         pairs = torch.full((), 8 if step % 2 else b.slots.shape[1], device=device)
         seen = (torch.arange(b.slots.shape[1], device=device) < pairs)[None]
-        loss, shown = step_loss(net, u, n, noise, (b.slots, b.turns, b.facts, b.reach, b.nearest, b.margin), seen, (a.pair_weight, a.distance_weight))
+        loss, shown = step_loss(net, u, n, noise, (b.slots, b.turns, b.facts, b.reach, b.nearest, b.margin), seen, (a.pair_weight, a.distance_weight, a.least_weight))
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
         if step % 100 == 0 and not math.isfinite(loss.item()):

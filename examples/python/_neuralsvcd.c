@@ -92,7 +92,6 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(pose), FIELD(pose, position), FIELD(pose, rotation),
     STRUCT(network_options), FIELD(network_options, pairs), FIELD(network_options, model),
     FIELD(network_options, precision), FIELD(network_options, recall), FIELD(network_options, swell),
-    FIELD(network_options, of_logit),
     STRUCT(mover), FIELD(mover, body), FIELD(mover, poses), FIELD(mover, count),
     FIELD(mover, times), FIELD(mover, scale),
     STRUCT(question), FIELD(question, a), FIELD(question, b), FIELD(question, ask),

@@ -15,7 +15,7 @@ typedef enum nsvcd_ask {
   NSVCD_ASK_HIT = 0,
   // and when first?
   NSVCD_ASK_FIRST,
-  // do they, and how near do they come?
+  // do they, and how near do they come? The network, where it is named, tells its opinion of that
   NSVCD_ASK_DISTANCE
 } nsvcd_ask;
 
@@ -53,10 +53,8 @@ typedef struct nsvcd_network_options {
   float recall;
   // Patches swell by this share of their radii before planes part them, so that patches which only
   // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
-  // more of what is near a hit. 0: as much as `recall` needs
+  // more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked for, 1
   float swell;
-  // 1: nsvcd_sweep_gradient differentiates the logit; 0: the distance
-  int of_logit;
 } nsvcd_network_options;
 
 #define NSVCD_DEFAULT_WORK 100000
@@ -120,8 +118,8 @@ typedef struct nsvcd_question {
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
   size_t segments;
-  // where it is the network that answers; it knows neither FIRST nor DISTANCE, nor a clearance or a
-  // skin
+  // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
+  // no bounds of a DISTANCE: `to` is a proof's
   nsvcd_network_options network;
 } nsvcd_question;
 
@@ -198,11 +196,11 @@ typedef struct nsvcd_opinion {
   // of collision, positive is yes: the greatest of the pairs looked at, less the threshold that
   // `recall` asks for; the search ends at the first above 3. Where the tiny decoder, which ranks
   // the pairs, is clear (beyond +-3), that one answers. NSVCD_LOGIT_CERTAIN, or its negative: no
-  // decoder was needed
+  // decoder was needed. Asked for the distance: of the pair that comes nearest
   float logit;
-  // metres, of the same pair: by how much it misses, or, negative, how deep it is. Within a patch's
-  // radius of contact it is off by a tenth of that, or less, as a rule. HUGE_VALF where no decoder
-  // was needed
+  // metres, of the same pair: by how much it misses, or, negative, how deep it is. Asked for, it is
+  // the least of all pairs looked at, and within a patch's radius of contact off by a tenth of it
+  // or less, as a rule; else a by-product. HUGE_VALF where no decoder was needed
   float distance;
   // in [0,1]: when the most suspicious pair comes closest
   float time;
@@ -320,8 +318,8 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
                                         nsvcd_answer *answers);
 
 #ifndef NSVCD_NO_GRADIENT
-// Answers a question by the network, with the derivatives of opinion.distance, or of its logit, by
-// the poses of a and b: to go along them, by the distance's length, is the shortest way out.
+// Answers a question by the network, with the derivatives, by the poses of a and b, of its logit,
+// or, where a distance is asked for, of opinion.distance: along that is the shortest way out.
 // What drives the poses (joints, a spline) goes on from there by the chain rule.
 //   question   its method is not PROOF, and nothing is asked that only a proof knows
 //   workspace, answer   as for nsvcd_sweep

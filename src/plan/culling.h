@@ -179,7 +179,6 @@ static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size
   question.manifold = 0;
   if (!at_end) {
     question.method = NSVCD_METHOD_NETWORK;
-    question.network.of_logit = 1;
     question.clearance = 0;
     question.skin = 0;
     // a slope before contact

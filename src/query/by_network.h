@@ -42,8 +42,12 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    const float least = k == 2 ? NSVCD__SWELL : k == 3 ? NSVCD__SWELL_MOST : 0;
-    settings->swell = o->swell > least ? o->swell : least;
+    const float n = sqrtf((float)points1 * (float)points2);
+    float least = 0;
+    if (k == 2) least = NSVCD__SWELL * 32 / n;
+    if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
+    settings->swell = fmaxf(o->swell, least);
+    settings->of_distance = 0;
     return NSVCD_OK;
   }
   return NSVCD_ERROR_ARGUMENT;
@@ -123,6 +127,12 @@ static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
+// The candidate for which this is greatest decides.
+static float nsvcd__doubt(const nsvcd__task *task, const nsvcd__candidate *c) {
+  if (!task->settings.of_distance) return c->score;
+  return -c->apart * nsvcd__candidate_reach(task, c);
+}
+
 // Does the tiny decoder see no collision there, clearly?
 static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold) {
   return candidate->score < (threshold < 0 ? threshold : 0) - NSVCD__CLEAR_LOGIT;
@@ -133,6 +143,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
+  if (task->settings.of_distance) return 0;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
@@ -153,16 +164,20 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float d = items[i].score - items[best].score;
+      const float here = nsvcd__doubt(task, &items[i]);
+      const float d = here - nsvcd__doubt(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
     items[best] = items[k];
     items[k] = first;
   }
-  while (count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold)) count--;
+  const int all = settings->of_distance;
+  float most = -HUGE_VALF;
+  while (!all && count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
+    count--;
   for (size_t first = 0; first < count; first += NSVCD__PORTION) {
-    if (!(out->logit < NSVCD__CLEAR_LOGIT)) break;
+    if (!all && !(out->logit < NSVCD__CLEAR_LOGIT)) break;
     nsvcd__candidate *portion[NSVCD__PORTION] = {NULL};
     const size_t left = count - first;
     const size_t size = left < NSVCD__PORTION ? left : NSVCD__PORTION;
@@ -172,9 +187,10 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const int is_first = first + k == 0;
-      if (is_first || portion[k]->score - settings->threshold > out->logit)
-        nsvcd__answer_with(task, portion[k], settings->decoder, out);
+      const float doubt = nsvcd__doubt(task, portion[k]);
+      if (!(doubt > most)) continue;
+      most = doubt;
+      nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
@@ -210,13 +226,13 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   int clear = 0;
   nsvcd__sheets_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
-  if (more) {
+  if (more && !task->settings.of_distance) {
     // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
     // there; planes would take most of the time.
     nsvcd__candidates_start(&kept, query->kept, worth);
     search->sheets->unasked = 1;
     nsvcd__search_pair(search, &kept);
-    search->sheets->unasked = 0;
+    search->sheets->unasked = task->settings.swell >= 1;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
@@ -261,10 +277,14 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
 // whether one body seems to be inside the other at the start.
 static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
-  const int hinted = hint && hint->known;
+  const int hinted = hint && hint->known && task->question->ask == NSVCD_ASK_HIT;
   // checked before
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
+  if (task->question->ask == NSVCD_ASK_DISTANCE) {
+    task->settings.of_distance = 1;
+    if (task->question->network.swell <= 0) task->settings.swell = NSVCD__SWELL_DISTANCE;
+  }
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;

@@ -51,8 +51,11 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
   if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
   // of these the network knows nothing
-  const int needs_proof = q->ask != NSVCD_ASK_HIT || q->clearance > 0 || q->skin > 0;
-  if (needs_proof && q->method == NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
+  const int by_network = q->method == NSVCD_METHOD_NETWORK;
+  int needs_proof = q->clearance > 0 || q->skin > 0;
+  needs_proof |= q->ask == NSVCD_ASK_FIRST || q->to > 0;
+  needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
+  if (needs_proof && by_network) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
     return NSVCD_ERROR_BODY;

@@ -41,10 +41,12 @@
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
-// that patches swell before planes part them, shares of their radii: at a recall of 0.999, and of
-// 0.9999
-#define NSVCD__SWELL 0.02f
-#define NSVCD__SWELL_MOST 0.05f
+// that patches swell before planes part them, shares of their radii, at N = 32 and less the more
+// there are: at a recall of 0.999, and of 0.9999
+#define NSVCD__SWELL 0.04f
+#define NSVCD__SWELL_MOST 0.1f
+// and where a distance is asked for: patches are told of within their radii
+#define NSVCD__SWELL_DISTANCE 1.0f
 // a logit so far from 0 is clear. A clear collision needs no second pair (nsvcd__judge), and what
 // is clear to the ranker no second decoder (nsvcd__is_clear): 35,000 answers on the validation
 // sets, N = 128 to 512, are the same as with twice this, but for one, which is better
@@ -67,6 +69,8 @@ typedef struct nsvcd__settings {
   float threshold;
   // of patches, shares of their radii, before planes part them
   float swell;
+  // 1: what comes nearest decides, not what is most suspicious, and nothing is clear before
+  int of_distance;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.

@@ -114,7 +114,8 @@ typedef struct nsvcd__sheets {
 static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
   search->sheets->swell = swell;
-  search->sheets->unasked = 0;
+  // patches whose balls meet are then no farther apart than that
+  search->sheets->unasked = swell >= 1;
   search->balls_met = 0;
 }
 

@@ -188,7 +188,7 @@ _BodyFacts = _struct(
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
-                          swell=c_float, of_logit=c_int)
+                          swell=c_float)
 _Mover = _struct("nsvcd_mover", body=c_void_p, poses=c_void_p, count=c_size_t, times=c_void_p, scale=c_float)
 _Question = _struct(
     "nsvcd_question", a=_Mover, b=_Mover, ask=c_int, to=c_float, to_time=c_float, clearance=c_float, skin=c_float,
@@ -748,15 +748,14 @@ class Options(_Options):
     skin       metres: a contact at the start that is no deeper does not count
     tolerance  metres: what comes closer and does not meet may be left undecided
     manifold   first: up to four contacts, which hold the body, are told, where else one is
-    method     proof where both bodies have triangles, else network, which knows neither first nor distance, nor a
-               clearance or a skin
+    method     proof where both bodies have triangles, else network, which knows neither first, nor a clearance or a
+               skin, and of a distance, where it is named, has an opinion: Answer.opinion.distance
     work       units that a proof may take; 100000
     segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
     Of the network:
     pairs      of patches that it looks at, 1 to 256; 8
     model, precision, recall  its decoder; recall: 0, 0.99, 0.999 or 0.9999
-    swell      of patches, a share of their radii, so that the logit rises before contact; 0
-    of_logit   sweep_gradient differentiates the logit, and not the distance
+    swell      of patches, a share of their radii, so that the logit rises before contact; 0, or, asked for a distance, 1
     """
     ask: Union[Ask, str] = Ask.HIT
     to: float = 0
@@ -773,7 +772,6 @@ class Options(_Options):
     precision: Union[Precision, str] = Precision.FLOAT
     recall: float = 0
     swell: float = 0
-    of_logit: bool = False
     _struct = _Question
 
     def __post_init__(self) -> None:
@@ -1029,7 +1027,8 @@ class Gradient(NamedTuple):
 def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
                    times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None,
                    scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Gradient:
-    """As sweep, by the network, with derivatives; zero where no network answered."""
+    """As sweep, by the network, with derivatives of the logit, or, where options.ask is distance, of the distance; zero where
+    no network answered."""
     question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
     answer = _Answer()
     by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept)
