@@ -974,9 +974,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
 // spheres against one. Of bodies of more than 512 patches only those groups count that the other
 // body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
-// it comes near. Then a proof takes question.work units. The network takes the
-// tiny decoder on 12 K pairs and the chosen one on K (tiny alone: on 3 K), and 32 distances for
-// each patch.
+// it comes near. Then a proof takes question.work units. The network takes 18 S such tests more, as
+// it looks at a first pair of groups twice, the tiny decoder on 12 K pairs and the chosen one on K
+// (tiny alone: on 3 K), and 32 distances for each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 

@@ -492,7 +492,7 @@ static void plan_cost_is_the_sum_over_segments(void) {
       unsigned char meets[64] = {0};
       unsigned char runs[64];
       nsvcd__find_meetings(p, &s.pairs[k], stage->moments, 1);
-      memcpy(meets, p->meets, stage->moments - 1);
+      memcpy(meets, p->meets, stage->moments > 1 ? stage->moments - 1 : 0);
       memset(runs, 0, sizeof runs);
       for (size_t i = 0; i + 1 < stage->moments;) {  // which runs are clear
         size_t length = 0;
@@ -814,8 +814,8 @@ static void plan_can_be_cancelled(void) {
   s.options.explore.draws = 40;
   s.options.explore.iterations = 5;  // so that refining is cancelled too
   const plan_outcome whole = plan_run(&s);
-  CHECK_GE(whole.answer.iterations, 7);
-  for (size_t at = 1; at <= 7; at++) {
+  CHECK_GE(whole.answer.iterations, 6);
+  for (size_t at = 1; at <= 6; at++) {
     s.cancel_at = at;
     const plan_outcome out = plan_run(&s);
     CHECK_EQ(out.result, NSVCD_OK);
