@@ -473,6 +473,70 @@ static void query_the_distance_is_the_least(void) {
   CHECK_GE(nearer, 5);  // than what was most suspicious
 }
 
+// The least distance of all pairs whose spheres meet, by the largest decoder, and how many there are.
+static float query_least_of_all(const nsvcd_question *question, size_t *count) {
+  static nsvcd__candidate items[NSVCD_MAX_PAIRS];
+  nsvcd__candidates kept;
+  float least = HUGE_VALF;
+  CHECK_EQ(nsvcd__check(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)), NSVCD_OK);
+  nsvcd__query *query = nsvcd__query_open(question, query_workspace());
+  nsvcd__task *task = &query->task;
+  CHECK_EQ(nsvcd__settings_of(&question->network, task->moving->patches, task->fixed->patches,
+                              &task->settings),
+           NSVCD_OK);
+  nsvcd__candidates_start(&kept, items, NSVCD_MAX_PAIRS);
+  *count = 0;
+  if (nsvcd__motion_gap(&task->motion) > task->lengths) return least;
+  nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
+  nsvcd__sheets_begin(&query->broad_phase, 1);
+  int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, &query->broad_phase);
+  while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
+  *count = kept.total;
+  for (size_t n = 0; n < kept.count; n++) {
+    nsvcd__candidate *one = &items[n];
+    nsvcd__decode(task, &one, 1, task->settings.decoder);
+    const float metres = 0.1f * one->apart * nsvcd__candidate_reach(task, one);
+    least = metres < least ? metres : least;
+  }
+  return least;
+}
+
+// Where all pairs are looked at, it is their least, clear or not; and of a batch too, which looks
+// first where the last of it collided if no more than yes or no is asked.
+static void query_the_distance_has_no_shortcut(void) {
+  size_t compared = 0;
+  size_t clear = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    query_scene s;
+    nsvcd_pose again[QUERY_POSES];
+    nsvcd_question two[2];
+    nsvcd_answer batch[2];
+    query_scene_open(&s, seed);
+    nsvcd_question options = query_options(NSVCD_MAX_PAIRS, NSVCD_MODEL_BASE, 0);
+    options.method = NSVCD_METHOD_NETWORK;
+    options.ask = NSVCD_ASK_DISTANCE;
+    memcpy(again, s.motion, sizeof again);
+    for (size_t k = 0; k < QUERY_POSES; k++) again[k].position[0] += 1e-3f;
+    two[0] = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+    two[1] = question_of(s.moving, again, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+    CHECK_EQ(nsvcd_sweep_batch(two, 2, query_workspace(), nsvcd_sweep_workspace_size(NULL), batch),
+             NSVCD_OK);
+    for (size_t n = 0; n < 2; n++) {
+      size_t count;
+      const nsvcd_answer one = query_answer(&two[n]);
+      CHECK(query_same_answer(&one, &batch[n]));
+      const float least = query_least_of_all(&two[n], &count);
+      if (one.inside || count == 0 || count > NSVCD_MAX_PAIRS) continue;
+      CHECK_NEAR((double)one.opinion.distance, (double)least, 1e-4 * fabs((double)least) + 1e-7);
+      clear += logit_of(&one) > NSVCD__CLEAR_LOGIT;
+      compared++;
+    }
+    query_scene_close(&s);
+  }
+  CHECK_GE(compared, 30);
+  CHECK_GE(clear, 10);
+}
+
 // Two boxes, one sliding over the other at a gap, or pressed in: within a quarter of a patch's
 // radius, and in order.
 static void query_the_distance_follows_the_gap(void) {
@@ -1129,6 +1193,7 @@ void test_query(void) {
   RUN(query_all_pairs_are_enough);
   RUN(query_more_pairs_never_lose_a_collision);
   RUN(query_the_distance_is_the_least);
+  RUN(query_the_distance_has_no_shortcut);
   RUN(query_the_distance_follows_the_gap);
   RUN(query_recall_raises_the_logit);
   RUN(query_thresholds_are_interpolated);
