@@ -543,7 +543,10 @@ static void query_the_distance_follows_the_gap(void) {
   nsvcd_mesh meshes[2] = {query_box(0.1, 0.12, 0.08), query_box(0.3, 0.3, 0.05)};
   query_memory memory[2];
   const nsvcd_body *bodies[2];
-  for (size_t k = 0; k < 2; k++) bodies[k] = query_encode(&meshes[k], 256, &memory[k]);
+  for (size_t k = 0; k < 2; k++) {
+    bodies[k] = query_encode(&meshes[k], 256, &memory[k]);
+    nsvcd_mesh_free(&meshes[k], NULL);
+  }
   const double radius = 0.5 * (double)(nsvcd_body_describe(bodies[0]).mean_patch_radius +
                                        nsvcd_body_describe(bodies[1]).mean_patch_radius);
   double before = -1;

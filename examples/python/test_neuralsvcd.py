@@ -277,23 +277,26 @@ class Queries(unittest.TestCase):
             nsvcd.sweep(BOX, RACK, path, times_a=["0", "1", "2"])
 
     def test_gradient(self) -> None:
-        """Against differences, by where the bodies are."""
+        """Of the logit and of the distance, against differences, by where the bodies are."""
         path, rest = np.array(LOW, float), np.array(at(0.01, 0.02, 0))
         path[:, :3] += np.random.default_rng(5).normal([0, 0, 0.05], 0.03, (2, 3))
-        gradient = nsvcd.sweep_gradient(MUG, RACK, path, rest, options=BY_NETWORK)
-        self.assertEqual((gradient.by_a.shape, gradient.by_b.shape), ((2, 6), (1, 6)))
-        self.assertEqual(gradient.answer, nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK))
-        found = np.concatenate([gradient.by_a[:, :3].ravel(), gradient.by_b[:, :3].ravel()])
-        differences = []
-        for poses in (path, rest):
-            for place in np.ndindex(len(poses), 3):
-                distances = []
-                for step in (2e-5, -4e-5):
-                    poses[place] += step
-                    distances.append(nsvcd.sweep(MUG, RACK, path, rest, options=BY_NETWORK).opinion.distance)
-                poses[place] += 2e-5
-                differences.append((distances[0] - distances[1]) / 4e-5)
-        np.testing.assert_allclose(differences, found, atol=0.05 * np.abs(found).max())
+        for ask in Ask.HIT, Ask.DISTANCE:
+            options = Options(method=Method.NETWORK, ask=ask)
+            gradient = nsvcd.sweep_gradient(MUG, RACK, path, rest, options=options)
+            self.assertEqual((gradient.by_a.shape, gradient.by_b.shape), ((2, 6), (1, 6)))
+            self.assertEqual(gradient.answer, nsvcd.sweep(MUG, RACK, path, rest, options=options))
+            found = np.concatenate([gradient.by_a[:, :3].ravel(), gradient.by_b[:, :3].ravel()])
+            differences = []
+            for poses in (path, rest):
+                for place in np.ndindex(len(poses), 3):
+                    told = []
+                    for step in (2e-5, -4e-5):
+                        poses[place] += step
+                        opinion = nsvcd.sweep(MUG, RACK, path, rest, options=options).opinion
+                        told.append(opinion.logit if ask is Ask.HIT else opinion.distance)
+                    poses[place] += 2e-5
+                    differences.append((told[0] - told[1]) / 4e-5)
+            np.testing.assert_allclose(differences, found, atol=0.05 * np.abs(found).max())
         self.assertEqual(nsvcd.sweep_gradient(MUG, RACK, options=BY_NETWORK).by_a.shape, (1, 6))
 
     def test_the_same_twice(self) -> None:
@@ -571,7 +574,7 @@ class Arrays(unittest.TestCase):
                             ({"to": 0.1}, Code.ARGUMENT), ({"to_time": 0.1}, Code.ARGUMENT),
                             ({**distance, "to_time": 0.1}, Code.ARGUMENT),
                             ({**first, "method": "network"}, Code.ARGUMENT),
-                            ({**distance, "method": "network"}, Code.ARGUMENT)):
+                            ({**distance, "to": 0.1, "method": "network"}, Code.ARGUMENT)):
             self.assertEqual(raised(nsvcd.sweep, MUG, RACK, LOW, options=Options(**named)).code, code, named)
         self.assertEqual(raised(nsvcd.sweep_gradient, MUG, RACK, LOW, options=Options(method=Method.PROOF)).code,
                          Code.ARGUMENT)
