@@ -15638,8 +15638,8 @@ static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, s
 // is clear to the ranker no second decoder (nsvcd__is_clear): 37,000 answers on held-out
 // sets, N = 128 to 512, are the same as with twice this and the next, but for four
 #define NSVCD__CLEAR_LOGIT 3.0f
-// the same in the first pair of groups, where planes are not asked yet: at 3 earlier weights stopped
-// one free motion of 2,000, 2 mm from contact, more; nsvcd__search_and_judge
+// the same in the first pair of groups, where planes are not asked yet: at 3 earlier weights
+// stopped one free motion of 2,000, 2 mm from contact, more; nsvcd__search_and_judge
 #define NSVCD__FIRST_CLEAR 4.0f
 // times that the place where the last of a batch collided may mislead before it is forgotten:
 // nsvcd__answer_by_network
