@@ -436,7 +436,7 @@ static const family families[] = {
     {"centres meet", centres_meet, 0.32, 0.002, 0.001, 1},
     {"without lean", without_lean, 0.001, 0.001, 2e-06, 0.0005},
     {"other options", other_options, 0.001, 0.001, 2e-06, 0.0001},
-    {"at their times", at_their_times, 0.001, 0.001, 3e-06, 0.0001},
+    {"at their times", at_their_times, 0.001, 0.001, 3e-06, 0.00012},
 };
 #define FAMILIES (sizeof families / sizeof families[0])
 #define SHALLOW 12
