@@ -162,7 +162,7 @@ class ScenesTest(unittest.TestCase):
         valid = few[0][..., 0] >= 0
         pair = nearest_pair(distance, few[3], valid)
         self.assertTrue(bool(valid.gather(1, pair).all()))  # never of an empty place
-        metres = (distance * few[3])
+        metres = distance * few[3]
         self.assertTrue(bool((metres.gather(1, pair) <= torch.where(valid, metres, 1e9)).all()))
 
 

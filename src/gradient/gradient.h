@@ -163,7 +163,7 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
   float by_x[NSVCD__DECODER_IN];
   nsvcd__pairs_of(task->moving, task->fixed, motion, &one, 1, &pairs);
   nsvcd__invariants(&pairs, 1, x);
-  const int of_logit = task->question->ask != NSVCD_ASK_DISTANCE;
+  const int of_logit = !nsvcd__of_distance(task);
   const size_t output = of_logit ? NSVCD__SAYS_LOGIT : NSVCD__SAYS_APART;
   const float unit = of_logit ? 1 : 0.1f * nsvcd__candidate_reach(task, &candidate);
   nsvcd__decoder_gradient(decisive->decoder, output, x, by_x);

@@ -47,7 +47,6 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     if (k == 2) least = NSVCD__SWELL * 32 / n;
     if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
     settings->swell = fmaxf(o->swell, least);
-    settings->of_distance = 0;
     return NSVCD_OK;
   }
   return NSVCD_ERROR_ARGUMENT;
@@ -127,9 +126,15 @@ static void nsvcd__answer_with(const nsvcd__task *task, const nsvcd__candidate *
   }
 }
 
+// Is a distance asked for? Then what comes nearest decides, not what is most suspicious, and
+// nothing is clear before all is known.
+static int nsvcd__of_distance(const nsvcd__task *task) {
+  return task->question->ask == NSVCD_ASK_DISTANCE;
+}
+
 // The candidate for which this is greatest decides.
 static float nsvcd__doubt(const nsvcd__task *task, const nsvcd__candidate *c) {
-  if (!task->settings.of_distance) return c->score;
+  if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
 
@@ -143,7 +148,7 @@ static int nsvcd__is_harmless(const nsvcd__candidate *candidate, float threshold
 static int nsvcd__is_clear(const nsvcd__task *task, const nsvcd__candidates *kept, int all,
                            float logit, nsvcd_opinion *out) {
   const float threshold = task->settings.threshold;
-  if (task->settings.of_distance) return 0;
+  if (nsvcd__of_distance(task)) return 0;
   const nsvcd__candidate *most = &kept->items[0];
   for (size_t k = 1; k < kept->count; k++)
     most = kept->items[k].score > most->score ? &kept->items[k] : most;
@@ -172,7 +177,7 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
     items[best] = items[k];
     items[k] = first;
   }
-  const int all = settings->of_distance;
+  const int all = nsvcd__of_distance(task);
   float most = -HUGE_VALF;
   while (!all && count > 1 && nsvcd__is_harmless(&items[count - 1], settings->threshold))
     count--;
@@ -226,13 +231,14 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   int clear = 0;
   nsvcd__sheets_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
-  if (more && !task->settings.of_distance) {
+  if (more && !nsvcd__of_distance(task)) {
     // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
     // there; planes would take most of the time.
     nsvcd__candidates_start(&kept, query->kept, worth);
+    const int unasked = search->sheets->unasked;
     search->sheets->unasked = 1;
     nsvcd__search_pair(search, &kept);
-    search->sheets->unasked = task->settings.swell >= 1;
+    search->sheets->unasked = unasked;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
@@ -277,14 +283,12 @@ static nsvcd_opinion nsvcd__certain_opinion(float logit) {
 // whether one body seems to be inside the other at the start.
 static int nsvcd__ask_network(nsvcd__query *query, nsvcd__hint *hint, nsvcd_opinion *out) {
   nsvcd__task *task = &query->task;
-  const int hinted = hint && hint->known && task->question->ask == NSVCD_ASK_HIT;
+  const int hinted = hint && hint->known && !nsvcd__of_distance(task);
   // checked before
   (void)nsvcd__settings_of(&task->question->network, task->moving->patches,
                            task->fixed->patches, &task->settings);
-  if (task->question->ask == NSVCD_ASK_DISTANCE) {
-    task->settings.of_distance = 1;
-    if (task->question->network.swell <= 0) task->settings.swell = NSVCD__SWELL_DISTANCE;
-  }
+  if (nsvcd__of_distance(task) && task->question->network.swell <= 0)
+    task->settings.swell = NSVCD__SWELL_DISTANCE;
   *out = nsvcd__certain_opinion(-NSVCD_LOGIT_CERTAIN);
   query->broad_phase.balls_met = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;

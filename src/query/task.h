@@ -69,8 +69,6 @@ typedef struct nsvcd__settings {
   float threshold;
   // of patches, shares of their radii, before planes part them
   float swell;
-  // 1: what comes nearest decides, not what is most suspicious, and nothing is clear before
-  int of_distance;
 } nsvcd__settings;
 
 // The candidate that an answer is about, and the decoder that gave its logit.

@@ -251,7 +251,7 @@ static void measure(const judge *j, const char *path) {
   known *all = (known *)must(calloc(file.mesh_count, sizeof *all));
   double *off = (double *)must(calloc(file.problem_count + 1, sizeof *off));
   size_t near_by = 0, count = 0, deep = 0, freed[2] = {0, 0};
-  double taken[2] = {0, 0};
+  double taken[3] = {0, 0, 0};
   for (size_t n = 0; n < file.problem_count; n++) {
     const problem *p = &file.problems[n];
     const size_t names[2] = {p->moving, p->fixed};
@@ -278,11 +278,9 @@ static void measure(const judge *j, const char *path) {
     }
     if (p->label != 1) continue;
     deep++;
-    for (int of_logit = 0; of_logit < (j->is_grid ? 1 : 2); of_logit++) {
-      double unused = 0;
-      freed[of_logit] += (size_t)is_freed(j, moving, fixed, q, -p->margin, of_logit,
-                                          of_logit ? &unused : &taken[1]);
-    }
+    for (int of_logit = 0; of_logit < (j->is_grid ? 1 : 2); of_logit++)
+      freed[of_logit] +=
+          (size_t)is_freed(j, moving, fixed, q, -p->margin, of_logit, &taken[1 + of_logit]);
   }
   qsort(off, count, sizeof *off, compare);
   size_t bytes = 0;
