@@ -102,61 +102,30 @@ static float grid_at(const grid_body *g, const float *cells) {
   return grid_interpolate(g, &at, 0);
 }
 
-// Lowers q->activation to the least distance of the moving body's points, in cells, and sets where
-// that is, if there is any below it. As grid_collide.
-static void grid_lower(grid_query *q, float *best) {
-  uint32_t stack[GRID_STACK];
-  size_t count = 1;
-  stack[0] = 0;
-  while (count) {
-    const grid_node *node = &q->moving->nodes[stack[--count]];
-    grid_lanes at;
-    float gap[GRID_WIDTH];
-    const unsigned mask = grid_reach(q, node, &at, gap);
-    for (uint32_t k = 0; k < GRID_WIDTH; k++) {
-      if (!(mask >> k & 1) || !(gap[k] < q->activation)) continue;
-      if (!node->leaf) {
-        stack[count++] = node->first + k;
-        continue;
-      }
-      const float distance = grid_interpolate(q->fixed, &at, k);
-      if (!(distance < q->activation)) continue;
-      q->activation = distance;
-      const float *own[3] = {node->centre[0], node->centre[1], node->centre[2]};
-      for (int c = 0; c < 3; c++)
-        best[c] = q->p[c] + q->r[3 * c] * own[0][k] + q->r[3 * c + 1] * own[1][k] +
-                  q->r[3 * c + 2] * own[2][k];
-    }
-  }
-}
-
 // The least distance of all points at all poses, and, unless it is NULL, where to go from there.
 static double grid_distance(const known *moving, const known *fixed, const nsvcd_question *question,
                             double *force) {
   const grid_body *g = fixed->grid;
   const nsvcd_mover *a = &question->a;
   const nsvcd_mover *b = &question->b;
-  const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->poses[0].rotation));
-  const nsvcd__f3 origin = nsvcd__f3_load(b->poses[0].position);
+  const float ratio = a->scale / b->scale;
   float best[3] = {0, 0, 0};
   grid_query q;
   q.moving = moving->grid;
   q.fixed = g;
-  q.inverse = a->scale / (b->scale * g->cell);
   q.activation = FLT_MAX;
   for (size_t n = 0; n < a->count; n++) {
-    const nsvcd__mat3 turn = nsvcd__mat3_of(nsvcd__quat_load(a->poses[n].rotation));
-    const nsvcd__f3 away = nsvcd__f3_sub(nsvcd__f3_load(a->poses[n].position), origin);
-    const nsvcd__f3 place = nsvcd__mat3_apply_transpose(&axes, away);
-    const float at[3] = {place.x, place.y, place.z};
-    for (int k = 0; k < 3; k++) {
-      const nsvcd__f3 unit = nsvcd__f3_of(k == 0, k == 1, k == 2);
-      const nsvcd__f3 column = nsvcd__mat3_apply_transpose(&axes, nsvcd__mat3_apply(&turn, unit));
-      const float rows[3] = {column.x, column.y, column.z};
-      for (int i = 0; i < 3; i++) q.r[3 * i + k] = q.inverse * rows[i];
-      q.p[k] = (at[k] / b->scale - g->low[k]) / g->cell;
-    }
-    grid_lower(&q, best);
+    const nsvcd_pose seen = nsvcd__relative_pose(&a->poses[n], &b->poses[0]);
+    const nsvcd__mat3 turn = nsvcd__mat3_of(nsvcd__quat_load(seen.rotation));
+    placement at;
+    nsvcd__f3_store(nsvcd__f3_scale(turn.x, ratio), at.rotation);
+    nsvcd__f3_store(nsvcd__f3_scale(turn.y, ratio), at.rotation + 3);
+    nsvcd__f3_store(nsvcd__f3_scale(turn.z, ratio), at.rotation + 6);
+    for (int k = 0; k < 3; k++) at.position[k] = seen.position[k] / b->scale;
+    q.inverse = 1 / g->cell;
+    grid_place(&q, &at);
+    q.inverse *= ratio;  // of the moving body's radii
+    (void)grid_search(&q, best);
   }
   if (force) {
     float slope[3];
@@ -168,6 +137,7 @@ static double grid_distance(const known *moving, const known *fixed, const nsvcd
       from[c] -= 0.5f;
       slope[c] = grid_at(g, to) - grid_at(g, from);
     }
+    const nsvcd__mat3 axes = nsvcd__mat3_of(nsvcd__quat_load(b->poses[0].rotation));
     const nsvcd__f3 way = nsvcd__mat3_apply(&axes, nsvcd__f3_load(slope));
     force[0] = (double)way.x;
     force[1] = (double)way.y;

@@ -389,10 +389,12 @@ static float grid_interpolate(const grid_body *g, const grid_lanes *at, size_t k
   float back = rows[2] + f[1] * (rows[3] - rows[2]);
   return grid_beyond((front + f[2] * (back - front)) * (1.0f / GRID_UNIT), at->beyond[k]);
 }
-// Depth first, the deepest child on top.
-static int grid_collide(const grid_query *q) {
+// Is a point below the activation? Depth first, the deepest child on top. With `nearest` it goes on:
+// q->activation becomes the least distance, in cells, and nearest where that is.
+static int grid_search(grid_query *q, float *nearest) {
   uint32_t stack[GRID_STACK];
   size_t count = 1;
+  int found = 0;
   stack[0] = 0;
   while (count) {
     const grid_node *node = &q->moving->nodes[stack[--count]];
@@ -403,7 +405,16 @@ static int grid_collide(const grid_query *q) {
     for (uint32_t k = 0; mask; k++, mask >>= 1) {
       if (!(mask & 1)) continue;
       if (node->leaf) {
-        if (grid_interpolate(q->fixed, &at, k) < q->activation) return 1;
+        const float distance = grid_interpolate(q->fixed, &at, k);
+        if (!(distance < q->activation)) continue;
+        if (!nearest) return 1;
+        found = 1;
+        q->activation = distance;
+        for (int i = 0; i < 3; i++) {
+          const float *r = q->r + 3 * i;
+          nearest[i] = q->p[i] + mesh_bvh_dot(r[0], r[1], r[2], node->centre[0][k],
+                                              node->centre[1][k], node->centre[2][k]);
+        }
         continue;
       }
       stack[count] = node->first + k;
@@ -416,7 +427,7 @@ static int grid_collide(const grid_query *q) {
       count++;
     }
   }
-  return 0;
+  return found;
 }
 static int grid_hits(const void *moving, const void *fixed, const placement *at, size_t count,
                      float activation) {
@@ -427,7 +438,7 @@ static int grid_hits(const void *moving, const void *fixed, const placement *at,
   q.activation = activation * q.inverse;
   for (size_t i = 0; i < count; i++) {
     grid_place(&q, &at[i]);
-    if (grid_collide(&q)) return 1;
+    if (grid_search(&q, NULL)) return 1;
   }
   return 0;
 }
