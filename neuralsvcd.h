@@ -9352,7 +9352,8 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
 }
 
 // Lane s of chords against 16 resting spheres.
-static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, nsvcd__spheres resting) {
+NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s,
+                                           nsvcd__spheres resting) {
   const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
   const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_get(c->way[0] + s, NSVCD__LANES));
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);
@@ -9491,11 +9492,18 @@ typedef struct nsvcd__sheets {
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
+  // The least and the greatest of a moving group's ranges along the plane that parted last, in the
+  // segments that are known (bits): of that group, plane, and number of planes found.
+  float low[NSVCD__MAX_SEGMENTS], high[NSVCD__MAX_SEGMENTS];
+  uint64_t segments_known;
+  size_t of_group;
+  uint32_t of_plane, of_found;
 } nsvcd__sheets;
 
 // Begins the search of a motion.
 static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
+  search->sheets->segments_known = 0;
   search->sheets->swell = swell;
   // patches whose balls meet are then no farther apart than that
   search->sheets->unasked = swell >= 1;
@@ -9625,10 +9633,22 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
   nsvcd__sheets *sheets = search->sheets;
   const size_t n = sheets->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__sheets_know(search, g, s, h, n, stray);
+  if (sheets->of_group != g || sheets->of_plane != n || sheets->of_found != sheets->found) {
+    sheets->of_group = g;
+    sheets->of_plane = (uint32_t)n;
+    sheets->of_found = sheets->found;
+    sheets->segments_known = 0;
+  }
+  nsvcd__resting_know(search, h, n);
+  if (!(sheets->segments_known >> s & 1)) {
+    nsvcd__sheets_know(search, g, s, h, n, stray);
+    sheets->low[s] = nsvcd__least_lane(sheets->moving[n].low, 1);
+    sheets->high[s] = -nsvcd__least_lane(sheets->moving[n].high, -1);
+    sheets->segments_known |= (uint64_t)1 << s;
+  }
   const nsvcd__ranges *resting = &sheets->resting[n];
-  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(sheets->moving[n].low, 1));
-  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(sheets->moving[n].high, -1));
+  const nsvcd__v low = nsvcd__v_set(sheets->low[s]);
+  const nsvcd__v high = nsvcd__v_set(sheets->high[s]);
   NSVCD__EACH_SLICE(l) {
     bits &= ~(nsvcd__v_lt(high, nsvcd__v_load(resting->low + l)) << l);
     bits &= ~(nsvcd__v_lt(nsvcd__v_load(resting->high + l), low) << l);
@@ -15823,14 +15843,14 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float n = sqrtf((float)points1 * (float)points2);
     const float last = NSVCD_W_SIZES - 1;
-    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float size = log2f(n) - 5;
     const float at = size < 0 ? 0 : size > last ? last : size;
     const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    const float n = sqrtf((float)points1 * (float)points2);
     float least = 0;
     if (k == 2) least = NSVCD__SWELL * 32 / n;
     if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;

@@ -763,7 +763,8 @@ static uint32_t nsvcd__meet(const nsvcd__chords *c, nsvcd__sphere resting) {
 }
 
 // Lane s of chords against 16 resting spheres.
-static uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s, nsvcd__spheres resting) {
+NSVCD__INLINE uint32_t nsvcd__meet_members(const nsvcd__chords *c, size_t s,
+                                           nsvcd__spheres resting) {
   const nsvcd__v3 start = nsvcd__v3_set(nsvcd__f3_get(c->start[0] + s, NSVCD__LANES));
   const nsvcd__v3 way = nsvcd__v3_set(nsvcd__f3_get(c->way[0] + s, NSVCD__LANES));
   const nsvcd__v inverse = nsvcd__v_set(c->inverse[s]);

@@ -35,14 +35,14 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
+    const float n = sqrtf((float)points1 * (float)points2);
     const float last = NSVCD_W_SIZES - 1;
-    const float size = 0.5f * (log2f((float)points1) + log2f((float)points2)) - 5;
+    const float size = log2f(n) - 5;
     const float at = size < 0 ? 0 : size > last ? last : size;
     const size_t row = at < last ? (size_t)at : NSVCD_W_SIZES - 2;
     const float low = nsvcd_w_threshold[decoder][row][k];
     const float high = nsvcd_w_threshold[decoder][row + 1][k];
     settings->threshold = low + (at - (float)row) * (high - low);
-    const float n = sqrtf((float)points1 * (float)points2);
     float least = 0;
     if (k == 2) least = NSVCD__SWELL * 32 / n;
     if (k == 3) least = NSVCD__SWELL_MOST * 32 / n;
