@@ -300,8 +300,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 1120 + 32 * (segments) + \
-   112 * (pairs))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
 // Answers many questions, as a frame of a game or a sampling planner has them. Where a question and
 // the one before it ask the network about the same two bodies, it is first asked where that one

@@ -134,6 +134,7 @@ typedef char nsvcd__proof_constants_hold
 #ifndef NSVCD_NO_NETWORK
 typedef char
     nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
+                                          sizeof(nsvcd__sheets) <= 576 &&
                                           NSVCD__LATENT == 40 &&
                                           sizeof(float) * NSVCD__DECODER_IN <=
                                               sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES

@@ -108,18 +108,11 @@ typedef struct nsvcd__sheets {
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
-  // The least and the greatest of a moving group's ranges along the plane that parted last, in the
-  // segments that are known (bits): of that group, plane, and number of planes found.
-  float low[NSVCD__MAX_SEGMENTS], high[NSVCD__MAX_SEGMENTS];
-  uint64_t segments_known;
-  size_t of_group;
-  uint32_t of_plane, of_found;
 } nsvcd__sheets;
 
 // Begins the search of a motion.
 static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
   search->sheets->found = search->sheets->best = 0;
-  search->sheets->segments_known = 0;
   search->sheets->swell = swell;
   // patches whose balls meet are then no farther apart than that
   search->sheets->unasked = swell >= 1;
@@ -249,22 +242,10 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
   nsvcd__sheets *sheets = search->sheets;
   const size_t n = sheets->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  if (sheets->of_group != g || sheets->of_plane != n || sheets->of_found != sheets->found) {
-    sheets->of_group = g;
-    sheets->of_plane = (uint32_t)n;
-    sheets->of_found = sheets->found;
-    sheets->segments_known = 0;
-  }
-  nsvcd__resting_know(search, h, n);
-  if (!(sheets->segments_known >> s & 1)) {
-    nsvcd__sheets_know(search, g, s, h, n, stray);
-    sheets->low[s] = nsvcd__least_lane(sheets->moving[n].low, 1);
-    sheets->high[s] = -nsvcd__least_lane(sheets->moving[n].high, -1);
-    sheets->segments_known |= (uint64_t)1 << s;
-  }
+  nsvcd__sheets_know(search, g, s, h, n, stray);
   const nsvcd__ranges *resting = &sheets->resting[n];
-  const nsvcd__v low = nsvcd__v_set(sheets->low[s]);
-  const nsvcd__v high = nsvcd__v_set(sheets->high[s]);
+  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(sheets->moving[n].low, 1));
+  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(sheets->moving[n].high, -1));
   NSVCD__EACH_SLICE(l) {
     bits &= ~(nsvcd__v_lt(high, nsvcd__v_load(resting->low + l)) << l);
     bits &= ~(nsvcd__v_lt(nsvcd__v_load(resting->high + l), low) << l);
