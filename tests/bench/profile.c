@@ -42,8 +42,8 @@ static void keep_least(double *times, size_t stage, double since) {
 }
 
 // Any number of pairs, as many at a time as nsvcd__decode takes.
-static void logits_of(const nsvcd__decoder *head, const float *x, size_t count, int int8,
-                      float *logits) {
+static void ask_decoder(const nsvcd__decoder *head, const float *x, size_t count, int int8,
+                        float (*said)[NSVCD__SAYINGS]) {
   for (size_t first = 0; first < count; first += NSVCD__ROWS) {
     const size_t rows = count - first < NSVCD__ROWS ? count - first : NSVCD__ROWS;
     nsvcd__decoder_says(head, x + NSVCD__DECODER_IN * first, rows, int8, said + first);
@@ -56,7 +56,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   nsvcd__candidates kept;
   nsvcd__candidate *batch[NSVCD__BATCH];
   nsvcd__pairs pairs[NSVCD__BATCH / NSVCD__SLICE];
-  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
+  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__SAYINGS];
   double start = seconds();
   const nsvcd_question asked =
       question_of(q->moving, q->poses, q->count, q->fixed, q->fixed_pose, NULL);
@@ -92,13 +92,13 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   }
   keep_least(times, INVARIANTS, start);
   start = seconds();
-  logits_of(&nsvcd_w_decoders[0], x, 16, 0, logits);
+  ask_decoder(&nsvcd_w_decoders[0], x, 16, 0, said);
   keep_least(times, TINY, start);
   start = seconds();
-  logits_of(&nsvcd_w_decoders[2], x, 8, 0, logits);
+  ask_decoder(&nsvcd_w_decoders[2], x, 8, 0, said);
   keep_least(times, BASE, start);
   start = seconds();
-  logits_of(&nsvcd_w_decoders[2], x, 8, 1, logits);
+  ask_decoder(&nsvcd_w_decoders[2], x, 8, 1, said);
   keep_least(times, BASE_INT8, start);
 }
 
@@ -203,7 +203,7 @@ static double peak_gflops(void) {
 
 // Batches of `rows` pairs through a head, GFLOP/s.
 static double head_gflops(size_t model, size_t rows, int int8) {
-  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], logits[NSVCD__BATCH];
+  static float x[NSVCD__BATCH * NSVCD__DECODER_IN], said[NSVCD__BATCH][NSVCD__SAYINGS];
   const nsvcd__decoder *head = &nsvcd_w_decoders[model];
   double flops = 0;
   double best = 0;
@@ -211,7 +211,7 @@ static double head_gflops(size_t model, size_t rows, int int8) {
   for (size_t l = 0; l < head->layers; l++) flops += 2.0 * head->sizes[l] * head->sizes[l + 1];
   for (int run = 0; run < 5; run++) {
     const double start = seconds();
-    for (int n = 0; n < 5000; n++) logits_of(head, x, rows, int8, logits);
+    for (int n = 0; n < 5000; n++) ask_decoder(head, x, rows, int8, said);
     best = fmax(best, 5000 * flops * (double)rows / (seconds() - start) * 1e-9);
   }
   return best;
