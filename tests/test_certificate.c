@@ -77,7 +77,7 @@ static void certificates_are_true(void) {
         CHECK_GE(fabs(cert_winding(&s, report.time, report.a, (int)report.b)), 0.99);
     }
   }
-  for (int k = NSVCD_VERIFY_FREE; k <= NSVCD_VERIFY_INSIDE; k++) CHECK_GE(count[k], 20);
+  for (int k = NSVCD_VERIFY_FREE; k <= NSVCD_VERIFY_INSIDE; k++) CHECK_GE(count[k], check_many(4));
   CHECK_LE(missed, check_many(400) / 100);
 }
 
