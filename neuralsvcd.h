@@ -36,8 +36,8 @@
 //     question.a.count = 2;
 //     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
 //     question.b.scale = 2;
-//     question.ask = NSVCD_ASK_FIRST;
-//     question.to = 0.001f;  // metres
+//     question.ask = NSVCD_ASK_FIRST;  // and when first: the default, HIT, tells of any contact
+//     question.to = 0.001f;            // metres
 //
 //     nsvcd_answer answer;
 //     const size_t size = nsvcd_sweep_workspace_size(&question);
@@ -559,7 +559,7 @@ typedef struct nsvcd_encode_options {
   float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
-  // 1: for the network too, of which the proof needs nothing: 40 bytes more a patch, and time
+  // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
   int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;
@@ -706,11 +706,13 @@ typedef struct nsvcd_pose {
 
 // What is asked of two bodies that move.
 typedef enum nsvcd_ask {
-  // do they hit each other? Of the time, only that of some contact is told
+  // do they hit each other at all? The search ends at whatever contact it finds: the time that is
+  // told is that of this one, as a rule not the first
   NSVCD_ASK_HIT = 0,
-  // and when first?
+  // do they, and when first? This is what tells how far things may move
   NSVCD_ASK_FIRST,
-  // do they, and how near do they come? The network, where it is named, tells its opinion of that
+  // do they, and how near do they come? Of the time no more is told than of HIT. The network, where
+  // it is named, tells its opinion of the distance
   NSVCD_ASK_DISTANCE
 } nsvcd_ask;
 
@@ -917,8 +919,10 @@ typedef struct nsvcd_answer {
   // 1: a hit, for one body or a part of it lies inside the other at the start, by proof or by the
   // network's estimate. Surfaces may meet as well: a plain question does not look for that
   int inside;
-  // in [0,1]. They are free of each other before `low`, and in contact at `high`. FREE: 1, 1. Low
-  // is 0 where not asked for FIRST
+  // in [0,1], of the first contact: they are free of each other before `low`, and in contact at
+  // `high`. FIRST: as near each other as `to` says. HIT, DISTANCE: low is 0, and high is the time
+  // of a contact, before which there may be others; by the network, when the pair that it suspects
+  // comes closest. FREE: 1, 1
   nsvcd_range time;
   // metres: the least distance over the motion, up to time.high where that is known: to the
   // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,
@@ -1080,7 +1084,7 @@ typedef struct nsvcd_certificate {
   nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;
-  // of a HIT, in [0,1]
+  // of a HIT, in [0,1]: of the contact that is proven, which need not be the first
   double time;
   // of all of it, also where that is more than there was room for
   size_t size;
@@ -1219,8 +1223,8 @@ typedef struct nsvcd_check_answer {
   // or one is inside of the other, in the configuration that is named
   nsvcd_verdict verdict;
   nsvcd_why why;
-  // of the scene's pairs, and where in the motion: of a HIT, or of what is UNDECIDED. NSVCD_NONE
-  // where there is none
+  // of the scene's pairs, and where in the motion: of a HIT, which need not be the motion's first,
+  // or of what is UNDECIDED. NSVCD_NONE where there is none
   size_t pair, piece;
   // of the piece, in [0,1]
   double share;

@@ -218,7 +218,7 @@ static void picture_captions(FILE *svg, const picture_panel *panel) {
   fprintf(svg, "<rect y=\"%d\" width=\"%d\" height=\"44\" fill=\"#fff\" fill-opacity=\".9\"/>\n",
           PICTURE_HEIGHT - 44, PICTURE_WIDTH);
   fprintf(svg, "<text x=\"24\" y=\"%d\" font-size=\"15\" fill=\"#4a5564\">", PICTURE_HEIGHT - 17);
-  if (!is_free) fprintf(svg, "at t = %.2f of the way, ", (double)a->nearest.time);
+  if (!is_free) fprintf(svg, "first at t = %.2f of the way, ", (double)a->nearest.time);
   if (is_free) {
     fprintf(svg, "certified free");
   } else if (a->contact_count > 0) {

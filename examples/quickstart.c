@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // quickstart.c - a mug is carried into a dish rack, once too low and once high enough. Which of the
-// two motions hits?
+// two motions hits, and when first?
 //
 // Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`:
 // build/demo.svg).
@@ -83,6 +83,7 @@ int main(void) {
     question.a.poses = motion;
     question.a.count = POSES;
     question.b.body = rack;
+    question.ask = NSVCD_ASK_FIRST;  // HIT, the default, tells of any contact, not of the first
     nsvcd_result result = NSVCD_OK;
     double least = HUGE_VAL;
     for (int run = 0; run < 20 && !result; run++) {  // many times only to time it
@@ -100,7 +101,7 @@ int main(void) {
     if (answer.verdict == NSVCD_HIT) {
       const float *p = answer.nearest.point;
       const float *n = answer.nearest.normal;
-      printf(" at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)",
+      printf(" first at t = %.2f, (%.3f, %.3f, %.3f), normal (%.2f, %.2f, %.2f)",
              (double)answer.time.high, (double)p[0], (double)p[1], (double)p[2], (double)n[0],
              (double)n[1], (double)n[2]);
     }

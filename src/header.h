@@ -36,8 +36,8 @@
 //     question.a.count = 2;
 //     question.b.body = mug;  // the same mesh, twice as large, rests at the origin
 //     question.b.scale = 2;
-//     question.ask = NSVCD_ASK_FIRST;
-//     question.to = 0.001f;  // metres
+//     question.ask = NSVCD_ASK_FIRST;  // and when first: the default, HIT, tells of any contact
+//     question.to = 0.001f;            // metres
 //
 //     nsvcd_answer answer;
 //     const size_t size = nsvcd_sweep_workspace_size(&question);

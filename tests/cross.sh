@@ -37,7 +37,7 @@ answers() {
     $cc $flags $extra -o "$here/$program" examples/$program.c -lm || return 1
   done
   $cc $flags $extra -o "$here/verify" examples/verify/verify.c -lm || return 1
-  (cd "$here" && $run ./quickstart) | grep carried | sed 's/;.*us)/)/; s/ at .*//' >"$here/quickstart.txt"
+  (cd "$here" && $run ./quickstart) | grep carried | sed 's/;.*us)/)/; s/ first at .*//' >"$here/quickstart.txt"
   for method in proof network; do
     $run "$here/svcd" check --method $method --repeat 1 "$out/problems.txt" 2>"$here/$method.err" |
       cut -f 1,3,7 >"$here/$method.txt"

@@ -32,6 +32,23 @@ rm -f build/demo.svg
 build/quickstart >"$dir/out" || fail "quickstart"
 grep -q 'carried low  -> HITS (witness' "$dir/out" || fail "the mug carried low hits the rack: $(grep low "$dir/out")"
 grep -q 'carried high -> clears (certified-free' "$dir/out" || fail "the mug carried high clears the rack: $(grep high "$dir/out")"
+# The time that it says is that of the first contact: up to the pose before, the same motion, made anew, is free; two
+# poses later it hits.
+first=$(sed -n 's/^carried low .* first at t = \([0-9.]*\),.*/\1/p' "$dir/out")
+awk -v first="${first:-1}" -v assets="$PWD/examples/assets" 'BEGIN {
+  print "nsvcd-problems 1\nmesh mug " assets "/mug.obj\nmesh rack " assets "/dish_rack.obj"
+  for (late = 0; late < 2; late++) {
+    count = int(64 * first) + 3 * late
+    print "problem " (late ? "hit" : "free"), "mug 1 rack 1  0 0 0  0 0 0 1", late, "nan", count
+    for (i = 0; i < count; i++) {
+      t = i / 64; s = 1 - t; yaw = (0.5 * s - 1.5708) / 2; tilt = 0.45 * s * s
+      print 0.04 * s^3, -0.46 * s^3 - 1.08 * s * s * t - 0.03 * s * t * t,
+        0.03 * s^3 + 0.45 * s * s * t + 0.45 * s * t * t + 0.02 * t^3,
+        sin(tilt) * cos(yaw), -sin(tilt) * sin(yaw), cos(tilt) * sin(yaw), cos(tilt) * cos(yaw)
+    }
+  }
+}' >"$dir/first.txt"
+expect 0 'accuracy *100.00' build/svcd check "$dir/first.txt"
 tail -1 build/demo.svg | grep -q '^</svg>$' || fail "build/demo.svg is not whole"
 if command -v xmllint >/dev/null; then xmllint --noout build/demo.svg || fail "build/demo.svg is not XML"; fi
 
@@ -94,12 +111,17 @@ awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
 cp "$dir/readme.c" "$dir/readme.cc"
 readme() {  # COMPILER AND FLAGS
   "$@" -O2 -Wall -Wextra -Werror -I. -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README: $*"
-  head -1 "$dir/out" | grep -q '^hit, t = 0.65$' || fail "the program in README says: $(cat "$dir/out")"
+  head -1 "$dir/out" | grep -q '^hit, t = 0.60$' || fail "the program in README says: $(cat "$dir/out")"
   (cd "$dir" && ./readme) 2>"$dir/err" && fail "the program in README ends with 0 without its meshes"
   grep -q '^examples/assets/mug.obj: the file is missing' "$dir/err" || fail "the program in README, without its meshes: $(cat "$dir/err")"
 }
 readme "${CC:-cc}" -std=c99 "$dir/readme.c"
 if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$dir/readme.cc"; fi
+# 0.60 is the first contact: until 0.59 it is free. Any other is not called the first.
+expect 0 '' build/svcd sweep examples/assets/mug.obj examples/assets/dish_rack.obj --from 0,-0.4,0.3 --to 0,-0.164,0.123
+line '^free'
+expect 0 '' build/svcd sweep examples/assets/mug.obj examples/assets/dish_rack.obj --from 0,-0.4,0.3 --to 0,0,0 --first 0
+line '^hit at t = 0.[0-9]*, perhaps not the first contact: proven'
 
 # svcd encode, info.
 expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/mug.body"

@@ -1314,6 +1314,20 @@ class Readme(unittest.TestCase):
         self.assertEqual(printed.getvalue(), expected)
         self.assertLessEqual(text.count("\n"), 60)
 
+    def test_docstring(self) -> None:
+        """What the module's first lines print is when the mug meets the rack first: until shortly before it is free."""
+        example = "\n".join(re.findall(r"^    (.*)", nsvcd.__doc__, re.M))
+        folder = os.getcwd()
+        os.chdir(ASSETS)
+        try:
+            with redirect_stdout(io.StringIO()) as printed:
+                exec(example, {**vars(nsvcd), "mug": MUG, "path": LOW})
+        finally:
+            os.chdir(folder)
+        before = float(printed.getvalue()) - 0.01
+        until = np.add(LOW[0], before * np.subtract(LOW[1], LOW[0]))
+        self.assertEqual(nsvcd.sweep(MUG, RACK, [LOW[0], until]).verdict, "free")
+
 
 class Wheel(unittest.TestCase):
     def test_from_a_clean_checkout(self) -> None:

@@ -122,8 +122,9 @@ static void sweep_verdict(const sweep_job *job, const settings *options, char *o
   char near_by[60] = "";
   char reason[120];
   if (collides)
-    snprintf(when, sizeof when, " at t = %.4f%s", (double)contact_time_of(a),
-             wants_first(options) ? ", the first contact" : "");
+    snprintf(when, sizeof when, " at t = %.4f, %s", (double)contact_time_of(a),
+             wants_first(options) || !(contact_time_of(a) > 0) ? "the first contact"
+                                                               : "perhaps not the first contact");
   if (hides_first(a))
     snprintf(when, sizeof when, " at t = %.4f, and not before t = %.4f", (double)a->time.high,
              (double)a->time.low);

@@ -53,7 +53,7 @@ typedef struct nsvcd_encode_options {
   float round;
   // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
   int open;
-  // 1: for the network too, of which the proof needs nothing: 40 bytes more a patch, and time
+  // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
   int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;

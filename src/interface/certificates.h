@@ -39,7 +39,7 @@ typedef struct nsvcd_certificate {
   nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;
-  // of a HIT, in [0,1]
+  // of a HIT, in [0,1]: of the contact that is proven, which need not be the first
   double time;
   // of all of it, also where that is more than there was room for
   size_t size;

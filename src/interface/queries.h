@@ -11,11 +11,13 @@ typedef struct nsvcd_pose {
 
 // What is asked of two bodies that move.
 typedef enum nsvcd_ask {
-  // do they hit each other? Of the time, only that of some contact is told
+  // do they hit each other at all? The search ends at whatever contact it finds: the time that is
+  // told is that of this one, as a rule not the first
   NSVCD_ASK_HIT = 0,
-  // and when first?
+  // do they, and when first? This is what tells how far things may move
   NSVCD_ASK_FIRST,
-  // do they, and how near do they come? The network, where it is named, tells its opinion of that
+  // do they, and how near do they come? Of the time no more is told than of HIT. The network, where
+  // it is named, tells its opinion of the distance
   NSVCD_ASK_DISTANCE
 } nsvcd_ask;
 
@@ -222,8 +224,10 @@ typedef struct nsvcd_answer {
   // 1: a hit, for one body or a part of it lies inside the other at the start, by proof or by the
   // network's estimate. Surfaces may meet as well: a plain question does not look for that
   int inside;
-  // in [0,1]. They are free of each other before `low`, and in contact at `high`. FREE: 1, 1. Low
-  // is 0 where not asked for FIRST
+  // in [0,1], of the first contact: they are free of each other before `low`, and in contact at
+  // `high`. FIRST: as near each other as `to` says. HIT, DISTANCE: low is 0, and high is the time
+  // of a contact, before which there may be others; by the network, when the pair that it suspects
+  // comes closest. FREE: 1, 1
   nsvcd_range time;
   // metres: the least distance over the motion, up to time.high where that is known: to the
   // clearance or less that they come, if they hit. What stored triangles are off by is allowed for,

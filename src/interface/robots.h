@@ -100,8 +100,8 @@ typedef struct nsvcd_check_answer {
   // or one is inside of the other, in the configuration that is named
   nsvcd_verdict verdict;
   nsvcd_why why;
-  // of the scene's pairs, and where in the motion: of a HIT, or of what is UNDECIDED. NSVCD_NONE
-  // where there is none
+  // of the scene's pairs, and where in the motion: of a HIT, which need not be the motion's first,
+  // or of what is UNDECIDED. NSVCD_NONE where there is none
   size_t pair, piece;
   // of the piece, in [0,1]
   double share;

@@ -2,8 +2,8 @@
 """Does this body, moving along this trajectory, hit that body? neuralsvcd.h for Python, by ctypes.
 
     rack = Body("dish_rack.obj")             # or STL, PLY, GLB; scale=0.001: of millimetres
-    answer = sweep(mug, rack, path)          # path: (k, 7), or matrices (k, 4, 4)
-    if answer.verdict == "hit": print(answer.time.high)
+    answer = sweep(mug, rack, path, options=Options(ask="first"))  # path: (k, 7), or matrices (k, 4, 4)
+    if answer.verdict == "hit": print(answer.time.high)  # when first; without options: when there is a contact
 
 Units are metres and radians, time is in [0, 1]. A pose is x y z and a unit quaternion x y z w; a
 motion is an array (k, 7) of poses, uniform in time, position linear and rotation slerp in between.
@@ -79,7 +79,7 @@ class _Word(str, enum.Enum):
 
 
 class Ask(_Word):
-    """What is asked: nsvcd_ask."""
+    """What is asked: nsvcd_ask. HIT, the default, tells the time of a contact, as a rule not of the first."""
     HIT = "hit"
     FIRST = "first"
     DISTANCE = "distance"
@@ -740,7 +740,7 @@ class _Options:
 class Options(_Options):
     """What is asked, and how: nsvcd_question. What is 0 is the default. Words may be given as such: ask="first".
 
-    ask        hit: do they hit? first: and when first? distance: and how near do they come?
+    ask        hit: do they hit at all? first: and when first? distance: and how near do they come?
     to         metres. first: nothing moves farther than this from time.low to time.high; distance: how wide the bracket
                may be; 0: a thousandth of the smaller body's radius
     to_time    first: the same as a share of the motion, up to 1
@@ -847,7 +847,8 @@ class Answer(NamedTuple):
     by        proof or network: who says so
     why       not all that was asked is answered: too near, or work; or nothing: all of it is
     inside    a hit, for one lies inside the other at the start
-    time      in [0, 1]: free before low, in contact at high; low is 0 where not asked for "first"
+    time      in [0, 1], of the first contact: free before low, in contact at high. Only "first" brings these together:
+              else low is 0, and high the time of a contact, before which there may be others
     distance  metres: the least; of a hit, up to time.high
     safe      where the bodies may go: poses at time.low
     depth     metres: of a contact at the start, the smallest lift of a off b, up to options.skin or so, that ends it;
@@ -1000,7 +1001,7 @@ def _question(a: Union[Body, Tree], b: Union[Body, Tree], poses_a: Optional[Arra
 
 def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Optional[ArrayLike] = None, *,
           times_a: Optional[ArrayLike] = None, times_b: Optional[ArrayLike] = None, scale_a: float = 1, scale_b: float = 1, options: Options = _DEFAULTS) -> Answer:
-    """Do two bodies hit each other?
+    """Do two bodies hit each other? And when first: options=Options(ask="first").
 
     poses_a, poses_b  (k, 7) x y z in metres, unit quaternion x y z w; k may differ; one pose: it rests there; None: it
                       rests at the origin
@@ -1067,7 +1068,7 @@ class Certificate(NamedTuple):
     verdict  free or hit: the bytes prove it; undecided: there are none
     why      ... since the visits were spent, or they come too near to tell
     inside   a hit, for a corner of one is inside of the other
-    time     in [0, 1], of a hit
+    time     in [0, 1], of a hit: a contact, which need not be the first
     bytes    the proof, for nsvcd_verify and examples/verify
     visits   steps that were taken
     """
@@ -1217,9 +1218,10 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     scale_a, scale_b  (n), or a number for all
 
     Returns a structured array (n) with the fields of nsvcd_answer: answers["verdict"] == "hit" is an array of bool,
-    answers["time"]["high"] one of floats. Of answers["contacts"], (n, 4), each has contact_count; triangles may be
-    NO_TRIANGLE; answers["opinion"]["asked"] says whether there is one. One after another on the same two bodies: the
-    network is first asked where the motion before collided; see nsvcd_sweep_batch.
+    answers["time"]["high"] one of floats, of the first contacts if options.ask is "first". Of answers["contacts"],
+    (n, 4), each has contact_count; triangles may be NO_TRIANGLE; answers["opinion"]["asked"] says whether there is one.
+    One after another on the same two bodies: the network is first asked where the motion before collided; see
+    nsvcd_sweep_batch.
     """
     side_a, side_b = _side("a", a, poses_a, times_a, scale_a), _side("b", b, poses_b, times_b, scale_b)
     if poses_b is poses_a and times_b is times_a:
@@ -1458,7 +1460,7 @@ class Checked(NamedTuple):
     verdict       FREE: at all times of the joints' own motion
     why           it is UNDECIDED
     pair          of a HIT, or of what is UNDECIDED: its index, or None
-    piece, share  where in the motion, or None
+    piece, share  where in the motion, or None; of a HIT, which need not be the first
     point, normal of a HIT
     joint         one that leaves its limits, or None
     placed, sweeps  what it took
