@@ -118,12 +118,16 @@ build/release/neuralsvcd.h: $(LIBRARY)
 	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
 
 # DESTDIR=folder is put before PREFIX.
+# The checker of certificates needs nothing of the library; what documents it all goes with it.
+INSTALLED_HEADERS = $(LIBRARY) $(wildcard examples/verify/nsvcd_verify*.h)
+DOCUMENTS = LICENSE examples/FORMATS.md
 # What svcd says of itself, and where that is looked for.
 MANUALS = man:man/man1/svcd.1 bash:bash-completion/completions/svcd zsh:zsh/site-functions/_svcd fish:fish/vendor_completions.d/svcd.fish
-install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd and its manual, pkg-config, a CMake package
+install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd, svcd-verify and their manual, pkg-config, a CMake package
 	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
-	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd
-	cp $(LIBRARY) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd
+	cp $(INSTALLED_HEADERS) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	cp $(DOCUMENTS) $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd/
 	cp build/libneuralsvcd.a $(DESTDIR)$(PREFIX)/lib/
 	if test -f build/libneuralsvcd.dylib; then cp build/libneuralsvcd.dylib $(DESTDIR)$(PREFIX)/lib/; else \
 	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
@@ -137,8 +141,10 @@ install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries
 	mkdir -p $(DESTDIR)$(PREFIX)/bin && cp $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin/
 	for manual in $(MANUALS); do file=$(DESTDIR)$(PREFIX)/share/$${manual#*:}; \
 	  mkdir -p $$(dirname $$file) && build/installed/svcd --manual $${manual%%:*} >$$file || exit 1; done
+	echo '.so man1/svcd.1' >$(DESTDIR)$(PREFIX)/share/man/man1/svcd-verify.1
 uninstall:  ## takes it away again
 	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
+	  $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd $(DESTDIR)$(PREFIX)/share/man/man1/svcd-verify.1 \
 	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
 	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
 	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done

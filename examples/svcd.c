@@ -3,7 +3,8 @@
 // with a mesh? Encodes meshes, answers whole files of problems, plans motions of robots.
 //
 // `svcd --help` says how to use it, FORMATS.md what it reads and prints. Exit status: 0 done, 1 a
-// file or a line was refused (file, line and reason on standard error), 2 usage.
+// file or a line was refused (file, line and reason on standard error), 2 usage. With sweep
+// --exit-code: 0 free, 1 hit, 3 undecided, 2 all else.
 #define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
 #include "../neuralsvcd.h"
@@ -38,11 +39,10 @@ static const option options[] = {
      "the motion of one plan, which is named by --only"},
     {"--film", PLAN, OPTION_TEXT, AT(film), 0, 0, NULL, "OUT.svg", "the same, moving"},
     {"--certificate", SWEEP, OPTION_TEXT, AT(certificate), 0, 0, NULL, "OUT.cert",
-     "writes a proof of the answer, and what it is about to OUT.txt: build/verify OUT.txt FOLDER "
+     "writes a proof of the answer, and what it is about to OUT.txt: svcd-verify OUT.txt FOLDER "
      "checks it"},
     {"--certificates", CHECK | PLAN, OPTION_TEXT, AT(certificates), 0, 0, NULL, "FOLDER",
-     "writes a proof of each answer, ID.cert, into a folder that is there: build/verify FILE "
-     "FOLDER "
+     "writes a proof of each answer, ID.cert, into a folder that is there: svcd-verify FILE FOLDER "
      "checks them"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE", "METRES", "to come as near as this is a hit (0: to meet is)"},
@@ -90,6 +90,8 @@ static const option options[] = {
      "with --joints: the joints at so many times"},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL, "OUT.tsv",
      "with --samples: where they are written, a line each: ID K JOINTS"},
+    {"--exit-code", SWEEP, OPTION_FLAG, AT(exit_code), 0, 0, NULL, NULL,
+     "the exit status is the answer: 0 free, 1 hit, 3 undecided; 2 if there is none"},
     {"--json", ALL, OPTION_FLAG, AT(json), 0, 0, NULL, NULL, "a line of JSON for each answer"},
     {"--help", ALL, OPTION_FLAG, AT(help), 0, 0, NULL, NULL, "these lines"},
     {"-h", ALL, OPTION_FLAG, AT(help), 0, 0, NULL, NULL, NULL},
@@ -102,7 +104,7 @@ static const command commands[] = {
      "GLB) or .body files; - is standard input. Without --from and --to A passes straight through "
      "the middle of B's box, from outside to outside, downwards along the axis along which B is "
      "thinnest. The first line begins with hit, free or undecided; the exit status is 0 for all of "
-     "them."},
+     "them, but with --exit-code."},
     {"info", INFO, info, (size_t)-1, "FILE... ", "what a mesh is, and what is wrong with it",
      "Of a mesh: triangles, box, components, area and volume, the body that it makes, and what is "
      "wrong with it: a size that is hardly meant, inside out, open edges, winding that does not "
@@ -135,14 +137,21 @@ static const manual svcd = {
     "does a body, moving so, hit another one? (neuralsvcd.h)",
     "'svcd COMMAND --help' lists a command's options, 'svcd --version' says which svcd this is, "
     "'svcd --manual man' prints a man page, and 'svcd --manual bash', zsh or fish completions. "
-    "Files "
-    "may be -, standard input. Exit status: 0 done, 1 a file or a line was refused, 2 usage. What "
-    "it "
-    "reads and prints: examples/FORMATS.md.",
+    "Files may be -, standard input. Exit status: 0 done, 1 a file or a line was refused, 2 usage; "
+    "of 'svcd sweep --exit-code' the answer. What it reads and prints: FORMATS.md, in examples or "
+    "share/doc/neuralsvcd. 'svcd-verify' (build/verify) checks its certificates.",
     commands,
     sizeof commands / sizeof commands[0],
     options,
-    sizeof options / sizeof options[0]};
+    sizeof options / sizeof options[0],
+    "svcd-verify",
+    "FILE.txt FOLDER [--clearance METRES] [--only ID,ID]",
+    "Checks certificates without the library: FILE.txt is a problem file or a planning file, "
+    "FOLDER "
+    "holds ID.cert for each of its problems or plans. A line each, separated by tabs: ID "
+    "accepted|refused REASON BYTES MICROSECONDS. --clearance: that of svcd; --only: these alone. "
+    "Exit status: 0 each proves what its line says, which may be a hit, 1 one is refused or not "
+    "there, 2 a file cannot be read, or usage. In the repository it is build/verify."};
 
 // -------------------------------------------------------------------------------------------- main
 
@@ -172,6 +181,11 @@ static int no_command(const char *name) {
   return USAGE;
 }
 
+// Is all out that was printed?
+static int is_written(void) {
+  return fflush(stdout) == 0 && !ferror(stdout);
+}
+
 static int run(const command *c, int argc, char **argv) {
   const command_line line = {options, svcd.option_count, c->bit, c->name, argv, argc};
   settings given;
@@ -183,7 +197,11 @@ static int run(const command *c, int argc, char **argv) {
   if (!given.is_first_given) given.first[0] = 0;
   if (!given.repeat) given.repeat = c->bit == SWEEP ? 101 : 5;
   if (status == DONE && given.help) manual_help(stdout, &svcd, c);
-  if (status == DONE && !given.help) status = c->run(&given);
+  if (given.exit_code) status_of_failure = USAGE;
+  if (status == DONE && !given.help) {
+    status = c->run(&given);
+    if (given.exit_code) status = status == DONE && is_written() ? given.answer : USAGE;
+  }
   free(given.paths);
   return status;
 }
@@ -217,7 +235,7 @@ static int serve(int argc, char **argv) {
 int main(int argc, char **argv) {
   take_arguments(&argc, &argv);
   const int status = serve(argc, argv);
-  if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+  if (is_written()) return status;
   complain("standard output cannot be written");
   return status == DONE ? REFUSED : status;
 }

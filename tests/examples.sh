@@ -271,6 +271,11 @@ expect 0 '' build/svcd --version
 line "^svcd $(sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)$"
 expect 0 '' build/svcd --manual man
 if command -v man >/dev/null; then man --warnings -l "$dir/out" 2>&1 >/dev/null | grep . && fail "the man page"; fi
+# Of svcd-verify too, with all options that its usage names.
+build/verify >/dev/null 2>"$dir/usage"
+for word in FILE FOLDER $(grep -o -e '--[a-z]*' "$dir/usage"); do
+  sed 's/\\-/-/g' "$dir/out" | grep '^.fBsvcd-verify' | grep -q -e "$word" || fail "the man page has no $word of svcd-verify"
+done
 for shell in bash zsh fish; do
   expect 0 '' build/svcd --manual $shell
   if command -v $shell >/dev/null; then $shell -n "$dir/out" || fail "completions for $shell"; fi
@@ -306,6 +311,35 @@ verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0
 # Faces that slide along each other at 30 um, nearer than triangles are stored: whatever the processor and the work.
 verdict '^undecided, taken as a hit; free until t = 0.33[0-9]*: nearer than' "$dir/cube.obj" "$dir/cube.obj" \
   --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+# For scripts: the answer as exit status, which no failure has. answers STATUS ARGUMENTS...
+answers() {
+  wanted=$1
+  shift
+  expect "$wanted" '' build/svcd sweep --repeat 1 --exit-code "$@"
+}
+answers 0 "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5
+answers 0 "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --clearance 0.9 --json
+answers 0 "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --method network
+answers 1 "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --from .25,.25,5 --to .25,.25,-5 --picture "$dir/x.svg"
+answers 1 "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --clearance 1.1
+answers 1 "$dir/cube.obj" "$dir/mm.obj" --from 5,5,5 --to 6,6,6 --first 0
+answers 1 "$dir/cube.obj" "$dir/cube.obj" --method network
+answers 3 "$dir/cube.obj" "$dir/cube.obj" --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+answers 2 "$dir/none.obj" "$dir/cube.obj"
+answers 2 "$dir/bad.obj" "$dir/cube.obj"
+answers 2 "$dir/cube.obj"
+answers 2 "$dir/cube.obj" "$dir/cube.obj" --from 1,2
+answers 2 "$dir/cube.obj" "$dir/cube.obj" --picture "$dir/no folder/x.svg"
+answers 2 "$dir/cube.obj" "$dir/cube.obj" --certificate "$dir/no folder/x.cert"
+answers 2 "$dir/cube.obj" "$dir/latents.body" --method proof
+if test -w /dev/full; then
+  build/svcd sweep --exit-code "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 >/dev/full 2>"$dir/err"
+  test $? = 2 || fail "--exit-code: nothing can be written, and yet it is free"
+  build/svcd sweep --exit-code "$dir/cube.obj" "$dir/cube.obj" >/dev/full 2>"$dir/err"
+  test $? = 2 || fail "--exit-code: nothing can be written, and yet it is hit"
+fi
+build/svcd sweep --exit-code "$dir/cube.obj" "$dir/cube.obj" --help >"$dir/out" || fail "--exit-code --help"
+line '--exit-code'
 verdict '^hit' "$dir/cube.obj" "$dir/open.obj"
 ! grep -q 'from B to A' "$dir/out" || fail "the side of a sheet is not known: $(cat "$dir/out")"
 # A turns on its way, and reaches B where it turns far enough that way; a whole turn is not none.

@@ -32,6 +32,23 @@ ${MAKE:-make} -s install PREFIX="$prefix" LIBRARY_CFLAGS=-O0 CC="$CC" || fail "m
 export LD_LIBRARY_PATH="$prefix/lib"
 case $("$prefix/bin/svcd" --version) in *"$version"*) ;; *) fail "svcd --version: $("$prefix/bin/svcd" --version)" ;; esac
 head -1 "$prefix/share/man/man1/svcd.1" | grep -q '^\.TH' || fail "svcd.1 is no manual"
+# The checker's headers, of which a program needs no other; what every way of installing brings.
+cat >"$dir/checks.c" <<'END'
+#include <nsvcd_verify.h>
+#include <nsvcd_verify_robot.h>
+int main(void) { return sizeof(nsvcd_verify_report) == 0; }
+END
+is_whole() {  # prefix, title
+  "$CC" -std=c99 -O0 -w -I"$1/include/neuralsvcd" "$dir/checks.c" -o "$dir/checks" -lm && "$dir/checks" || fail "$2: the checker's headers"
+  cmp -s LICENSE "$1/share/doc/neuralsvcd/LICENSE" || fail "$2: no LICENSE"
+  cmp -s examples/FORMATS.md "$1/share/doc/neuralsvcd/FORMATS.md" || fail "$2: no FORMATS.md"
+}
+is_whole "$prefix" "make install"
+if command -v man >/dev/null; then
+  for page in svcd svcd-verify; do
+    man -M "$prefix/share/man" "$page" | grep -q 'svcd-verify FILE.txt FOLDER' || fail "man $page has no svcd-verify"
+  done
+fi
 test -s "$prefix/share/bash-completion/completions/svcd" && test -x "$prefix/bin/svcd-verify" || fail "make install: no completions, or no svcd-verify"
 
 if command -v pkg-config >/dev/null; then
@@ -90,6 +107,7 @@ if command -v cmake >/dev/null; then
     cmake --build "$dir/own" >>"$dir/own.txt" 2>&1 && cmake --install "$dir/own" >>"$dir/own.txt" 2>&1 || { cat "$dir/own.txt" >&2; fail "cmake --install"; }
   cmake_runs "find_package after cmake --install" -DCMAKE_PREFIX_PATH="$dir/cmake_usr"
   versions "$dir/cmake_usr"
+  is_whole "$dir/cmake_usr" "cmake --install"
   "$dir/cmake_usr/bin/svcd" --version >/dev/null && test -x "$dir/cmake_usr/bin/svcd-verify" || fail "cmake --install: no svcd, or no svcd-verify"
   # The portfile, as far as it goes without vcpkg: what that gives it, in short, on what is built already.
   cat >"$dir/port.cmake" <<'END'
@@ -146,6 +164,7 @@ if command -v meson >/dev/null; then
     { cat "$dir/meson.txt" >&2; fail "meson install"; }
   found=$(PKG_CONFIG_PATH=$(dirname "$(find "$dir/meson_usr" -name neuralsvcd.pc)") pkg-config --modversion neuralsvcd-library)
   test "$found" = "$version" || fail "meson install: pkg-config finds $found"
+  is_whole "$dir/meson_usr" "meson install"
 else
   echo "packages: no meson: not tested"
 fi

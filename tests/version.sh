@@ -22,6 +22,8 @@ says() {  # file, text
   grep -qF -- "$2" "$1" || fail "$1 does not say $2"
 }
 says meson.build "version: '$version'"
+says examples/FORMATS.md "## Body files, version $blob"
+says examples/FORMATS.md "| 4 | uint32 | version, $blob |"
 says packages/meson/neuralsvcd.wrap "revision = v$version"
 says packages/vcpkg/neuralsvcd/vcpkg.json "\"version\": \"$version\""
 says packages/vcpkg/neuralsvcd/usage "find_package(neuralsvcd $minor "

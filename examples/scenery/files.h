@@ -58,13 +58,16 @@ static int complain(const char *format, ...) {
   return 0;
 }
 
+// What a program ends with that cannot go on. Where 1 is an answer (svcd sweep --exit-code), another.
+static int status_of_failure = 1;
+
 // Memory for bodies and workspaces: malloc's is aligned for any type, and so to NSVCD_ALIGNMENT. A
 // tool may give up when there is none; the library never does.
 static void *allocate(size_t size) {
   void *memory = malloc(size ? size : 1);
   if (memory) return memory;
   complain("out of memory");
-  exit(1);
+  exit(status_of_failure);
 }
 
 // ------------------------------------------------------------------------------------------- files

@@ -22,6 +22,8 @@ typedef struct manual {
   size_t command_count;
   const option *options;
   size_t option_count;
+  // a program that goes with this one: its name, what it takes, what it does
+  const char *other, *other_files, *other_text;
 } manual;
 
 #define MANUAL_WIDTH 80
@@ -78,22 +80,31 @@ static void manual_overview(FILE *out, const manual *m) {
 }
 
 // For roff: a line that begins with a point or an apostrophe would be a request.
-static void manual_roff(FILE *out, const char *text) {
-  if (*text == '.' || *text == '\'') fprintf(out, "\\&");
+static void manual_escaped(FILE *out, const char *text) {
   for (; *text; text++) {
     if (*text == '-' || *text == '\\') putc('\\', out);
     putc(*text == '\\' ? 'e' : *text, out);
   }
+}
+static void manual_roff(FILE *out, const char *text) {
+  if (*text == '.' || *text == '\'') fprintf(out, "\\&");
+  manual_escaped(out, text);
   putc('\n', out);
 }
 
 static void manual_page(FILE *out, const manual *m) {
   fprintf(out, ".TH %s 1 \"\" \"%s %s\"\n.SH NAME\n", m->name, m->name, m->version);
-  fprintf(out, "%s \\- ", m->name);
+  fprintf(out, "%s, ", m->name);
+  manual_escaped(out, m->other);
+  fprintf(out, " \\- ");
   manual_roff(out, m->summary);
   fprintf(out, ".SH SYNOPSIS\n.nf\n");
   for (size_t i = 0; i < m->command_count; i++)
     fprintf(out, "\\fB%s %s\\fR %s[OPTIONS]\n", m->name, m->commands[i].name, m->commands[i].files);
+  fprintf(out, "\\fB");
+  manual_escaped(out, m->other);
+  fprintf(out, "\\fR ");
+  manual_roff(out, m->other_files);
   fprintf(out, ".fi\n.SH DESCRIPTION\n");
   manual_roff(out, m->text);
   for (size_t i = 0; i < m->command_count; i++) {
@@ -107,6 +118,9 @@ static void manual_page(FILE *out, const manual *m) {
       manual_roff(out, o->help);
     }
   }
+  fprintf(out, ".SH ");
+  manual_roff(out, m->other);
+  manual_roff(out, m->other_text);
 }
 
 // All names, with blanks between.

@@ -32,7 +32,7 @@ static void *room_for_one(void *items, size_t count, size_t *capacity, size_t it
   items = *capacity > SIZE_MAX / item_size ? NULL : realloc(items, *capacity * item_size);
   if (items) return items;
   complain("out of memory");
-  exit(REFUSED);
+  exit(status_of_failure);
 }
 
 // ----------------------------------------------------------------------------------------- numbers

@@ -28,6 +28,8 @@ struct settings {
   const char *certificate, *certificates;
   size_t seed, samples;
   int int8, help, json, is_first_given;
+  int exit_code;  // 1: the exit status is to be
+  int answer;     // ... this: 0 free, 1 hit, 3 undecided
   const char **paths;
   size_t path_count;
 };

@@ -318,6 +318,7 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
   (options->json ? print_json : print_answer)(job, options);
+  options->answer = job->answer.verdict == NSVCD_UNDECIDED ? 3 : job->answer.verdict == NSVCD_HIT;
   if (options->certificate) {
     if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
                      options->sweep.clearance, &job->answer))
