@@ -1,12 +1,13 @@
-"""Are the rooms of src/ a text as they want to be? Prints what is not, and how much text there is; exit status 1 if
-something is not. That a room uses none below it, src/make_header.py sees to.
+"""Are the rooms of src/ a text as they want to be, and do the links of all .md files lead somewhere? Prints what is not so,
+and how much text there is; exit status 1 if something is not. That a room uses none below it, src/make_header.py sees to.
 
   lines      100 columns at most
   rooms      800 lines at most; each says first what comes in and what goes out
   functions  80 lines at most
   statements one a line: none joined by commas, but in the head of a for loop
   width      a line of code has 40 characters at most, on average, its indentation left out
-  paths      the files that it names are there
+  paths      the files that it names are there, of .md files too
+  links      of .md files: the file is there, and so is the heading that is named behind a #
 """
 
 import re
@@ -110,6 +111,39 @@ def missing_paths(lines: list[str]) -> list[str]:
     return faults
 
 
+def prose_of(text: str) -> str:
+    """What is not code: neither a block nor a word in backticks."""
+    return re.sub(r"`[^`\n]*(?:\n[^`\n]+)?`", "", re.sub(r"(?ms)^```.*?^```", "", text))
+
+
+def anchors_of(text: str) -> set[str]:
+    """Of the headings, as GitHub makes them: words in small letters, joined by hyphens; the second of a name ends in -1."""
+    found: set[str] = set()
+    for heading in re.findall(r"(?m)^#{1,6} +(.*?) *$", re.sub(r"(?ms)^```.*?^```", "", text)):
+        words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        name = again = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+        for k in range(1, 100):
+            if again not in found:
+                break
+            again = f"{name}-{k}"
+        found.add(again)
+    return found
+
+
+def dead_links(path: Path) -> list[str]:
+    faults = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", prose_of(path.read_text(encoding="utf-8"))):
+        if re.match(r"[a-z]+:", link):
+            continue
+        file, _, anchor = link.partition("#")
+        target = path.parent / file if file else path
+        if not target.exists():
+            faults.append(f" there is no {link}")
+        elif anchor and target.suffix == ".md" and anchor not in anchors_of(target.read_text(encoding="utf-8")):
+            faults.append(f" there is no heading for {link}")
+    return faults
+
+
 def main() -> int:
     broken = False
     code: list[str] = []
@@ -125,6 +159,15 @@ def main() -> int:
         broken = broken or bool(faults)
         code += code_lines(lines)
         functions += len(functions_of(lines))
+    for path in sorted(SRC.parent.rglob("*.md")):
+        name = path.relative_to(SRC.parent)
+        if "build" in name.parts or name.parts[0] == ".git":
+            continue
+        lines = path.read_text(encoding="utf-8").split("\n")
+        faults = dead_links(path) + ([] if name.name == "CHANGELOG.md" else missing_paths(lines))
+        for fault in faults:
+            print(f"{name}:{fault}")
+        broken = broken or bool(faults)
     mean = sum(map(len, code)) / len(code)
     print(f"text: {len(code)} lines of code, {mean:.2f} characters on average; {functions} functions in {len(rooms)} rooms")
     return int(broken or mean > WIDTH)
