@@ -8,6 +8,7 @@ and how much text there is; exit status 1 if something is not. That a room uses 
   width      a line of code has 40 characters at most, on average, its indentation left out
   paths      the files that it names are there, of .md files too
   links      of .md files: the file is there, and so is the heading that is named behind a #
+  counts     the lines of the checker are as many as README says, to a hundred
 """
 
 import re
@@ -144,6 +145,15 @@ def dead_links(path: Path) -> list[str]:
     return faults
 
 
+def miscounted() -> list[str]:
+    said = re.search(r"([\d,]+) lines in four headers", (SRC.parent / "README.md").read_text(encoding="utf-8"))
+    headers = sorted((SRC.parent / "examples/verify").glob("nsvcd_verify*.h"))
+    lines = sum(path.read_text(encoding="utf-8").count("\n") for path in headers)
+    if said and len(headers) == 4 and abs(int(said[1].replace(",", "")) - lines) <= 100:
+        return []
+    return [f"the checker has {lines} lines in {len(headers)} headers, README says {said and said[1]} in four"]
+
+
 def main() -> int:
     broken = False
     code: list[str] = []
@@ -168,6 +178,9 @@ def main() -> int:
         for fault in faults:
             print(f"{name}:{fault}")
         broken = broken or bool(faults)
+    for fault in miscounted():
+        print(f"README.md: {fault}")
+        broken = True
     mean = sum(map(len, code)) / len(code)
     print(f"text: {len(code)} lines of code, {mean:.2f} characters on average; {functions} functions in {len(rooms)} rooms")
     return int(broken or mean > WIDTH)
