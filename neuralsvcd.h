@@ -92,8 +92,8 @@
 //   it has one. A component of a mesh is closed if every edge has its reverse; what is open
 //   encloses nothing.
 //   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
-//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in a few of a
-//   hundred answers: where that harms, ask for a proof. What is inside is an estimate, a winding
+//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to
+//   six of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a winding
 //   number of patches: reliable for closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
@@ -110,10 +110,10 @@
 //                 origin loses what its own coordinates lose, about 1 mm. All is reckoned in the
 //                 frame of one body, the one that rests or is the larger, in units of its scale.
 //   Resolution    the network's limit: a patch must not be much larger than the clearance in
-//                 question. With 512 patches each, a body of 5 cm against one of 0.3, 1, 3 and 20 m
-//                 is judged right in 98.5, 93.5, 74 and 54 % of problems near contact; with the
-//                 large mesh cut to what the motion can reach (nsvcd_mesh_cut), in 99 %. For the
-//                 proof, the size of patches decides only what an answer costs.
+//                 question. A body of 5 cm against one of 20 m, with 256 patches each, is judged
+//                 right in 62 % of problems near contact (RESULTS.md, *mixed*): cut the large mesh
+//                 to what the motion can reach (nsvcd_mesh_cut). For the proof, the size of patches
+//                 decides only what an answer costs.
 //   Bad numbers   NaN and infinity are refused on their bits, also under -ffast-math.
 //
 // DETERMINISM
