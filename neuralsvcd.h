@@ -92,9 +92,9 @@
 //   it has one. A component of a mesh is closed if every edge has its reverse; what is open
 //   encloses nothing.
 //   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
-//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to
-//   six of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a winding
-//   number of patches: reliable for closed meshes.
+//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to six
+//   of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a
+//   winding number of patches: reliable for closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
