@@ -59,7 +59,7 @@ static int write_certificates(const session *s, const char *folder, float cleara
   int good = 1;
   memset(meshes, 0, file->mesh_count * sizeof *meshes);
   for (size_t i = 0; i < file->mesh_count && good; i++)
-    good = load_tree(file->path, file->meshes[i].path, &meshes[i]);
+    good = load_tree(file->path, file->meshes[i].path, NULL, &meshes[i]);
   for (size_t i = 0; i < file->problem_count && good; i++) {
     const problem *p = &file->problems[i];
     const nsvcd_answer *answer = &s->outcomes[i].answer;
@@ -167,7 +167,7 @@ static int write_motion_proof(const robot_in_room *in, const char *folder, const
   // once for all plans of the file
   for (size_t i = 0; i < file->mesh_count && good; i++) {
     robot_mesh *mesh = &file->meshes[i];
-    if (!mesh->proof.tree) good = load_tree(file->path, mesh->path, &mesh->proof);
+    if (!mesh->proof.tree) good = load_tree(file->path, mesh->path, mesh->scale, &mesh->proof);
   }
   if (good) {
     fputs("NSVM", out);

@@ -116,6 +116,18 @@ static void path_of(const char *file, const char *name, char *path, size_t size)
   snprintf(path, size, "%.*s%s", name[0] == '/' ? 0 : (int)folder, file, name);
 }
 
+// Along x, y, z, in double. A mesh that is mirrored is turned the right way out again.
+static void scale_mesh(nsvcd_mesh *mesh, const double scale[3]) {
+  for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+    mesh->positions[i] = (float)((double)mesh->positions[i] * scale[i % 3]);
+  if (scale[0] * scale[1] * scale[2] > 0) return;
+  for (uint32_t *t = mesh->indices; t < mesh->indices + 3 * mesh->triangle_count; t += 3) {
+    const uint32_t second = t[1];
+    t[1] = t[2];
+    t[2] = second;
+  }
+}
+
 // A mesh, and its tree.
 typedef struct proof_mesh {
   nsvcd_mesh mesh;
@@ -123,8 +135,8 @@ typedef struct proof_mesh {
   const nsvcd_tree *tree;
 } proof_mesh;
 
-// That a file names. Returns 0 after a complaint.
-static int load_tree(const char *file, const char *name, proof_mesh *out) {
+// That a file names, scaled (NULL: as it is). Returns 0 after a complaint.
+static int load_tree(const char *file, const char *name, const double *scale, proof_mesh *out) {
   char path[4096];
   path_of(file, name, path, sizeof path);
   const char *format = load_mesh("", path, &out->mesh);
@@ -132,6 +144,7 @@ static int load_tree(const char *file, const char *name, proof_mesh *out) {
   if (strcmp(format, "OBJ") != 0 && strcmp(format, "STL") != 0)
     return complain("%s: a %s: certificates are of OBJ and STL, as build/verify reads no other",
                     path, format);
+  if (scale) scale_mesh(&out->mesh, scale);
   const size_t size = nsvcd_tree_size(&out->mesh);
   out->memory = allocate(size);
   const nsvcd_result result = nsvcd_tree_build(&out->mesh, out->memory, size, &out->tree);
@@ -142,13 +155,15 @@ static void free_tree(proof_mesh *mesh) {
   free(mesh->memory);
 }
 
-// Loaded and encoded.
+// The same, encoded.
 static const nsvcd_body *encode_named(const char *from, const char *file, const char *name,
-                                      const nsvcd_encode_options *options, double *taken) {
+                                      const double *scale, const nsvcd_encode_options *options,
+                                      double *taken) {
   char path[4096];
   nsvcd_mesh mesh;
   path_of(file, name, path, sizeof path);
   if (!load_mesh(from, path, &mesh)) return NULL;
+  if (scale) scale_mesh(&mesh, scale);
   const nsvcd_body *body = encode_mesh(from, path, &mesh, options, taken);
   nsvcd_mesh_free(&mesh, NULL);
   return body;

@@ -3,10 +3,10 @@
 //
 //   nsvcd-plans 1
 //   joint NAME PARENT  x y z qx qy qz qw  ax ay az  KIND LOW HIGH SPEED [ACCELERATION]
-//   body NAME JOINT PATH
+//   body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]
 //   pair NAME NAME
 //   scene NAME
-//   obstacle NAME PATH  x y z qx qy qz qw
+//   obstacle NAME PATH  x y z qx qy qz qw [scale SX SY SZ]
 //   plan ID SCENE  start...  goal...
 //   path ID SCENE COUNT        # COUNT lines of joints follow
 //
@@ -14,10 +14,12 @@
 #ifndef NSVCD_SCENERY_ROBOT_FILE_H
 #define NSVCD_SCENERY_ROBOT_FILE_H
 
-// A mesh of a file; the same path is encoded once.
+// A mesh of a file; the same path at the same scale is encoded once.
 typedef struct robot_mesh {
   const char *path;
-  size_t line;  // where it is named first
+  double scale[3];
+  size_t line;              // where it is named first
+  const char *kind, *name;  // "body" or "obstacle", and its name, there
   const nsvcd_body *body;
   proof_mesh proof;  // made where a certificate is written
 } robot_mesh;
@@ -112,13 +114,48 @@ static int robot_read_joint(const reader *r, robot_file *file) {
   return 1;
 }
 
-static size_t robot_find_mesh(robot_file *file, const char *path, size_t line) {
+static size_t robot_find_mesh(robot_file *file, const reader *r, const char *path,
+                              const double scale[3]) {
   for (size_t i = 0; i < file->mesh_count; i++)
-    if (strcmp(file->meshes[i].path, path) == 0) return i;
+    if (strcmp(file->meshes[i].path, path) == 0 &&
+        memcmp(file->meshes[i].scale, scale, sizeof file->meshes[i].scale) == 0)
+      return i;
   robot_mesh *mesh = ROBOT_ADD(file->meshes, file->mesh_count, file->mesh_capacity);
   mesh->path = path;
-  mesh->line = line;
+  memcpy(mesh->scale, scale, sizeof mesh->scale);
+  mesh->line = r->line;
+  mesh->kind = r->fields[0];
+  mesh->name = r->fields[1];
   return file->mesh_count - 1;
+}
+
+// What may follow from a field on: `pose` and `scale`, each once. pose: NULL where the line has one
+// of its own.
+static int robot_read_words(const reader *r, size_t at, nsvcd_pose *pose, double scale[3]) {
+  int has_scale = 0;
+  scale[0] = scale[1] = scale[2] = 1;
+  while (at < r->field_count) {
+    char *const *f = r->fields + at;
+    const size_t left = r->field_count - at;
+    if (pose && strcmp(f[0], "pose") == 0 && left >= 8) {
+      if (!read_pose(r, f + 1, pose)) return 0;
+      pose = NULL;
+      at += 8;
+    } else if (!has_scale && strcmp(f[0], "scale") == 0 && left >= 4) {
+      for (size_t k = 0; k < 3; k++)
+        if (!parse_number(f[1 + k], &scale[k]) || !(fabs(scale[k]) >= (double)NSVCD_MIN_SCALE) ||
+            !(fabs(scale[k]) <= (double)NSVCD_MAX_SCALE))
+          return refuse_field(r, "a scale, or minus one, is not in 1e-6..1e6", f[1 + k]);
+      has_scale = 1;
+      at += 4;
+    } else {
+      return refuse_field(r,
+                          pose ? "expected 'pose x y z qx qy qz qw' or 'scale SX SY SZ', each once"
+                               : "expected 'scale SX SY SZ', once",
+                          f[0]);
+    }
+  }
+  return 1;
 }
 
 // Among the robot's bodies, and the obstacles from the one that is named first on.
@@ -133,17 +170,20 @@ static int robot_find(const robot_file *file, size_t first, const char *name, si
 static int robot_read_body(const reader *r, robot_file *file) {
   size_t found;
   uint32_t link;
-  if (r->field_count != 4) return refuse(r, "expected: body NAME JOINT PATH");
+  double scale[3];
+  nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
+  if (r->field_count < 4)
+    return refuse(r, "expected: body NAME JOINT PATH [pose x y z qx qy qz qw] [scale SX SY SZ]");
   if (file->room_count > 0) return refuse(r, "a body after the first scene");
   if (robot_find(file, 0, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!robot_link(r, file, r->fields[2], &link)) return 0;
-  const size_t mesh = robot_find_mesh(file, r->fields[3], r->line);
+  if (!robot_link(r, file, r->fields[2], &link) || !robot_read_words(r, 4, &pose, scale)) return 0;
+  const size_t mesh = robot_find_mesh(file, r, r->fields[3], scale);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
   thing->link = link;
-  thing->pose.rotation[3] = 1;
+  thing->pose = pose;
   file->body_count = file->thing_count;
   return 1;
 }
@@ -184,13 +224,15 @@ static int robot_read_scene(const reader *r, robot_file *file) {
 static int robot_read_obstacle(const reader *r, robot_file *file) {
   size_t found;
   nsvcd_pose pose;
-  if (r->field_count != 10) return refuse(r, "expected: obstacle NAME PATH x y z qx qy qz qw");
+  double scale[3];
+  if (r->field_count < 10)
+    return refuse(r, "expected: obstacle NAME PATH x y z qx qy qz qw [scale SX SY SZ]");
   if (file->room_count == 0) return refuse(r, "no scene above");
   robot_room *room = &file->rooms[file->room_count - 1];
   if (robot_find(file, room->first, r->fields[1], &found))
     return refuse_field(r, "a second body of this name", r->fields[1]);
-  if (!read_pose(r, r->fields + 3, &pose)) return 0;
-  const size_t mesh = robot_find_mesh(file, r->fields[2], r->line);
+  if (!read_pose(r, r->fields + 3, &pose) || !robot_read_words(r, 10, NULL, scale)) return 0;
+  const size_t mesh = robot_find_mesh(file, r, r->fields[2], scale);
   robot_thing *thing = ROBOT_ADD(file->things, file->thing_count, file->thing_capacity);
   thing->name = r->fields[1];
   thing->mesh = mesh;
@@ -273,8 +315,8 @@ static int encode_robot(robot_file *file, double *taken) {
     robot_mesh *mesh = &file->meshes[i];
     char from[1024];
     double one;
-    snprintf(from, sizeof from, "%s:%zu: ", file->path, mesh->line);
-    mesh->body = encode_named(from, file->path, mesh->path, NULL, &one);
+    snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
+    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, NULL, &one);
     if (!mesh->body) return 0;
     *taken += one;
   }

@@ -14,7 +14,7 @@ static int encode_meshes(const problem_file *file, const nsvcd_encode_options *o
     progress_step(&working, i);
     char from[1024];
     snprintf(from, sizeof from, "%s:%zu: mesh %s: ", file->path, mesh->line, mesh->name);
-    bodies[i].body = encode_named(from, file->path, mesh->path, options, &bodies[i].seconds);
+    bodies[i].body = encode_named(from, file->path, mesh->path, NULL, options, &bodies[i].seconds);
     if (!bodies[i].body) return 0;
   }
   progress_end(&working);

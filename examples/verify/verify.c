@@ -108,7 +108,7 @@ static int check_problems(const char *path, char *text, request *asked) {
     if (n == 3 && strcmp(words[0], "mesh") == 0) {
       named *mesh = (named *)add(&meshes, sizeof *mesh);
       mesh->name = words[1];
-      mesh->mesh = mesh_of_file(path, words[2]);
+      mesh->mesh = mesh_of_file(path, words[2], NULL);
     } else if (n >= 16 && strcmp(words[0], "problem") == 0) {
       all &= check_problem(path, &text, words, n, &meshes, asked);
     } else {

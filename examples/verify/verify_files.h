@@ -290,8 +290,20 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
   weld(positions, indices);
 }
 
-// Reads a mesh and builds its tree; ends the program where that cannot be.
-static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
+// Along x, y, z; a mesh that is mirrored is turned the right way out again.
+static void scale_mesh(list *positions, list *indices, const double *scale) {
+  float *x = (float *)positions->items;
+  uint32_t *t = (uint32_t *)indices->items;
+  for (size_t i = 0; i < positions->count; i++) x[i] = (float)((double)x[i] * scale[i % 3]);
+  for (size_t i = 0; i + 2 < indices->count && scale[0] * scale[1] * scale[2] < 0; i += 3) {
+    const uint32_t second = t[i + 1];
+    t[i + 1] = t[i + 2];
+    t[i + 2] = second;
+  }
+}
+
+// Reads a mesh, scales it (NULL: leaves it) and builds its tree; ends the program where that cannot be.
+static void read_mesh(const char *path, const double *scale, nsvcd_verify_mesh *mesh) {
   size_t size;
   list positions = {NULL, 0, 0};
   list indices = {NULL, 0, 0};
@@ -303,6 +315,7 @@ static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
   if (is_stl) read_stl(path, text, size, &positions, &indices);
   if (!is_stl) no_zero(path, text, size);
   if (!is_stl) read_obj(path, begin, &positions, &indices);
+  if (scale) scale_mesh(&positions, &indices, scale);
   const size_t vertices = positions.count / 3;
   const size_t triangles = indices.count / 3;
   void *memory = allocate(NSVCD_VERIFY_MESH_BYTES(vertices, triangles));
@@ -314,14 +327,15 @@ static void read_mesh(const char *path, nsvcd_verify_mesh *mesh) {
 }
 
 // A mesh that a file names, by its path from that file's folder; kept until the program ends.
-static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name) {
+static const nsvcd_verify_mesh *mesh_of_file(const char *file, const char *name,
+                                             const double *scale) {
   char path[4096];
   const char *slash = strrchr(file, '/');
   const int folder = name[0] == '/' || !slash ? 0 : (int)(slash + 1 - file);
   nsvcd_verify_mesh *mesh = (nsvcd_verify_mesh *)allocate(sizeof *mesh);
   const int length = snprintf(path, sizeof path, "%.*s%s", folder, file, name);
   if (length < 0 || (size_t)length >= sizeof path) fail(name, "its path is too long");
-  read_mesh(path, mesh);
+  read_mesh(path, scale, mesh);
   return mesh;
 }
 // Which certificates, and of what.

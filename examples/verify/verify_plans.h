@@ -41,8 +41,27 @@ static uint32_t body_named(const robot *r, const char *name) {
   return 0;
 }
 
-static void add_body(robot *r, const char *name, const char *mesh, uint32_t link,
-                     char *const *pose) {
+// The words from `at` on may be `pose` and `scale`, each once.
+static void add_body(robot *r, const char *name, const char *mesh, uint32_t link, char *const *pose,
+                     char *const *words, size_t at, size_t count) {
+  double scale[3] = {1, 1, 1};
+  int is_scaled = 0;
+  while (at < count) {
+    const int is_pose = strcmp(words[at], "pose") == 0;
+    if (is_pose && !pose && count - at >= 8) {
+      pose = words + at + 1;
+      at += 8;
+    } else if (strcmp(words[at], "scale") == 0 && !is_scaled && count - at >= 4) {
+      for (size_t k = 0; k < 3; k++) scale[k] = number_of(r->path, words[at + 1 + k]);
+      for (size_t k = 0; k < 3; k++)
+        if (!(fabs(scale[k]) >= 1e-6 && fabs(scale[k]) <= 1e6))
+          fail(r->path, "a scale is out of range");
+      is_scaled = 1;
+      at += 4;
+    } else {
+      fail(r->path, "something follows a body");
+    }
+  }
   for (size_t i = 0; i < r->bodies.count; i++)
     if (strcmp(((const robot_body *)r->bodies.items)[i].name, name) == 0)
       fail(r->path, "two bodies of one name");
@@ -50,7 +69,7 @@ static void add_body(robot *r, const char *name, const char *mesh, uint32_t link
   memset(body, 0, sizeof *body);
   body->name = name;
   body->link = link;
-  body->mesh = mesh_of_file(r->path, mesh);
+  body->mesh = mesh_of_file(r->path, mesh, scale);
   body->pose[6] = 1;
   if (pose) read_pose(r->path, pose, body->pose);
 }
@@ -208,8 +227,8 @@ static int check_plans(const char *path, char *text, request *asked) {
     const char *word = words[0];
     if (strcmp(word, "joint") == 0 && n >= 17 && !scene) {
       add_joint(&r, words);
-    } else if (strcmp(word, "body") == 0 && n == 4 && !scene) {
-      add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL);
+    } else if (strcmp(word, "body") == 0 && n >= 4 && !scene) {
+      add_body(&r, words[1], words[3], link_named(&r, words[2]), NULL, words, 4, n);
       r.own = r.bodies.count;
     } else if (strcmp(word, "pair") == 0 && n == 3 && !scene) {
       add_index(&r.pairs, body_named(&r, words[1]));
@@ -220,8 +239,8 @@ static int check_plans(const char *path, char *text, request *asked) {
       has_tasks = 0;
       r.bodies.count = r.own;
       r.pairs.count = own_pairs;
-    } else if (strcmp(word, "obstacle") == 0 && n == 10 && scene && !has_tasks) {
-      add_body(&r, words[1], words[2], 0, words + 3);
+    } else if (strcmp(word, "obstacle") == 0 && n >= 10 && scene && !has_tasks) {
+      add_body(&r, words[1], words[2], 0, words + 3, words, 10, n);
     } else if ((strcmp(word, "plan") == 0 ? n == 3 + 2 * r.joint_count
                                           : strcmp(word, "path") == 0 && n == 4) &&
                scene && strcmp(words[2], scene) == 0) {
