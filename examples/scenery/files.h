@@ -118,7 +118,8 @@ static const char *shown_name(const char *path) {
 // A whole file, aligned, with a 0 behind it. from: what asks for it, for messages. look: NULL, or what refuses a file, with a complaint,
 // for how it begins. NULL after a complaint.
 static char *read_file(const char *from, const char *path, size_t *size,
-                       int (*look)(const char *path, const char *bytes, size_t size)) {
+                       int (*look)(const char *from, const char *path, const char *bytes,
+                                   size_t size)) {
   FILE *file = is_standard_input(path) ? stdin : open_file(path, "rb");
   char *text = NULL;
   size_t capacity = 0;
@@ -140,7 +141,7 @@ static char *read_file(const char *from, const char *path, size_t *size,
     const int is_first = *size == 0;
     *size += fread(text + *size, 1, capacity - *size - 1, file);
     text[*size] = 0;
-    if (is_first && look) good = look(shown_name(path), text, *size);
+    if (is_first && look) good = look(from, shown_name(path), text, *size);
     if (*size > MOST_BYTES)
       good = complain("%s%s: larger than %zu MB, the most that is read", from, shown_name(path),
                       MOST_BYTES >> 20);

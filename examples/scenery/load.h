@@ -47,15 +47,15 @@ static const char *file_name(const char *path) {
 }
 
 // Refuses by its beginning what is neither a mesh nor a body, before all of it is read.
-static int look_at_mesh(const char *path, const char *bytes, size_t size) {
+static int look_at_mesh(const char *from, const char *path, const char *bytes, size_t size) {
   char ending[8];
   const char *format = mesh_format(path, (const unsigned char *)bytes, size);
   size_t zeros = 0;
   while (zeros < size && bytes[zeros] == 0) zeros++;
   mesh_ending(path, ending);
-  if (zeros > 84) return complain("%s: it begins with zeros, as no mesh does", path);
+  if (zeros > 84) return complain("%s%s: it begins with zeros, as no mesh does", from, path);
   if (strcmp(ending, "obj") == 0 && format && format[0] == 'O' && memchr(bytes, 0, size))
-    return complain("%s: not a text file, as an OBJ is: it has a zero byte", path);
+    return complain("%s%s: not a text file, as an OBJ is: it has a zero byte", from, path);
   return 1;
 }
 

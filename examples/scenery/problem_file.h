@@ -232,11 +232,11 @@ static int read_problem(reader *r, problem_file *file) {
 }
 
 // A name that a file has is printed, and so it holds nothing that a terminal obeys.
-static int look_at_text(const char *path, const char *bytes, size_t size) {
+static int look_at_text(const char *from, const char *path, const char *bytes, size_t size) {
   for (size_t i = 0; i < size; i++) {
     const unsigned char c = (unsigned char)bytes[i];
     if ((c < 32 && (c < '\t' || c > '\r')) || c == 127)
-      return complain("%s: not a text file: it has a %s", path,
+      return complain("%s%s: not a text file: it has a %s", from, path,
                       c ? "control character" : "zero byte");
   }
   return 1;
@@ -249,7 +249,7 @@ static int open_reader(const char *path, const char *format, char **text, reader
   memset(r, 0, sizeof *r);
   r->path = shown_name(path);
   r->next = *text = read_file("", path, &size, look_at_text);
-  if (!*text || !look_at_text(r->path, *text, size)) return 0;
+  if (!*text || !look_at_text("", r->path, *text, size)) return 0;
   if (!next_line(r) || r->field_count != 2 || strcmp(r->fields[0], format) != 0)
     return complain("%s:%zu: the first line is not '%s 1'", r->path, r->line ? r->line : 1, format);
   return strcmp(r->fields[1], "1") == 0 || refuse_field(r, "only version 1 is known", r->fields[1]);
