@@ -556,7 +556,8 @@ expect 1 'zero byte' build/svcd check "$dir/zero.txt"
 expect 1 'none.txt: No such file' build/svcd check "$dir/none.txt"
 expect 1 "$dir: Is a directory" build/svcd check "$dir"
 
-# A robot, from its URDF: plans and paths, and what planning files refuse.
+# A robot, from its URDF: what urdf.py writes and refuses; plans and paths, and what planning files refuse.
+python3 tests/urdf_test.py 2>"$dir/err" || fail "urdf_test.py: $(cat "$dir/err")"
 shelf="--srdf examples/robot/arm.srdf --scene shelf examples/robot/shelf.urdf"
 # shellcheck disable=SC2086
 python3 examples/robot/urdf.py examples/robot/arm.urdf $shelf "$dir/arm.txt" || fail "urdf.py"
@@ -606,6 +607,16 @@ robot_refused "a second scene of this name" 'scene shelf'
 robot_refused "a joint after the first scene" 'joint x world 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1'
 robot_refused "the quaternion is not of unit length" 'obstacle x shelf_shelf_floor.obj 0 0 0 0 0 0 2'
 robot_refused "a second body of this name" 'obstacle palm arm_shelf_floor.obj 0 0 0 0 0 0 1'
+robot_refused "expected 'scale SX SY SZ', once: 'x'" 'obstacle x arm_shelf_floor.obj 0 0 0 0 0 0 1 x'
+robot_refused "expected 'scale SX SY SZ', once: 'pose'" 'obstacle x arm_shelf_floor.obj 0 0 0 0 0 0 1 pose 0 0 0 0 0 0 1'
+robot_refused "expected 'scale SX SY SZ', once: 'scale'" 'obstacle x arm_shelf_floor.obj 0 0 0 0 0 0 1 scale 1 1'
+robot_refused "a scale, or minus one, is not in 1e-6..1e6: '0'" 'obstacle x arm_shelf_floor.obj 0 0 0 0 0 0 1 scale 1 0 1'
+robot_refused "obstacle x: $dir/none.obj: No such file" 'obstacle x none.obj 0 0 0 0 0 0 1 scale 1 1 1'
+for words in 'pose 0 0 0 0 0 0' 'scale 1 1 1 scale 1 1 1' 'pose 0 0 0 0 0 0 1 pose 0 0 0 0 0 0 1' 'scale 1 1 nan' 'scale 1 1 1e7'; do
+  printf 'nsvcd-plans 1\nbody a world one.obj %s\n' "$words" >"$dir/words.txt"
+  expect 1 'words.txt:2: ' build/svcd plan "$dir/words.txt"
+  expect 2 'words.txt: ' build/verify "$dir/words.txt" "$dir"
+done
 robot_refused "expected 'joint', 'body'" 'link x'
 { cat "$dir/arm.txt"; printf 'path x shelf 2\n0 0 0 0 0 0\n1 1\n'; } >"$dir/bad_robot.txt"
 expect 1 "path x has 1 of its 2 lines of 6 joints" build/svcd path "$dir/bad_robot.txt"

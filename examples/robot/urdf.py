@@ -24,8 +24,8 @@ Matrix = tuple[Vector, Vector, Vector]
 Triangle = tuple[Vector, Vector, Vector]
 Frame = tuple[Matrix, Vector]  # a rotation, then a move
 HERE: Frame = (((1, 0, 0), (0, 1, 0), (0, 0, 1)), (0, 0, 0))
-ROUND = 1e-4  # metres: flat sides of what is round stand no farther out, between LEAST and MOST sides
-LEAST_SIDES, MOST_SIDES = 32, 128  # multiples of 4
+SIDES, MOST_SIDES = 32, 512  # of what is round, multiples of 4; corners of 32 stand out by 0.5 % of the radius
+MOST = 1e6  # of any number, as svcd has it
 MOVES = ("revolute", "continuous", "prismatic")
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 NAME = re.compile(r"[^\s#\x00-\x1f\x7f]+")
@@ -70,6 +70,7 @@ class Given(NamedTuple):
     packages: dict[str, str]
     ignored: set[str]
     velocity: float | None
+    finest: float | None  # metres that corners of what is round may stand out
 
 
 class Body(NamedTuple):
@@ -158,9 +159,9 @@ def numbers(element: xml.Element, attribute: str, default: tuple[float, ...] = (
         return default
     words = text_of(element, attribute).split() if text != "" else []
     values = [float(word) if NUMBER.fullmatch(word) else math.nan for word in words]
-    if not values or not all(map(math.isfinite, values)) or (default and len(values) != len(default)):
-        raise ValueError(f'<{element.tag} {attribute}="{text}">: expected {len(default) or "finite"} '
-                         "numbers, finite, between blanks")
+    if not values or not all(abs(value) <= MOST for value in values) or (default and len(values) != len(default)):
+        raise ValueError(f'<{element.tag} {attribute}="{text}">: expected numbers up to {MOST:g}'
+                         + (f", {len(default)} of them" if default else ""))
     return tuple(values)
 
 
@@ -269,9 +270,11 @@ def box(size: Vector) -> list[Triangle]:
     return [t for face in faces for t in quad(*(corner[i] for i in face))]
 
 
-def sides_of(radius: float) -> int:
-    sides = math.pi / math.acos(radius / (radius + ROUND))
-    return min(MOST_SIDES, max(LEAST_SIDES, 4 * math.ceil(sides / 4)))
+def sides_of(radius: float, finest: float | None) -> int:
+    if finest is None:
+        return SIDES
+    sides = math.pi / max(1e-9, math.acos(radius / (radius + finest)))
+    return min(MOST_SIDES, max(SIDES, 4 * math.ceil(sides / 4)))
 
 
 def lathe(profile: list[tuple[float, float]], sides: int) -> list[Triangle]:
@@ -288,14 +291,13 @@ def lathe(profile: list[tuple[float, float]], sides: int) -> list[Triangle]:
     return [t for t in out if len(set(t)) == 3]
 
 
-def cylinder(radius: float, length: float) -> list[Triangle]:
-    return lathe([(0, -length / 2), (radius, -length / 2), (radius, length / 2), (0, length / 2)], sides_of(radius))
+def cylinder(radius: float, length: float, sides: int) -> list[Triangle]:
+    return lathe([(0, -length / 2), (radius, -length / 2), (radius, length / 2), (0, length / 2)], sides)
 
 
-def capsule(radius: float, length: float) -> list[Triangle]:
+def capsule(radius: float, length: float, sides: int) -> list[Triangle]:
     """Half a ball at each end of a cylinder of this length; a ball if it is 0. Edges of the profile touch
     the circle from outside, at its poles and its equator too."""
-    sides = sides_of(radius)
     grown = radius / math.cos(math.pi / sides)
     arc = [2 * math.pi * (k + 0.5) / sides for k in range(sides // 4)]
     upper = [(grown * math.cos(a), length / 2 + grown * math.sin(a)) for a in arc] + [(0, length / 2 + radius)]
@@ -400,7 +402,7 @@ class Robot:
         for element in root.findall(tag):
             name = element.get("name", "")
             if not NAME.fullmatch(name) or (tag == "joint" and name == "world"):
-                raise ValueError(f"a {tag} named '{name}': no name in a planning file, where neither blanks nor # are part of one")
+                raise ValueError(f"a {tag} named '{name}': a name in a planning file has no blanks and no #")
             if name in found:
                 raise ValueError(f"two {tag}s named {name}")
             found[name] = element
@@ -492,7 +494,7 @@ class Robot:
                         raise ValueError(f"{path}: a scale, or minus one, is not in 1e-6..1e6")
                     meshes.append((path, frame, scale))
                 else:
-                    triangles = shape(element)
+                    triangles = shape(element, self.given.finest)
                     shapes.append([(apply(frame, a), apply(frame, b), apply(frame, c)) for a, b, c in triangles])
         bodies = [Body(link, shapes)] if shapes else []
         for path, frame, scale in meshes:
@@ -522,17 +524,17 @@ class Robot:
         return found
 
 
-def shape(element: xml.Element) -> list[Triangle]:
+def shape(element: xml.Element, finest: float | None) -> list[Triangle]:
     if element.tag == "box":
         size = three(element, "size", (0, 0, 0))
         if not min(size) > 0:
             raise ValueError("<box>: size is not positive")
         return box(size)
+    radius = positive(element, "radius")
+    sides = sides_of(radius, finest)
     if element.tag == "cylinder":
-        return cylinder(positive(element, "radius"), positive(element, "length"))
-    if element.tag == "capsule":
-        return capsule(positive(element, "radius"), positive(element, "length"))
-    return capsule(positive(element, "radius"), 0)
+        return cylinder(radius, positive(element, "length"), sides)
+    return capsule(radius, positive(element, "length") if element.tag == "capsule" else 0, sides)
 
 
 def has_limits(joint: xml.Element) -> bool:
@@ -566,7 +568,7 @@ def joint_line(name: str, parent: str, frame: Frame, joint: xml.Element, velocit
         if speed is None or (speed == 0 and velocity is not None):
             speed = velocity or 1.0
         if speed <= 0:
-            raise ValueError(f"its velocity is {speed:g}: it could not move; --velocity V is that of joints that have 0")
+            raise ValueError(f"its velocity is {speed:g}: it could not move; --velocity V is for joints that have 0")
         acceleration = 3 * speed  # no word of URDF's own
         if limit is not None and limit.get("acceleration") is not None:
             acceleration = positive(limit, "acceleration")
@@ -766,19 +768,23 @@ def main() -> int:
     parser.add_argument("out")
     parser.add_argument("--srdf")
     parser.add_argument("--scene", nargs=2, action="append", default=[], metavar=("NAME", "WORLD.urdf"))
-    parser.add_argument("--package", action="append", default=[], metavar="NAME=FOLDER", help="where package://NAME is")
+    parser.add_argument("--package", action="append", default=[], metavar="NAME=FOLDER",
+                        help="where package://NAME is")
     parser.add_argument("--fixed", action="append", default=[], metavar="JOINT[=VALUE]",
                         help="a joint that stands at this value (0), and so do those that mimic it")
+    parser.add_argument("--round", metavar="METRES", help="by how much corners of what is round may stand out, "
+                        "instead of 32 sides (0.5 %% of the radius, of balls 1 %%)")
     parser.add_argument("--velocity", metavar="V", help="of joints that have none, or 0; 1 if not given")
     parser.add_argument("--ignore", action="append", default=[], metavar="WORD",
                         help="an element or attribute that is not known, and may be left out")
     asked = parser.parse_args()
     try:
         held = {name: value_of("--fixed", value) for name, value in pairs_of("--fixed", asked.fixed, "0").items()}
-        velocity = None if asked.velocity is None else value_of("--velocity", asked.velocity)
-        if velocity is not None and velocity <= 0:
-            raise ValueError("--velocity is not positive")
-        given = Given(held, pairs_of("--package", asked.package, None), set(asked.ignore), velocity)
+        sizes = [None if text is None else value_of(option, text)
+                 for option, text in (("--velocity", asked.velocity), ("--round", asked.round))]
+        if any(value is not None and value <= 0 for value in sizes):
+            raise ValueError("--velocity or --round is not positive")
+        given = Given(held, pairs_of("--package", asked.package, None), set(asked.ignore), *sizes)
         convert(asked.urdf, asked.srdf, [tuple(scene) for scene in asked.scene], asked.out, given)
     except (ValueError, OSError) as error:
         print(f"urdf.py: {error}", file=sys.stderr)
