@@ -605,6 +605,8 @@ robot_refused "expected: plan ID SCENE, then 6 joints" 'plan x shelf 0 0 0 0 0 0
 robot_refused "not a finite number" 'plan x shelf 0 0 0 0 0 0 0 0 0 0 0 nan'
 robot_refused "a second scene of this name" 'scene shelf'
 robot_refused "a joint after the first scene" 'joint x world 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1'
+printf 'nsvcd-plans 1\njoint world world 0 0 0 0 0 0 1 0 0 1 revolute -1 1 1\n' >"$dir/named.txt"
+expect 1 'named.txt:2: a joint of the name world' build/svcd plan "$dir/named.txt"
 robot_refused "the quaternion is not of unit length" 'obstacle x shelf_shelf_floor.obj 0 0 0 0 0 0 2'
 robot_refused "a second body of this name" 'obstacle palm arm_shelf_floor.obj 0 0 0 0 0 0 1'
 robot_refused "expected 'scale SX SY SZ', once: 'x'" 'obstacle x arm_shelf_floor.obj 0 0 0 0 0 0 1 x'

@@ -90,6 +90,7 @@ static int robot_read_joint(const reader *r, robot_file *file) {
                   "revolute|continuous|prismatic LOW HIGH SPEED [ACCELERATION]");
   if (file->joint_count == NSVCD_MAX_JOINTS) return refuse(r, "more joints than NSVCD_MAX_JOINTS");
   if (file->room_count > 0) return refuse(r, "a joint after the first scene");
+  if (strcmp(f[1], "world") == 0) return refuse(r, "a joint of the name world");
   for (other = 0; other < file->joint_count; other++)
     if (strcmp(file->joint_names[other], f[1]) == 0)
       return refuse_field(r, "a second joint of this name", f[1]);
