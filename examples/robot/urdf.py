@@ -120,16 +120,17 @@ def read(path: str, known: dict[str, tuple[str | None, str, str]], ignored: set[
 
 
 def check(element: xml.Element, known: dict[str, tuple[str | None, str, str]], ignored: set[str]) -> None:
-    attributes, inner, harmless = known[element.tag]
+    attributes, wanted, harmless = known[element.tag]
     name = " ".join((element.tag, *filter(None, [element.get("name")])))
     for attribute in element.keys() if attributes is not None else ():
-        if attribute not in attributes.split() and attribute.split("}")[-1] not in ignored:
-            raise ValueError(f"{name}: what is the attribute {attribute}? --ignore {attribute} leaves it out")
+        word = attribute.split("}")[-1]
+        if attribute not in (attributes or "").split() and word not in ignored:
+            raise ValueError(f"{name}: what is the attribute {word}? --ignore {word} leaves it out")
     for child in list(element):
-        if child.tag.split("}")[-1] in ignored or child.tag in harmless.split():
+        tag = child.tag.split("}")[-1]
+        if tag in ignored or child.tag in harmless.split():
             element.remove(child)
-        elif child.tag not in inner.split():
-            tag = child.tag.split("}")[-1]
+        elif child.tag not in wanted.split():
             raise ValueError(f"{name}: what is <{tag}>? --ignore {tag} leaves it out")
         elif child.tag not in MANY and len(element.findall(child.tag)) > 1:
             raise ValueError(f"{name}: more than one <{child.tag}>")
@@ -787,7 +788,8 @@ def main() -> int:
         given = Given(held, pairs_of("--package", asked.package, None), set(asked.ignore), *sizes)
         convert(asked.urdf, asked.srdf, [tuple(scene) for scene in asked.scene], asked.out, given)
     except (ValueError, OSError) as error:
-        print(f"urdf.py: {error}", file=sys.stderr)
+        said = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else error
+        print(f"urdf.py: {said}", file=sys.stderr)
         remove_old(asked.out)
         return 1
     return 0
