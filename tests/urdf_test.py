@@ -506,6 +506,8 @@ class Pairs(Urdf):
                                         "--fixed", "v")), 3)
         self.file("r.srdf", '<robot name="other"><disable_collisions link1="a" link2="x"/></robot>')
         self.assertRegex(self.convert(text, "--srdf", "r.srdf")[1], "(?s)it is of 'other'.*no link x")
+        self.file("r.srdf", '<robot name="r"><passive_joint name="y"/></robot>')
+        self.assertIn("passive_joint: no joint y", self.convert(text, "--srdf", "r.srdf")[1])
 
     def test_urdf_what_is_fixed_beside_a_joint_is_asked(self) -> None:
         """A mast on the base may meet the first link, though one joint parts them; links with nothing on them do not count."""

@@ -607,6 +607,8 @@ class Semantics:
                     if element.tag == "virtual_joint":
                         self.virtual.add(name)
                         is_free = text_of(element, "type") != "fixed" and name not in given.held
+                    elif name not in robot.elements:
+                        warn(f"{path}: {element.tag}: no joint {name}")
                     if is_free:
                         raise ValueError(f"{element.tag} {name}: no motor drives it; --fixed {name} holds it")
                 for link in links:
