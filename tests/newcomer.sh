@@ -11,7 +11,7 @@
 set -uo pipefail
 OFFERED='python3 python3-numpy g++ clang cmake pkg-config git xxd'
 FIRST=${FIRST:-60}
-STEP=${STEP:-120}  # seconds that one command may take
+STEP=${STEP:-120}  # CPU seconds that one program may take
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here" || exit 1
 dir=$(mktemp -d)
@@ -116,12 +116,16 @@ bare_root() {
   chroot "$place" /bin/true || echo "chroot does not run"
 }
 
-# The files of the repository, as they are here, in $copy.
+# The files of the repository, as they are here, in $copy: those that git knows, or, without git, all that was not built.
 fresh_copy() {
   rm -rf "$copy"
   mkdir -p "$copy"
-  git ls-files -z | while IFS= read -r -d '' file; do ! test -f "$file" || printf '%s\0' "$file"; done |
-    tar --null --files-from=- -cf - | tar -C "$copy" -xf -
+  if git ls-files -z >"$dir/files" 2>/dev/null; then
+    while IFS= read -r -d '' file; do ! test -f "$file" || printf '%s\0' "$file"; done <"$dir/files" |
+      tar --null --files-from=- -cf - | tar -C "$copy" -xf -
+  else
+    tar --exclude=./build --exclude=./.git -cf - . | tar -C "$copy" -xf -
+  fi
   cp "$1" "$copy/README.md"
 }
 
@@ -165,10 +169,10 @@ own_files() {
 run() {
   if test -n "$root"; then
     printf 'cd /root/neuralsvcd.h\n%s\n' "$1" >"$root/root/command"
-    timeout "$STEP" chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin sh -e /root/command
+    (ulimit -t "$STEP" && chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin sh -e /root/command)
   else
     printf 'cd %s\n%s\n' "'$copy'" "$1" >"$dir/command"
-    timeout "$STEP" env -i HOME="$dir" PATH=/usr/bin:/bin sh -e "$dir/command"
+    (ulimit -t "$STEP" && env -i HOME="$dir" PATH=/usr/bin:/bin sh -e "$dir/command")
   fi >"$dir/said" 2>&1 </dev/null
 }
 # step LINE COMMAND [NOTE]: runs it, and adds a row to the table.
