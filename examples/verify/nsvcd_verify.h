@@ -6,7 +6,8 @@
 // MIT licence (LICENSE).
 //
 // STATEMENT. Two movers, a and b, each have a mesh (triangles, corners x in float), a scale s and a
-// motion: at a time t in [0,1] x is at s R(t) x + p(t). What nsvcd_verify accepts as
+// motion: at a time t in [0,1] x is at s R(t) x + p(t), by one clock and in one frame for both. What
+// nsvcd_verify accepts as
 //   FREE    proves: at no time does a point of a's triangles come within the clearance of one of
 //           b's, and never is a component of one inside what closed components of the other
 //           enclose;
@@ -32,8 +33,9 @@
 // no less than (1) at the ends, so no less than the lesser on the chord between, and each point
 // leaves its chord by its stray at most. Over a box n.(s R x) is a sum over three sides; over few
 // triangles it is most and least at corners.
-//   Surfaces that never meet do not get inside of each other later on. If somewhere the roots are
-// parted, nothing is inside then. Else a ray follows for each component of a, from a corner of it
+//   Surfaces that never meet do not get inside of each other later on, for how often one winds
+// about a point of the other changes only where they meet. If at some time the roots are parted,
+// nothing is inside then. Else a ray follows for each component of a, from a corner of it
 // at t = 0, then for each of b. It crosses the closed components of the other, summed, as often
 // inwards as outwards, and passes no edge too near to tell. So these do not wind about that corner,
 // nor about the rest of its component, which does not cross them.
@@ -41,14 +43,21 @@
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it, those of poses before and after included: sums of some ten products, roots,
 // and libm's sin and atan2 are good to units of 1e-16, a share of the way between two of 65,536
-// poses to 1e-11. VERIFY__MARGIN, 1e-10 of all lengths, is asked for beyond that, of planes and of
-// rays. Uniform poses are at the doubles k / (count - 1). What is compared with a NaN is false,
-// and then nothing is parted. Digests only catch mix-ups: no proof rests on them.
+// poses to 1e-11. Joints that turn by 1000 radians are off by 1.4e-12 radians each, and 32 of them
+// by 5e-11 of all lengths. VERIFY__MARGIN, 1e-10 of all lengths, is asked for beyond that, of planes
+// and of rays. Uniform poses are at the doubles k / (count - 1). Digests only catch mix-ups: no
+// proof rests on them.
+//   NaN and infinity are refused on their bits, in meshes, scales, motions and clearances. From what
+// remains none arises: nothing is divided by 0, and nothing exceeds 1e100. A motion of your own
+// (nsvcd_verify_mover) may still place something at a NaN: what is compared with it is false, and
+// then nothing is parted. Refused as it is compiled: -ffast-math and parts of it that have a macro,
+// and a float or double that is not IEEE's. Refused as it runs (verify__arithmetic): a thread that
+// does not round to the nearest double or takes subnormal floats for 0, and a build that reorders
+// sums, divides by reciprocals, or has no NaN or no infinity. Harmless: fused products, zeros
+// without a sign, doubles too small to be normal, and registers wider than a double (x87), but that
+// of a turn by 180 degrees, to 1e-16, they may take the other way round.
 #ifndef NSVCD_VERIFY_H
 #define NSVCD_VERIFY_H
-#ifdef __FAST_MATH__
-#error "nsvcd_verify.h: comparisons with NaN, and margins, do not hold with -ffast-math"
-#endif
 #include "nsvcd_verify_rays.h"
 
 #define VERIFY__EXACT 24        // triangles: of no more, corners count; of more, the box
@@ -90,11 +99,13 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
   const double ra = verify__radius(r->a, &v->a);
   const double rb = verify__radius(r->b, &v->b);
   const double reach = r->a->reach + r->b->reach;
+  // a normal of 0 parts nothing: gap and least are 0
   double last = HUGE_VAL;
   double last_lengths = 0;
   double stray = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
     const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
+    if (!(lengths < HUGE_VAL)) return 0;  // a maximum would lose a NaN
     const double margin = VERIFY__MARGIN * verify__max(lengths, last_lengths);
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
@@ -115,6 +126,7 @@ static inline int verify__instants(verify__reader *r, double t0, double t1) {
   double t = t0;
   for (r->count = 0; r->count < r->capacity; t = verify__min(t, t1)) {
     verify__instant *at = &r->instants[r->count++];
+    memset(at, 0, sizeof *at);  // the last one strays no more
     at->t = t;
     r->a->place(r->a->motion, t, &at->a);
     r->b->place(r->b->motion, t, &at->b);
@@ -171,6 +183,7 @@ static inline const char *verify__walk(verify__reader *r) {
       if (r->at > r->bits) return "it ends early";
       if (!verify__parts(r, v, 0) && !verify__parts(r, v, 1))
         return "a plane does not part its nodes";
+      // box 0 is the root's alone: a child's number is more than its parent's
       if (v->a.box == 0 && v->b.box == 0) r->apart = 1;
       height--;
       continue;
@@ -178,7 +191,7 @@ static inline const char *verify__walk(verify__reader *r) {
     if (r->at > r->bits) return "it ends early";
     if (height == VERIFY__STACK || (halves && t1 - t0 < VERIFY__SHORTEST)) return "it is too deep";
     if (opens && !verify__descend(r, v)) return "it opens triangles";
-    if (halves) {
+    if (halves) {  // exactly: an end is a multiple of 2^-40
       v[1] = *v;
       v[1].t1 = v->t0 = 0.5 * (t0 + t1);
     }
@@ -218,8 +231,11 @@ static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_m
   r->instants = (verify__instant *)workspace;
   r->capacity = workspace_size / sizeof *r->instants;
   memset(report, 0, sizeof *report);
-  const char *why = NULL;
-  if (verify__read(r, 6) != 1) why = "it is no certificate of version 1";
+  const char *why = verify__arithmetic();
+  if (!why && (a->clock != b->clock || a->base != b->base))
+    why = "the two are not seen from one link of one motion";
+  const int is_known = verify__read(r, 6) == 1;
+  if (!why && !is_known) why = "it is no certificate of version 1";
   const nsvcd_verify_kind kind = (nsvcd_verify_kind)(1 + verify__read(r, 2));
   const int is_a = verify__read(r, 8) == verify__fold(a->mesh->digest, 8);
   const int is_b = verify__read(r, 8) == verify__fold(b->mesh->digest, 8);
@@ -227,7 +243,7 @@ static inline int nsvcd_verify(const nsvcd_verify_mover *a, const nsvcd_verify_m
   if (!why && !is_b) why = "it is about another mesh b";
   const int is_motion = verify__read(r, 16) == verify__fold(motion, 16);
   if (!why && !is_motion) why = "it is about another motion, scale or clearance";
-  if (!(clearance >= 0 && clearance <= 1e6f)) why = "a clearance is out of range";
+  if (!verify__within(clearance, 1e6f) || clearance < 0) why = "a clearance is out of range";
   if (size > SIZE_MAX / 16) why = "it is too large";
   if (!why && kind == NSVCD_VERIFY_FREE) {
     why = verify__walk(r);

@@ -55,7 +55,9 @@ static inline uint32_t verify__read(verify__reader *r, int count) {
 // The next normal: k zeros and a 1: the one k + 1 places before the last; seven zeros: a new one,
 // 0 and two numbers of 8 bits, 10 and two of 16, or 11 and two of 24. They are a point of the
 // octahedron |x| + |y| + |z| = half, seen from above, with its lower half folded outwards. It
-// becomes the last.
+// becomes the last. A new one is never 0: where z is 0, |x| + |y| is half; where x and y become 0, z
+// is -half. One that is remembered is, until eight were written: it parts nothing, and no ray of it
+// is clear.
 static inline void verify__read_normal(verify__reader *r) {
   double n[3];
   size_t k = 1;
@@ -79,7 +81,8 @@ static inline double verify__dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// No point of a node is farther from its body's origin.
+// No point of a node is farther from its body's origin: no coordinate of its box is larger than the
+// corner's, and 1e-6 holds the roundings.
 static inline double verify__radius(const nsvcd_verify_mover *mover,
                                     const nsvcd_verify_node *node) {
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
@@ -135,7 +138,11 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   }
   if (ahead < -e->margin * length) return 0;
   // On which side of each edge does it pass? det(d, u, v) is off by |d| |edge| if y is off by a
-  // metre, and by |u x v| if d is: of an edge twice the margin, for both of its ends are off.
+  // metre, and by |u x v| if d is: of an edge twice the margin, for both of its ends are off. If
+  // both are off, by |edge| times both more. That is held too: points are off by half a margin at
+  // most, and a side is told only where |d| is over two margins. The line above trusts d: a ray's is
+  // exact, and of an edge 0 proves nothing. `rounding` is det's own, in units of |d|: it is a sum of
+  // products of three lengths, good to 2e-15 of these.
   for (int k = 2; k >= 0; k--) {
     const double *u = p[k];
     const double *v = p[(k + 1) % 3];
@@ -151,7 +158,7 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   }
   if (left > 0 && right > 0) return 0;
   if (left < 3 && right < 3) return 2;
-  // and on which side of the triangle is y?
+  // and on which side of the triangle is y? det(p0, p1, p2) changes by |normal| if y does by a metre
   const double volume = verify__dot(p[2], cross);
   const double off = e->margin * sqrt(verify__dot(normal, normal)) + rounding * e->lengths;
   if (!(fabs(volume) > off)) return 2;
@@ -159,7 +166,8 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
   return left > 0 ? 1 : -1;
 }
 
-// Does the line of a ray miss a box by a margin? If something across both of them parts them.
+// Does the line of a ray miss a box by a margin? If something across both of them parts them. The
+// line of a normal of 0 misses nothing: 0 is not more than 0.
 static inline int verify__misses(const float *box, const double *y, const double *d,
                                  double margin) {
   const double most = margin * sqrt(verify__dot(d, d));
@@ -182,7 +190,7 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
   const double *d = r->normals[0];
   nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
   size_t height = 1;
-  if (!(verify__dot(y, y) < HUGE_VAL)) return 0;
+  if (!(verify__dot(y, y) < HUGE_VAL)) return 0;  // where a NaN would pass for a miss
   memset(m->sums, 0, m->vertices * sizeof *m->sums);
   while (height > 0) {
     const nsvcd_verify_node node = stack[--height];
@@ -223,7 +231,8 @@ static inline verify__extent verify__extent_of(const nsvcd_verify_mover *of,
   return out;
 }
 
-// Rays from all components of one mover at t = 0.
+// Rays from all components of one mover at t = 0, each from its lowest vertex, which stands for it
+// in `part`.
 static inline const char *verify__outside(verify__reader *r, const nsvcd_verify_mover *of,
                                           const nsvcd_verify_mover *by) {
   nsvcd_verify_place of_at, by_at;
@@ -263,7 +272,8 @@ static inline verify__extent verify__extent_in(const verify__pair *p, int of, in
 }
 
 // Whose edge, and which: it passes through the other's triangle, if that is crossed by rays from
-// both of its ends to the other end.
+// both of its ends to the other end, one outwards, one inwards: so each end has the triangle before
+// it, and it is between them.
 static inline const char *verify__pierced(verify__reader *r, const verify__pair *p) {
   const int of = (int)verify__read(r, 1);
   const uint32_t edge = verify__read(r, 2);
@@ -284,7 +294,8 @@ static inline const char *verify__pierced(verify__reader *r, const verify__pair 
 }
 
 // A point of each triangle, by two numbers of 16 bits: shares of the way from its first corner to
-// the second, and from there to the third.
+// the second, and from there to the third. Weights are none below 0 and sum to 1, to a rounding, so
+// the points are of the triangles. Both are off by half a margin at most.
 static inline const char *verify__near(verify__reader *r, const verify__pair *p) {
   double apart[3] = {0, 0, 0};
   for (int k = 0; k < 2; k++) {

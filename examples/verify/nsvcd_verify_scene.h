@@ -2,20 +2,32 @@
 // nsvcd_verify_scene.h - what nsvcd_verify.h speaks of: meshes with their trees, and motions.
 #ifndef NSVCD_VERIFY_SCENE_H
 #define NSVCD_VERIFY_SCENE_H
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
+// The build and the arithmetic that a proof needs. verify__arithmetic looks for what has no macro.
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "nsvcd_verify: not with -ffast-math, -ffinite-math-only or /fp:fast: NaN would pass"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "nsvcd_verify: not with -fassociative-math, -freciprocal-math or -funsafe-math-optimizations"
+#endif
+#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
+#error "nsvcd_verify: float and double must be IEEE 754 binary32 and binary64"
+#endif
+
 #define NSVCD_VERIFY_NONE 0xffffffffu
 #define VERIFY__LEVELS 40  // of a tree, and some more
 
-// A mesh, its components (triangles joined by
-// corners at the same place), and a tree over its triangles. A node is a
-// run of triangles with a box about them. The root has all; a node of n > 1 triangles is cut along
-// the axis along which the sums of their corners differ most (of equals the first): its left child
-// has the n / 2 triangles with the least sums (of equals the lower numbers), its right child the
-// others.
+// A mesh, its components (triangles joined by corners at the same place), and a tree over its
+// triangles. A node is a run of triangles with a box about them. The root has all; a node of n > 1
+// triangles is cut along the axis along which the sums of their corners differ most (of equals the
+// first): its left child has the n / 2 triangles with the least sums (of equals the lower numbers),
+// its right child the others.
 typedef struct nsvcd_verify_mesh {
   const float *positions;   // (vertices, 3) metres
   const uint32_t *indices;  // (triangles, 3), counter-clockwise from outside
@@ -48,8 +60,10 @@ typedef struct nsvcd_verify_mover {
   double (*next)(const void *motion, double t);
   void (*stray)(const void *motion, double t0, double t1, double *stray);
   const void *motion;
-  double reach;     // metres: what its places are reckoned from is no farther off
-  uint32_t digest;  // of scale and motion
+  double reach;       // metres: what its places are reckoned from is no farther off
+  uint32_t digest;    // of scale and motion
+  const void *clock;  // of joints: their motion, which both movers share; of paths: NULL
+  uint32_t base;      // the link from which it is seen, the same for both; of paths: 0, the world
 } nsvcd_verify_mover;
 
 // Between two poses the position is linear and the rotation a slerp, the shorter way round. Both
@@ -67,6 +81,46 @@ static inline double verify__min(double a, double b) {
 }
 static inline double verify__max(double a, double b) {
   return a > b ? a : b;
+}
+
+// Is a number no larger than a bound, whatever its sign? By their bits without the sign, which are
+// in the order of the numbers, with infinity and NaN above: so no option of a compiler lets them by.
+static inline int verify__within(float x, float most) {
+  uint32_t bits, limit;
+  memcpy(&bits, &x, sizeof bits);
+  memcpy(&limit, &most, sizeof limit);
+  return (bits & 0x7fffffffu) <= limit;
+}
+static inline int verify__within_double(double x, double most) {
+  uint64_t bits, limit;
+  memcpy(&bits, &x, sizeof bits);
+  memcpy(&limit, &most, sizeof limit);
+  return (bits & 0x7fffffffffffffffu) <= limit;
+}
+
+// NULL, or what of this thread's arithmetic a proof cannot rest on. A processor can be told to
+// round otherwise, to fewer digits, or to take subnormal floats for 0, which a library may do as it
+// is loaded; a compiler can be told, without a macro, to reorder sums, to divide by reciprocals, and
+// that there is no NaN or no infinity. None of this is an invalid operation, which some have trapped.
+static inline const char *verify__arithmetic(void) {
+  static const uint64_t quiet_nan = 0x7ff8000000000000u;
+  volatile double input[6] = {1, 1e30, HUGE_VAL, 0.5 * DBL_EPSILON, 0.75 * DBL_EPSILON, 49};
+  volatile float least = 1e-45f;
+  volatile double sums[2], read_nan;
+  double nan;
+  memcpy(&nan, &quiet_nan, sizeof nan);
+  read_nan = nan;
+  nan = read_nan;
+  const double one = input[0];
+  const double large = input[1];
+  const double infinite = input[2];
+  for (int k = 0; k < 2; k++) sums[k] = one + input[3 + k];
+  if (sums[0] > one || !(sums[1] > one)) return "this thread does not round to the nearest double";
+  if (!((double)least > 0)) return "this thread takes subnormal floats for 0";
+  if ((one + large) - large > 0) return "this build reorders sums";
+  if (input[5] / 49 < 1) return "this build divides by reciprocals";
+  if (nan == nan || infinite < HUGE_VAL) return "this build takes NaN or infinity for a number";
+  return NULL;
 }
 
 static inline uint32_t verify__hash(uint32_t hash, const void *words, size_t count) {
@@ -207,7 +261,10 @@ static inline void verify__unite(uint32_t *part, uint32_t v, uint32_t w) {
 }
 
 // Finds the components, and which are not closed: an edge of theirs goes there and back not equally
-// often. edges: (3 triangles), to work with.
+// often. edges: (3 triangles), to work with. The vertex that stands for a place may be of no
+// triangle where another one there is: it is of the component then, and may be its lowest one; a
+// ray from it begins at a corner all the same. Other vertices of no triangle stay of none: no box
+// holds them, no ray begins there, and no sum is theirs.
 static inline void verify__join(nsvcd_verify_mesh *m, uint32_t *edges) {
   const size_t corners = 3 * m->triangles;
   uint32_t *weld = (uint32_t *)m->sums;
@@ -256,6 +313,8 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
                                                  void *memory, nsvcd_verify_mesh *m) {
   nsvcd_verify_node stack[VERIFY__LEVELS];
   size_t height = 1;
+  const char *unfit = verify__arithmetic();
+  if (unfit) return unfit;
   if (triangles < 1 || triangles > 0x20000000 || vertices > 0x60000000 ||
       triangles > SIZE_MAX / 128 || vertices > SIZE_MAX / 32)
     return "a mesh has no triangles, or too many";
@@ -263,7 +322,7 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
     if (indices[i] >= vertices) return "a mesh has an index out of range";
   }
   for (size_t i = 0; i < 3 * vertices; i++) {
-    if (!(fabsf(positions[i]) <= 1e6f)) return "a mesh has a coordinate out of range";
+    if (!verify__within(positions[i], 1e6f)) return "a mesh has a coordinate out of range";
   }
   m->positions = positions;
   m->indices = indices;
@@ -336,7 +395,8 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
   return 4 * atan2(sqrt(apart), sqrt(together));
 }
 
-// The rotation matrix of a quaternion of any length.
+// The rotation matrix of a quaternion of any length but 0: one that was checked has about 1, a
+// slerp's below the sine of half its turn, which is over 1e-7.
 static inline void verify__matrix(const double *q, double *m) {
   const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   for (int i = 0; i < 3; i++) {
@@ -356,7 +416,7 @@ static inline void verify__path_place(const void *motion, double t, nsvcd_verify
   const float *b = p->count > 1 ? a + 7 : a;
   double q[4], to[4];
   const double half = 0.5 * verify__turn(p, k, q, to);
-  const int turns = half > 1e-7;  // below, a line is as good
+  const int turns = half > 1e-7;  // below, a line is as good: a turn off by less than half^3
   for (int i = 0; i < 3; i++) out->at[i] = (1 - u) * (double)a[i] + u * (double)b[i];
   for (int i = 0; i < 4; i++)
     q[i] = turns ? sin((1 - u) * half) * q[i] + sin(u * half) * to[i] : (1 - u) * q[i] + u * to[i];
@@ -369,6 +429,10 @@ static inline double verify__path_next(const void *motion, double t) {
 }
 
 // At a constant rate a turn by h has a second derivative of h^2 r, and a stray of an eighth of it.
+// The pose before is looked up half way: t0 may be a knot that was rounded down in a register wider
+// than a double (x87). Where t0 and t1 are neighbours, half way may be t1 (ties go to even), the
+// knot at the end, and the pose one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at
+// least: a turn by less than 4e-9, a true stray below 2e-18 r, which the margin, 1e-10 r, holds.
 static inline void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;
   const size_t k = verify__pose_before(p, 0.5 * (t0 + t1));
@@ -384,9 +448,12 @@ static inline const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, 
                                                  nsvcd_verify_mover *mover) {
   const int timed = p->times && p->count > 1;
   if (p->count < 1 || p->count > 65536) return "a path has no poses, or too many";
-  if (!(scale >= 1e-6f && scale <= 1e6f)) return "a scale is out of range";
+  if (!(verify__within(scale, 1e6f) && scale >= 1e-6f)) return "a scale is out of range";
   for (size_t i = 0; i < 7 * p->count; i++) {
-    if (!(fabsf(p->poses[i]) <= 1e6f)) return "a pose is out of range";
+    if (!verify__within(p->poses[i], 1e6f)) return "a pose is out of range";
+  }
+  for (size_t k = 0; timed && k < p->count; k++) {
+    if (!verify__within(p->times[k], 1)) return "times are not 0 to 1";
   }
   for (size_t k = 0; k < p->count; k++) {
     const float *q = p->poses + 7 * k + 3;
@@ -403,6 +470,8 @@ static inline const char *nsvcd_verify_path_init(const nsvcd_verify_mesh *mesh, 
   mover->next = verify__path_next;
   mover->stray = verify__path_stray;
   mover->motion = p;
+  mover->clock = NULL;
+  mover->base = 0;
   mover->reach = 0;
   for (size_t k = 0; k < p->count; k++) {
     const float *at = p->poses + 7 * k;

@@ -88,7 +88,7 @@ static size_t next_words(char **text, char **words, size_t most) {
 static double number_of(const char *path, const char *word) {
   char *end;
   const double x = strtod(word, &end);
-  if (end == word || *end || !(fabs(x) <= 3e38)) fail(path, "a number is none");
+  if (end == word || *end || !verify__within_double(x, 3e38)) fail(path, "a number is none");
   return x;
 }
 

@@ -158,7 +158,7 @@ static const char *check_motion(const robot *r, char *const *words, float cleara
   m.degree = (size_t)take(bytes, size, at, 4);
   m.joint_count = (size_t)take(bytes, size, at, 4);
   if (m.joint_count != r->joint_count) return "it is about another robot";
-  if (m.pieces < 1 || m.degree < 1 || m.degree > 5 || m.pieces > size) return "it has no motion";
+  if (m.pieces < 1 || m.degree < 1 || m.degree > 5 || m.pieces > 65536) return "it has no motion";
   const size_t numbers = (m.pieces * m.degree + 1) * m.joint_count;
   if (size / 8 < numbers + m.pieces + 1) return "it ends early";
   double *motion = (double *)allocate((numbers + m.pieces + 1) * sizeof *motion);
