@@ -130,6 +130,43 @@ else
   echo "header: no tcc: not tested"
 fi
 
+# The checker of certificates is not compiled where NaN could pass or sums are reordered; where that has no macro, or none
+# any more, it says so as it runs.
+cat >"$dir/unfit.c" <<END
+#include "$here/examples/verify/nsvcd_verify_robot.h"
+#include <stdio.h>
+int main(void) {
+  static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  static const uint32_t triangle[3] = {0, 1, 2};
+  uint32_t memory[NSVCD_VERIFY_MESH_BYTES(3, 1) / 4 + 1];
+  nsvcd_verify_mesh mesh;
+  const char *why = nsvcd_verify_mesh_init(corners, 3, triangle, 1, memory, &mesh);
+  return puts(why ? why : "accepted") < 0;
+}
+END
+not_compiled() {
+  ! "$@" -c "$dir/unfit.c" -o "$dir/unfit.o" 2>"$dir/unfit.txt" && grep -q 'error.*nsvcd_verify: not with' "$dir/unfit.txt" || fail "the checker is compiled by $*"
+}
+says() {  # what it says, compiler and flags
+  expected=$1
+  shift
+  "$@" -O2 "$dir/unfit.c" -o "$dir/unfit" -lm || fail "the checker does not compile: $*"
+  said=$("$dir/unfit")
+  case $said in "$expected"*) ;; *) fail "the checker says, by $*: $said" ;; esac
+}
+reorders="-fassociative-math -fno-signed-zeros -fno-trapping-math"
+for cc in $(compilers gcc clang); do
+  for flags in -ffast-math -ffinite-math-only "-O2 -ffast-math" -D_M_FP_FAST=1; do not_compiled "$cc" $flags; done
+  for flags in -O2 -O3 -ffp-contract=fast -fno-signed-zeros; do says accepted "$cc" $flags; done
+  says "this build takes NaN" "$cc" -ffinite-math-only -U__FINITE_MATH_ONLY__
+  says "this build reorders sums" "$cc" $reorders -U__ASSOCIATIVE_MATH__
+  says "this build divides by" "$cc" -freciprocal-math -U__RECIPROCAL_MATH__
+  if "$cc" $reorders -dM -E -x c /dev/null | grep -q __ASSOCIATIVE_MATH__; then  # of gcc 12 and later
+    for flags in "$reorders" -freciprocal-math -funsafe-math-optimizations; do not_compiled "$cc" $flags; done
+  fi
+  echo "header: the checker of certificates refuses $cc -ffast-math and its parts"
+done
+
 # A build that lacks something scales a body whole or not at all.
 cat >"$dir/scale.c" <<END
 #define NEURALSVCD_IMPLEMENTATION

@@ -19,6 +19,7 @@ void test_round(void);
 void test_robot(void);
 void test_postures(void);
 void test_certificate(void);
+void test_checker(void);
 void test_math(void);
 void test_vectors(void);
 void test_memory(void);
@@ -78,6 +79,7 @@ static const test_file files[] = {
     OF(robot),
     OF(postures),
     OF(certificate),
+    OF(checker),
     OF(winding_number),
     OF(decoder),
     OF(query),

@@ -221,9 +221,9 @@ postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].p
 postures: never touching|pairs[always ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
 postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
-verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (!(gap > -1e9)) return 0;
-verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
-verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < HUGE_VAL)) return 0;|if (!(gap > least)) return 0;
+verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
+verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
+verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > least)) return 0;
 verify: no strays|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;|(void)ra;
 verify: strays of a alone|+ at->stray_b[0] + at->stray_b[1] * rb;|;
 verify: strays of b alone|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0]|stray = at->stray_b[0]
@@ -274,7 +274,7 @@ verify: levers without offsets|outer[k] += speed * lever[k];\n    }\n    reach +
 verify: levers without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n}|reach += verify__offset(joint->origin);\n  }\n}
 verify: pieces as one|return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;|return 1;
 verify: other points of a motion|d = verify__hash_double(d, *value);|
-verify: coordinates that are none|if (!(fabsf(positions[i]) <= 1e6f)) return|if (0) return
+verify: coordinates that are none|if (!verify__within(positions[i], 1e6f)) return|if (0) return
 verify: indices out of range|if (indices[i] >= vertices) return|if (0) return
 verify: quaternions of any length|if (!(fabs(square - 1) < 2.1e-4)) return|if (0) return
 verify: times that fall|if (timed \&\& k > 0 \&\& !(|if (0 \&\& !(

@@ -35,10 +35,10 @@
 // triangles it is most and least at corners.
 //   Surfaces that never meet do not get inside of each other later on, for how often one winds
 // about a point of the other changes only where they meet. If at some time the roots are parted,
-// nothing is inside then. Else a ray follows for each component of a, from a corner of it
-// at t = 0, then for each of b. It crosses the closed components of the other, summed, as often
-// inwards as outwards, and passes no edge too near to tell. So these do not wind about that corner,
-// nor about the rest of its component, which does not cross them.
+// nothing is inside then. Else a ray follows for each component of a, from a corner of it at t = 0,
+// then for each of b. It crosses the closed components of the other, summed, as often inwards as
+// outwards, and passes no edge too near to tell. So these do not wind about that corner, nor about
+// the rest of its component, which does not cross them.
 //
 // ARITHMETIC. All is reckoned in double, from floats. No number in (1) is off by more than 1e-11 of
 // all lengths in it, those of poses before and after included: sums of some ten products, roots,
@@ -47,15 +47,15 @@
 // by 5e-11 of all lengths. VERIFY__MARGIN, 1e-10 of all lengths, is asked for beyond that, of planes
 // and of rays. Uniform poses are at the doubles k / (count - 1). Digests only catch mix-ups: no
 // proof rests on them.
-//   NaN and infinity are refused on their bits, in meshes, scales, motions and clearances. From what
-// remains none arises: nothing is divided by 0, and nothing exceeds 1e100. A motion of your own
-// (nsvcd_verify_mover) may still place something at a NaN: what is compared with it is false, and
-// then nothing is parted. Refused as it is compiled: -ffast-math and parts of it that have a macro,
-// and a float or double that is not IEEE's. Refused as it runs (verify__arithmetic): a thread that
-// does not round to the nearest double or takes subnormal floats for 0, and a build that reorders
-// sums, divides by reciprocals, or has no NaN or no infinity. Harmless: fused products, zeros
-// without a sign, doubles too small to be normal, and registers wider than a double (x87), but that
-// of a turn by 180 degrees, to 1e-16, they may take the other way round.
+//   NaN and infinity are refused on their bits, in meshes, scales, motions and clearances. From
+// what remains none arises: nothing is divided by 0, and nothing comes near 1e100. A motion of your
+// own (nsvcd_verify_mover) may still place something at a NaN: what is compared with it is false,
+// and then nothing is parted. Refused as it is compiled: -ffast-math and parts of it that have a
+// macro, and a float or double that is not IEEE's. Refused as it runs (verify__arithmetic): a
+// thread that does not round to the nearest double or takes subnormal floats for 0, and a build
+// that reorders sums, divides by reciprocals, or has no NaN. Harmless: fused products, zeros
+// without a sign, no infinities, doubles too small to be normal, and registers wider than a double
+// (x87), but that of a turn by 180 degrees, to 1e-16, they may take the other way round.
 #ifndef NSVCD_VERIFY_H
 #define NSVCD_VERIFY_H
 #include "nsvcd_verify_rays.h"
@@ -82,7 +82,7 @@ static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_v
     most += way[i] * (double)low[way[i] > 0 ? i + 3 : i];
   }
   if (!exact || node->count > VERIFY__EXACT) return most;
-  most = -HUGE_VAL;
+  most = -VERIFY__BEYOND;
   for (uint32_t i = 0; i < 3 * node->count; i++) {
     const float *x = verify__corner(m, m->order[node->first + i / 3], i % 3);
     const double along = way[0] * (double)x[0] + way[1] * (double)x[1] + way[2] * (double)x[2];
@@ -100,18 +100,18 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
   const double rb = verify__radius(r->b, &v->b);
   const double reach = r->a->reach + r->b->reach;
   // a normal of 0 parts nothing: gap and least are 0
-  double last = HUGE_VAL;
+  double last = VERIFY__BEYOND;
   double last_lengths = 0;
   double stray = 0;
   for (const verify__instant *at = r->instants; at < r->instants + r->count; at++) {
     const double lengths = verify__lengths(ra + rb + r->clearance + reach, &at->a, &at->b);
-    if (!(lengths < HUGE_VAL)) return 0;  // a maximum would lose a NaN
+    if (!(lengths < VERIFY__BEYOND)) return 0;  // a maximum would lose a NaN
     const double margin = VERIFY__MARGIN * verify__max(lengths, last_lengths);
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
     const double least = length * (r->clearance + stray + margin);
-    if (!(gap > least && last > least && gap < HUGE_VAL)) return 0;
+    if (!(gap > least && last > least && gap < VERIFY__BEYOND)) return 0;
     last = gap;
     last_lengths = lengths;
     stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;

@@ -129,7 +129,7 @@ static inline int verify__crosses(const nsvcd_verify_mesh *m, uint32_t triangle,
                                   const double *d, const verify__extent *e) {
   const double length = sqrt(verify__dot(d, d));
   const double rounding = 1e-4 * VERIFY__MARGIN * e->lengths * e->lengths;
-  double p[3][3], cross[3], edge[3], normal[3] = {0, 0, 0}, ahead = -HUGE_VAL;
+  double p[3][3], cross[3], edge[3], normal[3] = {0, 0, 0}, ahead = -VERIFY__BEYOND;
   int left = 0;
   int right = 0;
   for (uint32_t k = 0; k < 3; k++) {
@@ -190,7 +190,7 @@ static inline int verify__cast(const verify__reader *r, const nsvcd_verify_mesh 
   const double *d = r->normals[0];
   nsvcd_verify_node stack[VERIFY__LEVELS] = {{0, 0, (uint32_t)m->triangles}};
   size_t height = 1;
-  if (!(verify__dot(y, y) < HUGE_VAL)) return 0;  // where a NaN would pass for a miss
+  if (!(verify__dot(y, y) < VERIFY__BEYOND)) return 0;  // where a NaN would pass for a miss
   memset(m->sums, 0, m->vertices * sizeof *m->sums);
   while (height > 0) {
     const nsvcd_verify_node node = stack[--height];
