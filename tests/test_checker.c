@@ -467,6 +467,34 @@ static void checker_knows_neighbours_of_knots(void) {
   }
 }
 
+// Each knot is come by once, also of thirds and sevenths, and also where registers are wider than a
+// double (x87): the workspace has room for them and no more.
+static void checker_comes_by_knots_once(void) {
+  for (size_t count = 2; count <= 80; count++) {
+    static double workspace[NSVCD_VERIFY_WORKSPACE_BYTES(80) / sizeof(double)];
+    static float poses[7 * 80];
+    scene s;
+    writer w;
+    nsvcd_verify_report report;
+    scene_of(1.5f, &s);
+    for (size_t k = 0; k < count; k++) {
+      memset(poses + 7 * k, 0, 7 * sizeof *poses);
+      poses[7 * k + 6] = 1;
+    }
+    s.paths[0].poses = poses;
+    s.paths[0].count = count;
+    CHECK(!scene_init(&s));
+    size_t knots = 1;
+    for (double t = 0; t < 1 && knots <= count; knots++)
+      t = s.movers[0].next(s.movers[0].motion, t);
+    CHECK_EQ(knots, count);
+    begin(&w, s.movers, 0, NSVCD_VERIFY_FREE);
+    put_plane(&w, -1, 0, 0);
+    CHECK(nsvcd_verify(&s.movers[0], &s.movers[1], 0, w.bytes, (w.bits + 7) / 8, workspace,
+                       NSVCD_VERIFY_WORKSPACE_BYTES(count), &report));
+  }
+}
+
 // ---- joints
 
 #define PIECES 2
@@ -580,6 +608,7 @@ void test_checker(void) {
   RUN(checker_needs_a_normal);
   RUN(checker_looks_at_triangles);
   RUN(checker_knows_neighbours_of_knots);
+  RUN(checker_comes_by_knots_once);
   RUN(checker_refuses_what_is_no_number_of_joints);
   RUN(checker_needs_one_motion_and_base);
 }

@@ -53,7 +53,7 @@ typedef struct nsvcd_verify_part {
 } nsvcd_verify_part;
 
 static inline double verify__piece_end(const nsvcd_verify_motion *m, size_t piece) {
-  return (m->times[piece] - m->times[0]) / (m->times[m->pieces] - m->times[0]);
+  return verify__stored((m->times[piece] - m->times[0]) / (m->times[m->pieces] - m->times[0]));
 }
 
 static inline size_t verify__piece(const nsvcd_verify_motion *m, double t) {

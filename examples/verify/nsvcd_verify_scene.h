@@ -84,6 +84,13 @@ static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
 
+// A double also where registers are wider (x87): a knot is what is stored and compared, or the next
+// one after it would be it again.
+static inline double verify__stored(double x) {
+  volatile double stored = x;
+  return stored;
+}
+
 // Is a number no larger than a bound, whatever its sign? By their bits without the sign, which are
 // in the order of the numbers, with infinity and NaN above: so no option of a compiler lets them by.
 static inline int verify__within(float x, float most) {
@@ -352,7 +359,8 @@ static inline const char *nsvcd_verify_mesh_init(const float *positions, size_t 
 // ---- paths
 
 static inline double verify__knot(const nsvcd_verify_path *p, size_t k) {
-  return p->times ? (double)p->times[k] : (double)k / (double)(p->count - 1);
+  if (p->times) return (double)p->times[k];
+  return verify__stored((double)k / (double)(p->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time.
@@ -429,9 +437,8 @@ static inline double verify__path_next(const void *motion, double t) {
 }
 
 // At a constant rate a turn by h has a second derivative of h^2 r, and a stray of an eighth of it.
-// The pose before is looked up half way: t0 may be a knot that was rounded down in a register wider
-// than a double (x87). Where t0 and t1 are neighbours, half way may be t1 (ties go to even), the
-// knot at the end, and the pose one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at
+// The pose before is looked up half way. Where t0 and t1 are neighbours, half way may be t1 (ties go
+// to even), the knot at the end, and the pose one too late. Then t1 - t0 < 1.2e-16, of a stretch of 0.99e-7 at
 // least: a turn by less than 4e-9, a true stray below 2e-18 r, which the margin, 1e-10 r, holds.
 static inline void verify__path_stray(const void *motion, double t0, double t1, double *stray) {
   const nsvcd_verify_path *p = (const nsvcd_verify_path *)motion;

@@ -35,7 +35,8 @@ typedef struct nsvcd__rider {
 // ---- of poses: nsvcd_mover
 
 static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
-  return mover->times ? (double)mover->times[k] : (double)k / (double)(mover->count - 1);
+  if (mover->times) return (double)mover->times[k];
+  return nsvcd__to_double((double)k / (double)(mover->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time; of a mover of two poses or more.

@@ -122,6 +122,11 @@ static inline float nsvcd__to_float(double x) {
   return rounded;
 #endif
 }
+// A double also where registers are wider (x87): what is compared is what was stored.
+static inline double nsvcd__to_double(double x) {
+  volatile double rounded = x;
+  return rounded;
+}
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
 }
