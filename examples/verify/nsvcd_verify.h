@@ -143,7 +143,7 @@ static inline double verify__side(const nsvcd_verify_mover *mover, const nsvcd_v
   const float *low = mover->mesh->boxes + 6 * (size_t)node->box;
   double most = 0;
   for (int i = 0; i < 3; i++) most = verify__max(most, (double)low[i + 3] - (double)low[i]);
-  return mover->scale * most;
+  return verify__stored(mover->scale * most);
 }
 
 // Puts two visits in place of one: v, and the one after it on the stack, which comes first.

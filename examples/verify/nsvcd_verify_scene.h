@@ -84,11 +84,15 @@ static inline double verify__max(double a, double b) {
   return a > b ? a : b;
 }
 
-// A double also where registers are wider (x87): a knot is what is stored and compared, or the next
-// one after it would be it again.
+// A double also where registers are wider (x87), for what is compared with itself reckoned again: a
+// knot, or it would be the next one after itself; a key to sort by, or nothing would be at its place.
 static inline double verify__stored(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
   volatile double stored = x;
   return stored;
+#endif
 }
 
 // Is a number no larger than a bound, whatever its sign? By their bits without the sign, which are
@@ -147,9 +151,9 @@ static inline const float *verify__corner(const nsvcd_verify_mesh *m, size_t tri
 }
 
 static inline double verify__sum(const nsvcd_verify_mesh *m, uint32_t triangle, int axis) {
-  const double sum =
-      (double)verify__corner(m, triangle, 0)[axis] + (double)verify__corner(m, triangle, 1)[axis];
-  return sum + (double)verify__corner(m, triangle, 2)[axis];
+  const double sum = verify__stored((double)verify__corner(m, triangle, 0)[axis] +
+                                    (double)verify__corner(m, triangle, 1)[axis]);
+  return verify__stored(sum + (double)verify__corner(m, triangle, 2)[axis]);
 }
 
 static inline int verify__before(const nsvcd_verify_mesh *m, uint32_t i, uint32_t j, int axis) {
@@ -180,8 +184,9 @@ static inline void verify__cut(nsvcd_verify_mesh *m, const nsvcd_verify_node *no
       least = verify__min(least, sum);
       most = verify__max(most, sum);
     }
-    if (most - least > widest) axis = k;
-    widest = verify__max(widest, most - least);
+    const double side = verify__stored(most - least);
+    if (side > widest) axis = k;
+    widest = verify__max(widest, side);
   }
   for (int64_t from = 0, to = (int64_t)node->count - 1; from < to;) {
     const uint32_t pivot = order[(from + to) / 2];
@@ -388,7 +393,7 @@ static inline double verify__turn(const nsvcd_verify_path *p, size_t k, double *
   const float *b = p->count > 1 ? a + 7 : a;
   double dot = 0, square_a = 0, square_b = 0, apart = 0, together = 0;
   for (int i = 0; i < 4; i++) {
-    dot += (double)a[i] * (double)b[i];
+    dot = verify__stored(dot + (double)a[i] * (double)b[i]);
     square_a += (double)a[i] * (double)a[i];
     square_b += (double)b[i] * (double)b[i];
   }

@@ -69,7 +69,11 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   nsvcd__turning out;
   const nsvcd__dquat from = nsvcd__pose_rotation(a);
   const nsvcd__dquat to = nsvcd__pose_rotation(b);
-  const double side = nsvcd__dquat_dot(from, to) < 0 ? -1 : 1;
+  // summed in doubles: its sign says which way a turn by 180 degrees goes
+  double dot = 0;
+  for (size_t k = 0; k < 4; k++)
+    dot = nsvcd__to_double(dot + (double)a->rotation[k] * (double)b->rotation[k]);
+  const double side = dot < 0 ? -1 : 1;
   out.from = nsvcd__dquat_unit(from);
   out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
   const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);

@@ -57,11 +57,12 @@ static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle
   return tree->mesh.positions + 3 * (size_t)vertex;
 }
 
-// Three times a triangle's middle.
+// Three times a triangle's middle, in doubles: it is a key to sort by, and must be the same each time.
 static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
   nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
   for (uint32_t k = 1; k < 3; k++)
-    sum = nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)));
+    sum = nsvcd__d3_stored(
+        nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k))));
   return sum;
 }
 
@@ -92,7 +93,7 @@ static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
     box.high = nsvcd__f3_max(box.high, x);
   }
   tree->boxes[node->box] = box;
-  const nsvcd__d3 sides = nsvcd__d3_sub(most, least);
+  const nsvcd__d3 sides = nsvcd__d3_stored(nsvcd__d3_sub(most, least));
   size_t axis = sides.y > sides.x;
   if (sides.z > nsvcd__d3_axis(sides, axis)) axis = 2;
   const ptrdiff_t half = (ptrdiff_t)(node->count / 2);

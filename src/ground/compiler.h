@@ -6,6 +6,7 @@
 #ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
 #error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
 #endif
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,6 @@
 #endif
 // NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
-#include <float.h>
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \

@@ -122,14 +122,21 @@ static inline float nsvcd__to_float(double x) {
   return rounded;
 #endif
 }
-// A double also where registers are wider (x87): what is compared is what was stored.
-static inline double nsvcd__to_double(double x) {
-  volatile double rounded = x;
-  return rounded;
-}
 static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
   return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
 }
 static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+// A double also where registers are wider (x87), for what is compared with itself computed again.
+static inline double nsvcd__to_double(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
+  volatile double rounded = x;
+  return rounded;
+#endif
+}
+static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__to_double(a.x), nsvcd__to_double(a.y), nsvcd__to_double(a.z));
 }
