@@ -5,7 +5,8 @@
 
 header.h is the plan: it names the rooms, floor by floor, in the order in which data flows. Each room takes its
 place in the file under a line with its name. What a room includes of this folder is left out, since it stands above
-already: a room that includes what stands below is refused. Two lists are made here:
+already: a room that includes what stands below is refused, and so is a macro that is defined twice: compilers take that
+without a word where both are the same, and then whoever changes one changes neither or both. Two lists are made here:
 
   the contents       the rooms with what header.h says of them, where it has a line `// CONTENTS`
   names of a set     entry/processor.h compiles the rooms between `#endif  // NSVCD__ISA` and `#ifndef NSVCD__ISA` once more
@@ -42,6 +43,36 @@ def room_text(src: Path, path: str, above: list[str]) -> str:
         elif line != "#pragma once":
             lines.append(line)
     return "\n".join(lines) + "\n"
+
+
+def defined_twice(text: str) -> list[str]:
+    """Macros that are defined where they are already: no #undef stands between, and the two are not in different branches
+    of one #if. In one room they may stand under different #ifs, for who reads one sees the other."""
+    room = ""
+    branches: list[tuple[int, int]] = []  # the #ifs around a line: where, and which of their branches
+    places: dict[str, list[tuple[str, dict[int, int]]]] = {}
+    twice: set[str] = set()
+    for n, line in enumerate(text.split("\n")):
+        directive = re.match(r"\s*#\s*(if|elif|else|endif|define|undef)(?:n?def)?\b\s*(\w*)", line)
+        word, name = directive.groups() if directive else ("", "")
+        if line.startswith("// ------------"):
+            room = line
+        elif word == "if":
+            branches.append((n, 0))
+        elif word in ("elif", "else"):
+            branches[-1] = (branches[-1][0], branches[-1][1] + 1)
+        elif word == "endif":
+            branches.pop()
+        elif word == "undef":
+            places[name] = []
+        elif word == "define":
+            here = dict(branches)
+            for where, other in places.setdefault(name, []):
+                both = all(here.get(at, branch) == branch for at, branch in other.items())
+                if both and (where != room or here == other):
+                    twice.add(name)
+            places[name].append((room, here))
+    return sorted(twice)
 
 
 def contents(plan: list[str]) -> list[str]:
@@ -105,6 +136,8 @@ def made_of(src: Path) -> str:
     text = "\n".join(out) + "\n"
     if text.count(NAMES) != 1:
         raise Refused(f"there must be one line {NAMES.strip()}")
+    if twice := defined_twice(text):
+        raise Refused(f"defined twice: {', '.join(twice)}")
     return re.sub(r"\n{3,}", "\n\n", text.replace(NAMES, NAMES + names))
 
 

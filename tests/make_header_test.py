@@ -75,6 +75,28 @@ class MakeHeader(unittest.TestCase):
         with self.assertRaisesRegex(make_header.Refused, "upper/means"):
             make_header.made_of(self.src)
 
+    def test_macros_are_defined_once(self) -> None:
+        self.write("ground/once", "#pragma once\n#define NSVCD__MANY 2\n")
+        for text in (
+            "#define NSVCD__MANY 2",
+            "#define NSVCD__MANY 3",
+            "#ifdef OTHER\n#define NSVCD__MANY 2\n#endif",
+            "#  define NSVCD__MANY  // nothing",
+            "#if A\n#define NSVCD__MANY(x) x\n#elif B\n#endif",
+        ):
+            self.write("upper/means", f"#pragma once\n{text}\n")
+            with self.assertRaisesRegex(make_header.Refused, "defined twice: NSVCD__MANY"):
+                make_header.made_of(self.src)
+        self.write("upper/means", "#pragma once\n" + 2 * "#define NSVCD__TWO 2\n")
+        with self.assertRaisesRegex(make_header.Refused, "defined twice: NSVCD__TWO$"):
+            make_header.made_of(self.src)
+
+    def test_macros_may_have_branches_and_ends(self) -> None:
+        self.write("ground/once", "#pragma once\n#ifdef A\n#define NSVCD__MANY 2\n#elif B\n#define NSVCD__MANY 3\n#else\n"
+                   "#if C\n#define NSVCD__MANY 4\n#endif\n#endif\n#if D\n#define NSVCD__MANY 5\n#endif\n")
+        self.write("upper/means", "#pragma once\n#undef NSVCD__MANY\n#define NSVCD__MANY 2\n// #define NSVCD__MANY 5\n")
+        make_header.made_of(self.src)
+
     def test_names_must_have_one_place(self) -> None:
         self.write("upper/names", "\n")
         with self.assertRaises(make_header.Refused):

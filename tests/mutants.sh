@@ -1,7 +1,8 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
-# `verify:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c has to fail. Prints a line for each, and exits with 1 if one
+# `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
+# tests/test_checker.c has to fail. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -10,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -278,6 +279,17 @@ verify: coordinates that are none|if (!verify__within(positions[i], 1e6f)) retur
 verify: indices out of range|if (indices[i] >= vertices) return|if (0) return
 verify: quaternions of any length|if (!(fabs(square - 1) < 2.1e-4)) return|if (0) return
 verify: times that fall|if (timed \&\& k > 0 \&\& !(|if (0 \&\& !(
+checker: arithmetic of any kind|const char *why = verify__arithmetic();|const char *why = NULL;
+checker: meshes by arithmetic of any kind|if (unfit) return unfit;|
+checker: rounded anyhow|if (sums[0] > one \|\| !(sums[1] > one)) return|if (0) return
+checker: subnormal floats as 0|if (!((double)least > 0)) return|if (0) return
+checker: infinity as a number|return (bits \& 0x7fffffffu) <= limit;|return (bits \& 0x7fffffffu) <= limit \|\| bits == 0x7f800000u;
+checker: NaN as a number|return (bits \& 0x7fffffffffffffffu) <= limit;|return (bits \& 0x7fffffffffffffffu) <= limit \|\| bits > 0x7ff0000000000000u;
+checker: two motions|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))|if (!why \&\& a->base != b->base)
+checker: two bases|if (!why \&\& (a->clock != b->clock \|\| a->base != b->base))|if (!why \&\& a->clock != b->clock)
+checker: strays that nobody wrote|memset(at, 0, sizeof *at);|
+checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap >= least \&\& last >= least \&\& gap < VERIFY__BEYOND)) return 0;
+checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
 LIST
 
 survived=0
@@ -293,7 +305,7 @@ name, old, new = re.split(r'(?<!\\)\|', os.environ['LINE'], maxsplit=2)
 old, new = [part.replace('\\n', '\n').replace('\\&', '&').replace('\\|', '|') for part in (old, new)]
 new = new if name == 'none' or not new.endswith('|') else new.rstrip('|')
 text = open('neuralsvcd.h').read()
-if name.startswith('verify:'):
+if name.startswith(('verify:', 'checker:')):
     sys.stdout.write(text)
     # in the one file of the checker that has it
     pattern = r'\s+'.join(map(re.escape, old.split()))
@@ -324,6 +336,7 @@ PYTHON
     robot:*) file=test_robot.c ;;
     postures:*) file=test_postures.c ;;
     verify:*) file=test_certificate.c ;;
+    checker:*) file=test_checker.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   (ulimit -t "${LIMIT:-400}"; exec $work/test) >$work/out.txt 2>&1

@@ -9,6 +9,7 @@ and how much text there is; exit status 1 if something is not. That a room uses 
   paths      the files that it names are there, of .md files too
   links      of .md files: the file is there, and so is the heading that is named behind a #
   counts     the lines of the checker are as many as README says, to a hundred
+  tables     no row of a comment's table is cut, as a formatter does: a word or two at the margin, and the rest below
 """
 
 import re
@@ -154,6 +155,23 @@ def miscounted() -> list[str]:
     return [f"the checker has {lines} lines in {len(headers)} headers, README says {said and said[1]} in four"]
 
 
+def cut_rows(lines: list[str]) -> list[str]:
+    """A row is a name, two blanks or more, and text, which goes on below itself."""
+    faults = []
+    column = 0  # where the text of the row above begins; 0: there is none
+    for n, line in enumerate(lines):
+        comment = line.lstrip().removeprefix("//")
+        below = lines[n + 1].lstrip().removeprefix("//") if n + 1 < len(lines) else ""
+        if not line.lstrip().startswith("//") or not comment.strip():
+            column = 0
+        elif row := re.match(r" +\S.*?  +(?=\S)", comment):
+            column = row.end()
+        elif column > len(comment) - len(comment.lstrip()) and len(comment.split()) < 3:
+            if len(below) - len(below.lstrip()) == column:
+                faults.append(f"{n + 1}: a row of a table is cut: {comment.strip()}")
+    return faults
+
+
 def main() -> int:
     broken = False
     code: list[str] = []
@@ -161,7 +179,8 @@ def main() -> int:
     rooms = sorted(SRC.glob("*/*.h"))
     for path in [SRC / "header.h", *rooms]:
         lines = path.read_text(encoding="ascii").rstrip("\n").split("\n")
-        faults = long_lines(lines) + long_functions(lines) + joined_statements(lines) + missing_paths(lines)
+        faults = long_lines(lines) + long_functions(lines) + joined_statements(lines)
+        faults += missing_paths(lines) + cut_rows(lines)
         if path in rooms:
             faults += room_faults(lines)
         for fault in faults:

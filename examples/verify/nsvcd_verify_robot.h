@@ -3,8 +3,8 @@
 // certificates of nsvcd_certify_pair. What is proven is the joints' own motion, at all times.
 //
 // Joint i carries link i + 1; link 0 is the world. A corner x of a part is at
-//   T_1 T_2 ... T_m (s R x + p),   T_j y = O_j (turn about the axis by q_j) y,  or O_j (y + axis
-//   q_j)
+//   T_1 T_2 ... T_m (s R x + p),   T_j y = O_j (turn about the axis by q_j) y
+//                                       or O_j (y + axis q_j) of one that slides
 // over the joints from the base to its link; R, p is the part's pose. The joint values q are Bezier
 // curves in time, piece by piece. Both parts may be seen from a link that carries both, the base:
 // what is between them stays the same. nsvcd_verify refuses parts of two bases or two motions.

@@ -52,8 +52,8 @@ typedef struct nsvcd_verify_place {
 
 // A mesh that moves. A motion is three functions: where it is at a time; the next knot (a time at
 // which it has a corner) after a time before 1; and by how much, at most, a point at r metres from
-// the body's origin leaves its chord between two times without a knot between: stray[0] + stray[1]
-// r.
+// the body's origin leaves its chord between two times without a knot between: by
+// stray[0] + stray[1] r.
 typedef struct nsvcd_verify_mover {
   const nsvcd_verify_mesh *mesh;
   double scale;

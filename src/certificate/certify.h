@@ -7,11 +7,10 @@
 //             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
 //             b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
-//   two
-//             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
+//             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
+//             normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
-//   seven
-//             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
+//             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 #pragma once
 #include "../ground/random.h"
 #include "rays.h"

@@ -57,7 +57,7 @@ static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle
   return tree->mesh.positions + 3 * (size_t)vertex;
 }
 
-// Three times a triangle's middle, in doubles: it is a key to sort by, and must be the same each time.
+// Three times a triangle's middle, in doubles: a key to sort by, which must be the same each time.
 static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
   nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
   for (uint32_t k = 1; k < 3; k++)

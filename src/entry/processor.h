@@ -59,6 +59,7 @@
 #undef NSVCD__SLICE
 #undef NSVCD__ISA
 #undef NSVCD__BYTE_ROWS
+#undef NSVCD__VNNI
 #define NSVCD__SLICE 16
 #define NSVCD__ISA _avx512
 #define NSVCD__VNNI

@@ -33,7 +33,7 @@
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
-#define NSVCD__GLANCE 200
+#define NSVCD__PAIR_GLANCE 200
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {

@@ -410,7 +410,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   nsvcd_answer found;
   nsvcd__spell spell;
   nsvcd_check_options glance = *options;
-  if (!glance.work || glance.work > NSVCD__GLANCE) glance.work = NSVCD__GLANCE;
+  if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = nsvcd__piece_at(motion, t0);
   answer->share = nsvcd__share_at(motion, answer->piece, t0);

@@ -2,14 +2,14 @@
 // parts of two bodies.
 //
 // In:  a mesh, closed or nearly so (what a gap wider than 1/60 of it lets drain is taken for a thin
-// shell).
+//      shell).
 //      preparation.points: the most parts, at most CONVEX_PARTS; 0: CONVEX_DEFAULT_PARTS.
 //      preparation.detail: the depth at which a part is convex enough, as a share of the mesh's
 //      largest extent: how far the surface lies below that of the part's hull, at worst; 0:
 //      CONVEX_DEFAULT_DETAIL.
 // Out: whether two bodies, as unions of convex hulls, come nearer than the activation distance at
-// one of the
-//      placements. A negative one asks for an overlap deeper than that, of one pair of parts.
+//      one of the placements. A negative one asks for an overlap deeper than that, of one pair of
+//      parts.
 //
 // Parts: the solid is cut by axis-aligned planes, each time the worst part, where the hulls of both
 // sides hold the least space beside the solid (V-HACD: Mamou and Ghorbel 2009); how bad a part is,

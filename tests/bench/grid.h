@@ -2,10 +2,9 @@
 // of the fixed one.
 //
 // In:  a mesh in metres. Out: grid_method (method.h). Reads preparation.points: points on the
-// surface (0: 1000), and
-//      preparation.detail: cells along the longest extent (0: 64). Sources: the point shell of
-//      McNeely et al. 1999 ("Six degree-of-freedom haptic rendering using voxel sampling"), with
-//      signed distances in place of voxels.
+//      surface (0: 1000), and preparation.detail: cells along the longest extent (0: 64). Sources:
+//      the point shell of McNeely et al. 1999 ("Six degree-of-freedom haptic rendering using voxel
+//      sampling"), with signed distances in place of voxels.
 //
 // Points. Spread evenly over the area (spheres.h), then grouped by eights, and these by
 // eights again: a node keeps the bounding spheres of its children side by side, and a test is one

@@ -1,19 +1,17 @@
 // plan_spheres.h - the collision cost of a sphere planner (as cuRobo's) for nsvcd_plan: the peer of
 // the benchmark.
 //
-// In:  a scene of scenery/tasks.h, numbers of spheres, the activation distance. Out:
-// plan_spheres_cost, to be called
-//      from nsvcd_plan_problem.collision: the cost of poses (samples, bodies), the verdict, the
-//      derivative.
+// In:  a scene of scenery/tasks.h, numbers of spheres, the activation distance.
+// Out: plan_spheres_cost, to be called from nsvcd_plan_problem.collision: the cost of poses
+//      (samples, bodies), the verdict, the derivative.
 // Sources: cuRobo (Sundaralingam et al. 2023) and appendices B and D of the NeuralSVCD paper.
 //
 //   plan_spheres s;
 //   if (!plan_spheres_init(&s, &scene, 397, 400, 0.04f, 1, 0)) ...     // once per scene
 //   if (!plan_spheres_select(&s, &scene)) ...                         // after each task_select
-//   cost = plan_spheres_cost(&s, poses, samples, limit, &collides, gradient);  // allocates
-//                                                                              nothing; one thread
-//                                                                              per
-//   struct plan_spheres_free(&s);
+//   // allocates nothing; one thread per struct
+//   cost = plan_spheres_cost(&s, poses, samples, limit, &collides, gradient);
+//   plan_spheres_free(&s);
 //
 // Cost. Per pair, sample and sphere, with d = the signed distance of its centre from the other
 // body's mesh, less its radius: 0 from the activation distance e on, (e - d)^2 / 2e nearer than

@@ -4,18 +4,17 @@
 // What sets there are: the table `sets` below. How a problem comes about (the paper's appendix B,
 // conditioned on the boundary; all sets but `inside` and `far`):
 //   1. two meshes, random sizes; a smooth random motion of one; the other placed at random within
-//   reach of it; 2. if they touch or one contains the other, the fixed body marches in a random
-//   direction to the first place where
-//      they do not, which may well be a concavity; restart if there is none;
+//      reach of it;
+//   2. if they touch or one contains the other, the fixed body marches in a random direction to the
+//      first place where they do not, which may well be a concavity; restart if there is none;
 //   3. delta, the shortest vector between the swept and the fixed surface, by the oracle. Moved
-//   along delta by its
-//      length, the fixed body just touches the motion, and nothing else touches: separation is
-//      1-Lipschitz in the offset. Verified: 0.1 mm short of it the bodies are free and less than
-//      0.3 mm apart, else rejected;
+//      along delta by its length, the fixed body just touches the motion, and nothing else touches:
+//      separation is 1-Lipschitz in the offset. Verified: 0.1 mm short of it the bodies are free and
+//      less than 0.3 mm apart, else rejected;
 //   4. the fixed body moves on by eps ~ N(0, sigma^2) along delta (positive: deeper), and the
-//   oracle relabels; 5. labels within 0.1 mm of contact are thrown away; classes are balanced by
-//   rejection: eps is redrawn, at most
-//      four times, then the pair is dropped.
+//      oracle relabels;
+//   5. labels within 0.1 mm of contact are thrown away; classes are balanced by rejection: eps is
+//      redrawn, at most four times, then the pair is dropped.
 // The millimetres above are for bodies of some 0.1 m; `tiny` and `huge` scale them with everything
 // else. MARGIN: the least separation if free. If colliding: minus the depth, the shortest way back
 // along delta (against the sign of eps) after which the motion is free, found by eight steps and

@@ -2,8 +2,7 @@
 // to measure from.
 //
 // In:  a mesh in metres. Out: spheres_method (method.h). Reads preparation.detail: the voxel's edge
-// in metres (the
-//      paper's 0.01..1), and preparation.points: spheres on the surface (0..100 there). Sources:
+//      in metres (the paper's 0.01..1), and preparation.points: spheres on the surface (0..100 there). Sources:
 //      cuRobo (Sundaralingam et al. 2023, fit type voxel_volume_sample_surface) and appendix B of
 //      the NeuralSVCD paper.
 //
