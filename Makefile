@@ -252,7 +252,9 @@ check-32:  # 32 bits, under sanitizers; x87
 	  $(MAKE) build/test_level_32 build/test_optimizer_32 && build/test_level_32 && \
 	  build/test_optimizer_32 plan_sizes && \
 	  $(MAKE) build/test_facets_gnu99 build/test_facets_c99 && \
-	  (ulimit -t 300; build/test_facets_gnu99 && build/test_facets_c99); \
+	  $(MAKE) build/test_checker_gnu99 build/test_certificate_gnu99 && \
+	  (ulimit -t 300; build/test_facets_gnu99 && build/test_facets_c99 && build/test_checker_gnu99 && \
+	    build/test_certificate_gnu99 certificates_are_true); \
 	else echo "check-32: $(CC) has no libraries for -m32: not tested"; fi
 # On Cortex-M4F and M7 under QEMU, where its tools are there (Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi,
 # qemu-system-arm).

@@ -1755,6 +1755,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
 #error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
 #endif
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -1763,7 +1764,6 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif
 // NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
-#include <float.h>
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
@@ -2075,6 +2075,18 @@ static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
 }
 static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+// A double also where registers are wider (x87), for what is compared with itself computed again.
+static inline double nsvcd__to_double(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
+  volatile double rounded = x;
+  return rounded;
+#endif
+}
+static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__to_double(a.x), nsvcd__to_double(a.y), nsvcd__to_double(a.z));
 }
 
 // -------------------------------------------------------------------------------- ground/rotations
@@ -18124,6 +18136,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #undef NSVCD__SLICE
 #undef NSVCD__ISA
 #undef NSVCD__BYTE_ROWS
+#undef NSVCD__VNNI
 #define NSVCD__SLICE 16
 #define NSVCD__ISA _avx512
 #define NSVCD__VNNI
@@ -18278,11 +18291,12 @@ static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle
   return tree->mesh.positions + 3 * (size_t)vertex;
 }
 
-// Three times a triangle's middle.
+// Three times a triangle's middle, in doubles: a key to sort by, which must be the same each time.
 static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
   nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
   for (uint32_t k = 1; k < 3; k++)
-    sum = nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)));
+    sum = nsvcd__d3_stored(
+        nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k))));
   return sum;
 }
 
@@ -18313,7 +18327,7 @@ static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
     box.high = nsvcd__f3_max(box.high, x);
   }
   tree->boxes[node->box] = box;
-  const nsvcd__d3 sides = nsvcd__d3_sub(most, least);
+  const nsvcd__d3 sides = nsvcd__d3_stored(nsvcd__d3_sub(most, least));
   size_t axis = sides.y > sides.x;
   if (sides.z > nsvcd__d3_axis(sides, axis)) axis = 2;
   const ptrdiff_t half = (ptrdiff_t)(node->count / 2);
@@ -18567,7 +18581,8 @@ typedef struct nsvcd__rider {
 // ---- of poses: nsvcd_mover
 
 static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
-  return mover->times ? (double)mover->times[k] : (double)k / (double)(mover->count - 1);
+  if (mover->times) return (double)mover->times[k];
+  return nsvcd__to_double((double)k / (double)(mover->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
@@ -18600,7 +18615,11 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   nsvcd__turning out;
   const nsvcd__dquat from = nsvcd__pose_rotation(a);
   const nsvcd__dquat to = nsvcd__pose_rotation(b);
-  const double side = nsvcd__dquat_dot(from, to) < 0 ? -1 : 1;
+  // summed in doubles: its sign says which way a turn by 180 degrees goes
+  double dot = 0;
+  for (size_t k = 0; k < 4; k++)
+    dot = nsvcd__to_double(dot + (double)a->rotation[k] * (double)b->rotation[k]);
+  const double side = dot < 0 ? -1 : 1;
   out.from = nsvcd__dquat_unit(from);
   out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
   const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);
@@ -19082,11 +19101,10 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
 //             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
 //             b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
-//   two
-//             triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a normal
+//             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
+//             normal
 //   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
-//   seven
-//             zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
+//             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
 
 #ifndef NSVCD_NO_CERTIFICATES
 #define NSVCD__WALK_STACK 128  // nodes that wait
@@ -19264,7 +19282,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z);
+  return nsvcd__to_double(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
@@ -19550,7 +19568,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
 #define NSVCD__STRAY_SHARE 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
-#define NSVCD__GLANCE 200
+#define NSVCD__PAIR_GLANCE 200
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
@@ -20346,7 +20364,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   nsvcd_answer found;
   nsvcd__spell spell;
   nsvcd_check_options glance = *options;
-  if (!glance.work || glance.work > NSVCD__GLANCE) glance.work = NSVCD__GLANCE;
+  if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = nsvcd__piece_at(motion, t0);
   answer->share = nsvcd__share_at(motion, answer->piece, t0);
@@ -20535,7 +20553,8 @@ typedef struct nsvcd__carried {
 
 static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
   const double first = nsvcd__piece_start(m, 0);
-  return (nsvcd__piece_start(m, k) - first) / (nsvcd__piece_start(m, m->pieces) - first);
+  const double whole = nsvcd__piece_start(m, m->pieces) - first;
+  return nsvcd__to_double((nsvcd__piece_start(m, k) - first) / whole);
 }
 
 static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
@@ -20551,17 +20570,22 @@ static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
   return low;
 }
 
-// The points of a joint's curve from one time of [0,1] to another, both in a piece.
-static void nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
-                            double *p) {
+// The points of a joint's curve from one time of [0,1] to another, both in a piece. Returns by how
+// much they, and their differences as the stray has them, are off at most, and a hundredth more:
+// ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
+static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
+                              double *p) {
   const nsvcd_joint_motion *m = &c->motion;
   const size_t piece = nsvcd__knot_before(m, 0.5 * (t0 + t1));
   const double start = nsvcd__knot_of(m, piece);
   const double whole = nsvcd__knot_of(m, piece + 1) - start;
   const double from = nsvcd__max((t0 - start) / whole, 0);
   const double to = nsvcd__min((t1 - start) / whole, 1);
+  double most = 0;
   nsvcd__joint_points(m, piece, c->checker->scene->joint_count, joint, p);
+  for (size_t i = 0; i <= m->degree; i++) most = nsvcd__max(most, fabs(p[i]));
   nsvcd__cut_curve(p, m->degree, from, to);
+  return 5.05e-13 * most;
 }
 
 static nsvcd__posed nsvcd__carried_place(const void *motion, double t) {
@@ -20572,7 +20596,7 @@ static nsvcd__posed nsvcd__carried_place(const void *motion, double t) {
        link = scene->joints[link - 1].parent) {
     const nsvcd__link *carrier = &c->checker->links[link - 1];
     double p[NSVCD_MAX_DEGREE + 1];
-    nsvcd__curve_of(c, link - 1, t, t, p);
+    (void)nsvcd__curve_of(c, link - 1, t, t, p);
     const int slides = nsvcd__slides(c->checker, link - 1);
     const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? p[0] : sin(0.5 * p[0]));
     nsvcd__frame joint = {{axis.x, axis.y, axis.z, cos(0.5 * p[0])}, {0, 0, 0}};
@@ -20610,15 +20634,15 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
     double most = 0;
     double speed = 0;
     double bend = 0;
-    nsvcd__curve_of(c, link - 1, t0, t1, p);
+    const double off = nsvcd__curve_of(c, link - 1, t0, t1, p);
     for (size_t i = 0; i <= c->motion.degree; i++) most = nsvcd__max(most, fabs(p[i]));
     for (size_t i = 0; i + 1 <= c->motion.degree; i++)
       speed = nsvcd__max(speed, n * fabs(p[i + 1] - p[i]));
     for (size_t i = 0; i + 2 <= c->motion.degree; i++)
       bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
-    // differences of rounded points
-    speed += 1.01e-13 * most;
-    bend += 1.01e-13 * most;
+    most += off;
+    speed += off;
+    bend += off;
     const double own = slides ? 0 : speed;
     out.base += bend * lever.base + own * (2 * outer.base + own * lever.base);
     out.per_metre +=
