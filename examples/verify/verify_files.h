@@ -205,8 +205,9 @@ static void read_obj(const char *path, char *text, list *positions, list *indice
   list sizes = {NULL, 0, 0};
   for (size_t n = next_words(&text, words, MOST_CORNERS); n > 0;
        n = next_words(&text, words, MOST_CORNERS)) {
-    if (strcmp(words[0], "v") == 0 && n >= 4)
-      for (size_t k = 1; k < 4; k++) add_float(positions, number_of(path, words[k]));
+    const int is_vertex = strcmp(words[0], "v") == 0;
+    if (is_vertex && n < 4) fail(path, "a vertex has fewer than three numbers");
+    for (size_t k = 1; k < 4 && is_vertex; k++) add_float(positions, number_of(path, words[k]));
     if (strcmp(words[0], "f") != 0) continue;
     add_index(&sizes, (uint32_t)(n - 1));
     for (size_t k = 1; k < n; k++) {
@@ -282,8 +283,9 @@ static void read_stl(const char *path, char *text, size_t size, list *positions,
     char *words[80];
     no_zero(path, text, size);
     for (size_t n = next_words(&text, words, 80); n > 0; n = next_words(&text, words, 80)) {
-      if (n == 4 && (words[0][0] | 32) == 'v')
-        for (size_t k = 1; k < 4; k++) add_float(positions, number_of(path, words[k]));
+      const int is_vertex = (words[0][0] | 32) == 'v';
+      if (is_vertex && n != 4) fail(path, "a vertex has other than three numbers");
+      for (size_t k = 1; k < 4 && is_vertex; k++) add_float(positions, number_of(path, words[k]));
     }
   }
   if (positions->count % 9 != 0) fail(path, "it ends within a triangle");
