@@ -229,7 +229,7 @@ FAST = query/refuses motion/bad_poses proof/refuses mesh/mesh_is_checked mesh/re
 build/fast_%: tests/test_%.c $(HELPERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(CFLAGS) -I. -O1 -ffast-math -std=c99 -Wall -Wextra -Wno-unused-function -DNSVCD_NO_DISPATCH -DTEST_ALONE -o $@ $< -lm \
 	  2>$@.txt && grep -q 'warning: neuralsvcd.h: -ffinite-math-only' $@.txt || { cat $@.txt; exit 1; }
-check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))
+check-fast-math: $(sort $(foreach test,$(FAST),build/fast_$(firstword $(subst /, ,$(test)))))  # NaN and infinity are refused under -ffast-math too
 	@for test in $(FAST); do \
 	  build/fast_$${test%/*} $${test#*/} >build/fast.txt || { cat build/fast.txt; exit 1; }; done; \
 	  echo "fast-math: NaN and infinity are refused: $(FAST)"
@@ -415,7 +415,7 @@ CHECKS = text rooms header examples newcomer tools processor fast-math levels ex
 RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web trainer sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
-	@$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED)
+	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED))
 	@MAKE="$(MAKE)" tests/check.sh $(JOBS) $(or $(ONLY),$(CHECKS))
 check-release:  ## all of that, and what takes hours, or tools that few have
 	@$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED)
