@@ -1255,7 +1255,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
-// Where the parts are.
+// Where the parts are, for a picture, say: poses in the world are rounded to float, which far from
+// its origin is more than what nsvcd_check answers to.
 //   joints     (F), radians or metres; not looked at: NaN gives poses that are none
 //   poses      (B), in the world
 NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
@@ -1271,7 +1272,10 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
-// bodies as nsvcd_sweep says. A HIT is one of the configuration named.
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to both bodies' quanta and
+// to what a pose in float is off: 1e-7 of the distance between the two parts' origins and of the
+// bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
+// is asked about in the frame of one of its parts.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
@@ -1310,8 +1314,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 typedef struct nsvcd_gap {
   // of the scene's
   size_t pair;
-  // HIT: they touch, or one is inside of the other; FREE: they are apart; UNDECIDED, and why: too
-  // near to tell, or too little work
+  // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
+  // be apart; UNDECIDED, and why: too near to tell, or too little work
   nsvcd_verdict verdict;
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
@@ -19569,6 +19573,8 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_GLANCE 200
+// what frames in double are off, as a share of the lengths that they are computed from
+#define NSVCD__FRAME_ROUNDING 1e-13
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
@@ -19614,8 +19620,8 @@ typedef struct nsvcd__member {
   nsvcd__bounds box;
   // of a part that moves: where its samples begin
   size_t row;
-  // metres, at most: by how much it leaves the way between its samples, and what poses in float are
-  // off
+  // metres, at most: by how much it leaves the way between its samples, and what frames in double
+  // are off
   double stray, rounding;
 } nsvcd__member;
 
@@ -19627,9 +19633,11 @@ struct nsvcd_checker {
   uint32_t *order;
   // (P): those of a stretch that are not proven yet
   uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, and boxes about the parts there
-  nsvcd_pose *poses;
+  // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
+  nsvcd__frame *frames;
   nsvcd__bounds *boxes;
+  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
+  nsvcd_pose *seen[2];
   // the times of the samples, and the most that a part strays in the step after each
   double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
@@ -19660,6 +19668,15 @@ static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__fram
   const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
   const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
                             nsvcd__d3_add(frame->place, place)};
+  return out;
+}
+
+// What is `frame` in the world, as seen from another one.
+static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
+  const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
+  const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);
+  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
+                            nsvcd__dquat_rotate(back, way)};
   return out;
 }
 
@@ -20058,9 +20075,11 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
+  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__frame));
   c->boxes =
       (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  for (size_t n = 0; n < 2; n++)
+    c->seen[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;
@@ -20129,17 +20148,20 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // Places the parts that move, at a configuration, as sample k.
 static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
+  double reach = 0;
+  for (size_t link = 1; link <= scene->joint_count; link++)
+    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].place));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
     const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
     const nsvcd__bounds box = nsvcd__box_of(m, &frame);
-    c->poses[m->row + k] = nsvcd__pose_in(&frame);
+    c->frames[m->row + k] = frame;
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
-    // places and quaternions as floats are off by no more
-    const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
-    m->rounding = k ? nsvcd__max(m->rounding, rounding) : rounding;
+    // some 5e-16 of its lever for each joint
+    const double lever = reach + nsvcd__d3_length(frame.place) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * lever);
   }
 }
 
@@ -20232,15 +20254,61 @@ static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, 
   return steps == 0 || last > 0;
 }
 
+// A pair as one of its parts sees it: so places are small where the two are near each other,
+// however far from the world's origin they are, and a float has digits left. That is the part that
+// rests, if one does; else b, where it is half way.
+typedef struct nsvcd__sight {
+  // the frame that both are seen from, in the world
+  nsvcd__frame from;
+  // metres: what poses in float are off there, at most, of both together
+  double rounding;
+} nsvcd__sight;
+
+// Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
+static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                        const nsvcd__frame *const *frames, size_t count, nsvcd__sight *view) {
+  const size_t parts[2] = {pair->a, pair->b};
+  view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
+  if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
+    view->from = frames[1][count / 2];
+  view->rounding = 0;
+  for (size_t n = 0; n < 2; n++) {
+    const int moves = c->scene->parts[parts[n]].link > 0;
+    double most = 0;
+    for (size_t k = 0; k < (moves ? count : 1); k++) {
+      const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
+      c->seen[n][k] = nsvcd__pose_in(&in);
+      most = nsvcd__max(most, nsvcd__d3_length(in.place));
+    }
+    // places and quaternions as floats are off by no more
+    if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
+  }
+}
+
+// A direction and a point as they are seen, in the world.
+static nsvcd__d3 nsvcd__seen_way(const nsvcd__sight *view, nsvcd__d3 way) {
+  return nsvcd__dquat_rotate(view->from.turn, way);
+}
+static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
+  return nsvcd__d3_add(nsvcd__seen_way(view, point), view->from.place);
+}
+
+// Takes a contact as it is seen to the world.
+static void nsvcd__place_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
+  nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
+}
+
 // By how much a part is off the way that its samples say, at most.
 static double nsvcd__off(const nsvcd_checker *c, size_t part) {
   return c->members[part].stray + 2 * c->members[part].rounding;
 }
 
-// Of two parts in so many poses each; what rests has one.
+// Of two parts as they are seen, in so many poses each; what rests has one.
 static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                         const nsvcd_pose *const *poses, size_t count,
-                                         size_t work) {
+                                         size_t count, size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -20249,7 +20317,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     nsvcd_mover *mover = n ? &question.b : &question.a;
     mover->body = part->body;
     mover->scale = part->scale;
-    mover->poses = part->link ? poses[n] : &part->pose;
+    mover->poses = c->seen[n];
     mover->count = part->link ? count : 1;
   }
   question.method = NSVCD_METHOD_PROOF;
@@ -20257,35 +20325,46 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-// Asks whether two parts come as near as the clearance.
-static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                     const nsvcd_pose *const *poses, size_t count,
-                                     float clearance, const nsvcd_check_options *options,
-                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
-  nsvcd_question question = nsvcd__question_of(c, pair, poses, count, options->work);
+// Asks whether two parts, as they are seen, come as near as the clearance.
+static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    size_t count, float clearance,
+                                    const nsvcd_check_options *options, nsvcd_answer *found,
+                                    nsvcd_check_answer *answer) {
+  nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
   question.clearance = clearance;
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }
 
-// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
-// `strays` more. spell: what was asked about; the times of *found are of it.
+// The frames of a part from a sample on.
+static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+                                            size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
+}
+
+// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and,
+// if a proof is wanted, all that these may be off. spell: what was asked about; the times of *found
+// are of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    size_t steps, double strays,
+                                    size_t steps, int is_proof,
                                     const nsvcd_check_options *options, nsvcd__spell *spell,
                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
-  const double clearance = (double)options->clearance + strays;
+  nsvcd__sight view;
   const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
   const double room = (double)options->clearance + off;
   if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
-  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row + spell->first,
-                                      c->poses + c->members[pair->b].row + spell->first};
-  return nsvcd__ask_poses(c, pair, poses, spell->steps + 1,
-                          clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
-                          answer);
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, spell->first),
+                                         nsvcd__frames_at(c, pair->b, spell->first)};
+  nsvcd__look(c, pair, frames, spell->steps + 1, &view);
+  const double strays = is_proof ? off + view.rounding : 0;
+  const double clearance = (double)options->clearance + strays;
+  return nsvcd__ask_seen(c, pair, spell->steps + 1,
+                         clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
+                         answer);
 }
 
 // Is a pair hit at joints of its motion? Then the answer says so.
@@ -20293,22 +20372,22 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
   nsvcd_answer found;
-  nsvcd_pose at[2];
-  const nsvcd_pose *const poses[2] = {&at[0], &at[1]};
+  nsvcd__sight view;
+  nsvcd__frame at[2];
+  const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  const size_t parts[2] = {both->a, both->b};
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
   nsvcd__place_links(c, &c->at);
   answer->placed++;
-  for (size_t n = 0; n < 2; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(c, &c->at, parts[n]);
-    at[n] = nsvcd__pose_in(&frame);
-  }
+  at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
+  at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
+  nsvcd__look(c, both, frames, 1, &view);
   const nsvcd_result result =
-      nsvcd__ask_poses(c, both, poses, 1, options->clearance, options, &found, answer);
+      nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
+  nsvcd__place_contact(&view, &answer->contact);
   return NSVCD_OK;
 }
 
@@ -20393,9 +20472,8 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     for (size_t n = 0; n < left; n++) {
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
-      const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
       nsvcd_result result =
-          nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
+          nsvcd__ask_pair(c, both, steps, 1, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
       // a glance, but for the last time
       const int is_last = steps == 0 || allowed <= (double)options->finest;
@@ -20940,19 +21018,22 @@ static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
 }
 
 // Of two parts where they stand.
-static nsvcd_question nsvcd__standing_question(const nsvcd_checker *c,
-                                               const nsvcd_body_pair *pair, size_t work) {
-  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row,
-                                      c->poses + c->members[pair->b].row};
-  return nsvcd__question_of(c, pair, poses, 1, work);
+static nsvcd_question nsvcd__standing_question(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                               size_t work, nsvcd__sight *view) {
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
+                                         nsvcd__frames_at(c, pair->b, 0)};
+  nsvcd__look(c, pair, frames, 1, view);
+  return nsvcd__question_of(c, pair, 1, work);
 }
 
 // ---- gaps
 
-// How the point of a part that is at `point` now moves along a normal, by each joint: added to the
-// slope, times `sign`.
-static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, nsvcd__d3 point,
-                             nsvcd__d3 normal, double sign, double *slope) {
+// How the point of a part that is seen at `at` now moves along a normal, by each joint: added to
+// the slope, times `sign`.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
+                             nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, at);
+  const nsvcd__d3 normal = nsvcd__seen_way(view, along);
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
@@ -20990,9 +21071,11 @@ static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question questio
   return NSVCD_OK;
 }
 
-// Of parts that touch: how deep, where, along which normal, and how that shrinks.
+// Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
+// all that poses are off as its clearance.
 static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
-                                        const nsvcd_gap_options *o, nsvcd_gap *gap) {
+                                        const nsvcd__sight *view, const nsvcd_gap_options *o,
+                                        nsvcd_gap *gap) {
   const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
   nsvcd_answer found;
   nsvcd__d3 lift = {0, 0, 0};
@@ -21011,6 +21094,7 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   if (result) return result;
   // a little beyond, which faces are near
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
+  question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
   result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, beyond), &found);
@@ -21022,12 +21106,13 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   gap->contact = found.nearest;
   gap->contact.gap = 0;
   nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
+  nsvcd__place_contact(view, &gap->contact);
   // a lift parts the two faces slower than it goes, unless it is along their normal
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);
-  nsvcd__slope_add(c, both->a, on_a, normal, 1 / rate, gap->slope);
-  nsvcd__slope_add(c, both->b, point, normal, -1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
   return NSVCD_OK;
 }
 
@@ -21037,14 +21122,17 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
   nsvcd_answer found;
-  // poses in float are off by so much, at most
-  const double off = 2 * (members[0]->rounding + members[1]->rounding);
-  const double within = (double)o->within + off;
+  nsvcd__sight view;
+  const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
+  const double within = (double)o->within + frames_off;
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
     return NSVCD_OK;
-  nsvcd_question question = nsvcd__standing_question(c, both, o->work);
-  question.clearance = nsvcd__round_outward(within);
+  nsvcd_question question = nsvcd__standing_question(c, both, o->work, &view);
+  // places are off by so much, at most, and a lift that is told in floats
+  const double off = frames_off + view.rounding;
+  const float deepest_off = nsvcd__round_outward(off + 2e-7 * (double)o->deepest);
+  question.clearance = nsvcd__round_outward((double)o->within + off);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -21059,17 +21147,29 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->why = found.why;
   gap->contact = found.nearest;
   if (found.verdict == NSVCD_HIT) {
+    nsvcd__place_contact(&view, &gap->contact);
     gap->distance.high = nsvcd__round_outward(off);
     gap->depth = HUGE_VALF;
-    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, o, gap);
+    question.clearance = deepest_off;
+    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
   }
   gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
-  nsvcd__slope_add(c, both->a, point, normal, 1, gap->slope);
-  nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);
+  nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
+  nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
+  nsvcd__place_contact(&view, &gap->contact);
+  if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
+  // the poses are free of each other: are the parts?
+  question.ask = NSVCD_ASK_HIT;
+  question.to = 0;
+  question.clearance = nsvcd__round_outward(off);
+  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict == NSVCD_FREE) return result;
+  gap->verdict = NSVCD_UNDECIDED;
+  gap->why = NSVCD_WHY_TOO_NEAR;
   return NSVCD_OK;
 }
 
@@ -21213,6 +21313,7 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
                                         size_t samples, uint64_t random, int *always) {
   nsvcd_answer found;
+  nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
   *always = 1;
   for (size_t n = 0; n < samples && *always && !result; n++) {
@@ -21225,7 +21326,7 @@ static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__stand(c, joints);
-    const nsvcd_question question = nsvcd__standing_question(c, pair, 0);
+    const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     *always = !result && found.verdict == NSVCD_HIT;
   }
@@ -21299,10 +21400,7 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
   nsvcd__place_links(checker, &c);
   const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
-  const nsvcd__frame *to = &c.frames[link];
-  const nsvcd__dquat back = {-to->turn.x, -to->turn.y, -to->turn.z, to->turn.w};
-  const nsvcd__frame inner = {nsvcd__dquat_inverse_mul(to->turn, at.turn),
-                              nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};
+  const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
   moved.pose = nsvcd__pose_in(&inner);

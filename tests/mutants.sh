@@ -177,8 +177,11 @@ robot: a slerp of half the angle|return 4 * asin(|return 2 * asin(
 robot: levers of the centre|+ m->radius + moved;|+ moved;
 robot: levers of the sample|+ m->radius + moved;|+ m->radius;
 robot: a step of a ninth|return (bend + second + turn * turn * extent) / 8;|return (bend + second + turn * turn * extent) / 9;
-robot: poses without rounding|c->members[part].stray + 2 * c->members[part].rounding;|c->members[part].stray;
-robot: strays of one part|nsvcd__off(c, both->a) + nsvcd__off(c, both->b);|nsvcd__off(c, both->a);
+postures: poses without rounding|if (moves) view->rounding += 2|if (0) view->rounding += 2
+postures: poses seen from the world|const nsvcd__frame in = nsvcd__frame_from(\&view->from, \&frames[n][k]);|const nsvcd__frame in = frames[n][k];
+postures: free of each other as floats|if (gap->verdict != NSVCD_FREE \|\| gap->distance.low > 0) return NSVCD_OK;|return NSVCD_OK;
+postures: depths of floats|question.clearance = deepest_off;|
+robot: strays of one part|nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);|nsvcd__off(c, pair->a);
 robot: speeds that jump|step->bend[j] += 2 * h * jumps;|(void)jumps;
 robot: half the jump of speed|step->bend[j] += 2 * h * jumps;|step->bend[j] += h * jumps;
 robot: the first piece of a step alone|for (size_t piece = first; piece <= last; piece++) {|for (size_t piece = first; piece <= first; piece++) {
@@ -201,9 +204,9 @@ robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if 
 robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
 robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
-postures: slopes of a alone|nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);|
-postures: depths of a alone|nsvcd__slope_add(c, both->b, point, normal, -1 / rate, gap->slope);|
-postures: depths without a rate|nsvcd__slope_add(c, both->a, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, on_a, normal, 1, gap->slope);
+postures: slopes of a alone|nsvcd__slope_add(c, both->b, \&view, point, normal, -1, gap->slope);|
+postures: depths of a alone|nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);|
+postures: depths without a rate|nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, view, on_a, normal, 1, gap->slope);
 postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);|const nsvcd__d3 on_a = point;
 postures: near without the boxes' room|&members[1]->box, 1.000001 * within))|&members[1]->box, 0.5 * within))
 postures: near without within|question.clearance = nsvcd__round_outward(within);|question.clearance = 0;

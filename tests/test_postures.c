@@ -284,6 +284,198 @@ static void postures_far(void) {
   nsvcd_body_free(r.parts[0].body, NULL);
 }
 
+// Two balls, or two boxes, on rails side by side that begin far from the world's origin, turned
+// there: along them they are apart, or overlap, by a number that is known. Poses in the world as
+// floats would be off by more.
+static void far_rails(robot *r, shapes_rng *rng, int boxes, double far) {
+  memset(r, 0, sizeof *r);
+  r->scene.joint_count = r->scene.part_count = 2;
+  r->scene.pair_count = 1;
+  r->pairs[0].b = 1;
+  if (!boxes) CHECK_EQ(nsvcd_encode_sphere(0.05f, NULL, &r->parts[0].body), NSVCD_OK);
+  const nsvcd_pose base = robot_pose(rng, far);
+  for (uint32_t i = 0; i < 2; i++) {
+    r->joints[i].kind = NSVCD_JOINT_PRISMATIC;
+    r->joints[i].origin = base;
+    r->joints[i].axis[0] = 1;
+    r->joints[i].low = -2;
+    r->joints[i].high = 2;
+    r->parts[i].pose.rotation[3] = 1;
+    r->parts[i].body = boxes ? robot_shapes()[0].body : r->parts[0].body;
+    r->parts[i].link = i + 1;
+  }
+  robot_open(r);
+}
+
+// A lift of the first, from where they overlap by so much, that is said to separate them: does it?
+static int separates(const robot *r, int boxes, double overlap, const nsvcd_gap *gap) {
+  const oracle_pose base = pose_widened(&r->joints[0].origin);
+  double m[9], lift[3], along[3];
+  oracle_matrix(base.rotation, m);
+  for (int k = 0; k < 3; k++) lift[k] = (double)gap->depth * (double)gap->contact.normal[k];
+  oracle_rotate_back(m, lift, along);
+  if (boxes) return -along[0] >= overlap || fabs(along[1]) >= 0.1 || fabs(along[2]) >= 0.1;
+  along[0] -= 0.1 - overlap;
+  return oracle_length(along) >= 0.1;
+}
+
+static void postures_far_parts_are_told_as_near_ones(void) {
+  static robot r;
+  shapes_rng rng = {98};
+  size_t depths = 0;
+  for (int trial = 0; trial < 320; trial++) {
+    const int boxes = trial % 2;
+    const double far = pow(10, shapes_uniform(&rng, 0, 5.7));
+    // 0.05 has this as a float; a box's half is 0.05 and some rounding
+    const double size = 2 * (double)0.05f;
+    far_rails(&r, &rng, boxes, far);
+    const double quanta = 2 * (double)nsvcd_body_describe(r.parts[0].body).quantum;
+    const double overlap = 2e-13 * far + pow(10, shapes_uniform(&rng, -9.5, -3));
+    const double apart = 2 * quanta + pow(10, shapes_uniform(&rng, -6, -3));
+    for (int is_apart = 0; is_apart < 2; is_apart++) {
+      nsvcd_check_answer answer;
+      nsvcd_gap gap;
+      size_t count = 0;
+      const double from = shapes_uniform(&rng, -1, 1);
+      const double off = is_apart ? apart : -overlap;
+      // both go on together
+      const double q[2][2] = {{from, from + size + off}, {from + 0.3, from + 0.3 + size + off}};
+      const nsvcd_joint_motion still = {0, 1, q[0], NULL};
+      const nsvcd_joint_motion motion = {1, 1, q[0], NULL};
+      CHECK_EQ(nsvcd_gaps(r.checker, q[0], NULL, &gap, 1, &count), NSVCD_OK);
+      CHECK_EQ(count, 1);
+      for (int moves = 0; moves < 2; moves++) {
+        CHECK_EQ(nsvcd_check(r.checker, moves ? &motion : &still, NULL, &answer), NSVCD_OK);
+        if (is_apart) CHECK_EQ(answer.verdict, NSVCD_FREE);
+        if (!is_apart) CHECK(answer.verdict != NSVCD_FREE);
+        // the place, as a float has it
+        for (int k = 0; k < 3 && answer.verdict == NSVCD_HIT; k++)
+          CHECK_NEAR((double)answer.contact.point[k], (double)r.joints[0].origin.position[k],
+                     2 + 1e-7 * far);
+      }
+      CHECK_EQ(gap.verdict == NSVCD_FREE, is_apart);
+      CHECK_LE((double)gap.distance.low, fmax(off, 0) + 1e-8);
+      CHECK_LE(off, (double)gap.distance.high + 1e-8);
+      CHECK_LE((double)(gap.distance.high - gap.distance.low), 2e-5 + 2 * quanta + 1e-6);
+      if (gap.verdict != NSVCD_HIT || !(gap.depth < HUGE_VALF)) continue;
+      depths++;
+      CHECK(separates(&r, boxes, overlap, &gap));
+    }
+    free(r.memory);
+    if (!boxes) nsvcd_body_free(r.parts[0].body, NULL);
+  }
+  CHECK_GE(depths, 200);
+}
+
+// Balls that are far from the origins of their bodies, one on a rail: where a ball is goes by the
+// rotation of its part, which a float has to 1e-7. What overlaps is not free all the same, and a
+// lift that is told separates them.
+static void postures_far_from_their_origins(void) {
+  static robot r;
+  shapes_rng rng = {100};
+  const double reach = 2 * (double)0.05f;
+  size_t depths = 0;
+  for (int trial = 0; trial < 300; trial++) {
+    uint32_t same[3] = {0, 0, 0};
+    const double out = pow(10, shapes_uniform(&rng, 0, 3));
+    float points[2][3];
+    double centres[2][3], off[3];
+    nsvcd_encode_options options;
+    memset(&r, 0, sizeof r);
+    memset(&options, 0, sizeof options);
+    options.round = 0.05f;
+    r.scene.joints = r.joints;
+    r.scene.parts = r.parts;
+    r.scene.joint_count = r.scene.part_count = 2;
+    r.scene.pair_count = 1;
+    r.pairs[0].b = 1;
+    for (uint32_t i = 0; i < 2; i++) {
+      const nsvcd_mesh point = {points[i], same, 1, 1};
+      shapes_direction(&rng, off);
+      for (int k = 0; k < 3; k++) points[i][k] = (float)(out * off[k]);
+      CHECK_EQ(nsvcd_encode(&point, &options, NULL, NULL, 0, &r.parts[i].body), NSVCD_OK);
+      r.joints[i].kind = NSVCD_JOINT_PRISMATIC;
+      r.joints[i].origin.rotation[3] = 1;
+      r.joints[i].axis[0] = 1;
+      r.joints[i].low = -3;
+      r.joints[i].high = 3;
+      r.parts[i].link = i + 1;
+      r.parts[i].pose = robot_pose(&rng, 0);
+    }
+    // one beside the other, but for the rounding of its place
+    double q[2] = {0, 0};
+    for (uint32_t i = 0; i < 2; i++) {
+      const double x[3] = {(double)points[i][0], (double)points[i][1], (double)points[i][2]};
+      for (int again = 0; again < 2; again++) {
+        const placed at = placed_part(&r.scene, i, q);
+        placed_point(&at, 1, x, centres[i]);
+        for (int k = 0; k < 3 && again == 0; k++)
+          r.parts[i].pose.position[k] = (float)-centres[i][k];
+      }
+    }
+    robot_open(&r);
+    oracle_sub(centres[1], centres[0], off);
+    const double across = off[1] * off[1] + off[2] * off[2];
+    const double share = out * pow(10, shapes_uniform(&rng, -3, 0));
+    for (int is_apart = 0; is_apart < 2; is_apart++) {
+      const double far = reach + (is_apart ? 2e-6 * out : -1e-7 * share);
+      nsvcd_gap gap;
+      nsvcd_check_answer answer;
+      size_t count = 0;
+      q[1] = sqrt(far * far - across) - off[0];
+      const nsvcd_joint_motion still = {0, 1, q, NULL};
+      CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
+      CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+      CHECK_EQ(count, 1);
+      if (is_apart) CHECK(answer.verdict == NSVCD_FREE && gap.verdict == NSVCD_FREE);
+      if (!is_apart) CHECK(answer.verdict != NSVCD_FREE && gap.verdict != NSVCD_FREE);
+      if (gap.verdict != NSVCD_HIT || !(gap.depth < HUGE_VALF)) continue;
+      double apart[3];
+      for (int k = 0; k < 3; k++)
+        apart[k] = off[k] + (k ? 0 : q[1]) - (double)gap.depth * (double)gap.contact.normal[k];
+      CHECK_LE(reach, oracle_length(apart));
+      depths++;
+    }
+    free(r.memory);
+    for (int i = 0; i < 2; i++) nsvcd_body_free(r.parts[i].body, NULL);
+  }
+  CHECK_GE(depths, 50);
+}
+
+// Slopes of what is far, and pairs that never touch there.
+static void postures_far_slopes_and_pairs(void) {
+  static robot r;
+  shapes_rng rng = {99};
+  for (int trial = 0; trial < 40; trial++) {
+    nsvcd_pair_counts counts = {0, 0, 0};
+    nsvcd_body_pair pair;
+    nsvcd_gap gap;
+    size_t count = 0;
+    far_rails(&r, &rng, 0, pow(10, shapes_uniform(&rng, 3, 5.7)));
+    // the first turns about an axis 0.3 m beside it, across the way between them
+    nsvcd_joint *joint = &r.joints[0];
+    joint->kind = NSVCD_JOINT_REVOLUTE;
+    joint->axis[0] = 0;
+    joint->axis[2] = 1;
+    r.parts[0].pose.position[1] = -0.3f;
+    r.parts[1].pose.position[1] = -0.3f;
+    joint->low = joint->high = 0;
+    r.joints[1].low = r.joints[1].high = 0.101;
+    free(r.memory);
+    robot_open(&r);
+    const double q[2] = {0, 0.101};
+    CHECK_EQ(nsvcd_gaps(r.checker, q, NULL, &gap, 1, &count), NSVCD_OK);
+    CHECK_EQ(count, 1);
+    // it goes towards the other by its lever
+    CHECK_NEAR(gap.slope[0], -0.3, 1e-5);
+    CHECK_NEAR(gap.slope[1], 1, 1e-5);
+    CHECK_EQ(nsvcd_find_pairs(r.checker, 0, 0, &pair, 1, &counts), NSVCD_OK);
+    CHECK_EQ(counts.asked, 1);
+    free(r.memory);
+    nsvcd_body_free(r.parts[0].body, NULL);
+  }
+}
+
 // A way out is free by distances in double, within the limits and no farther than is allowed; what is
 // free stays where it is.
 static void postures_escape(void) {
@@ -466,6 +658,9 @@ void test_postures(void) {
   RUN(postures_gaps);
   RUN(postures_corner);
   RUN(postures_far);
+  RUN(postures_far_parts_are_told_as_near_ones);
+  RUN(postures_far_from_their_origins);
+  RUN(postures_far_slopes_and_pairs);
   RUN(postures_escape);
   RUN(postures_pairs);
   RUN(postures_hand_over);

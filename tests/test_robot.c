@@ -14,15 +14,20 @@
 
 void test_robot(void);
 
+// A sample of a checker.
+static oracle_pose pose_of_frame(const nsvcd__frame *frame) {
+  const oracle_pose out = {{frame->place.x, frame->place.y, frame->place.z},
+                           {frame->turn.x, frame->turn.y, frame->turn.z, frame->turn.w}};
+  return out;
+}
+
 // The farthest of some vertices of a part from where the sweep has it at a share u of a step, as
 // samples a and b say.
-static double robot_off(const robot *r, size_t part, const placed *at, const nsvcd_pose *a,
-                        const nsvcd_pose *b, double u) {
+static double robot_off(const robot *r, size_t part, const placed *at, const oracle_pose *a,
+                        const oracle_pose *b, double u) {
   const robot_shape *shape = &robot_shapes()[r->shape[part]];
   const double scale = scale_of_part(&r->parts[part]);
-  const oracle_pose from = pose_widened(a);
-  const oracle_pose to = pose_widened(b);
-  const oracle_pose swept = oracle_pose_between(&from, &to, u);
+  const oracle_pose swept = oracle_pose_between(a, b, u);
   double most = 0;
   for (size_t i = 0; i < shape->count; i += 1 + shape->count / 24) {
     double is[3], was[3], x[3], off[3];
@@ -90,27 +95,29 @@ static void robot_strays_no_farther(void) {
       const nsvcd__member *m = &r.checker->members[part];
       double farthest = 0;
       for (size_t k = 0; k < steps; k++) {
-        const nsvcd_pose *a = &r.checker->poses[m->row + k];
+        const oracle_pose a = pose_of_frame(&r.checker->frames[m->row + k]);
+        const oracle_pose b = pose_of_frame(&r.checker->frames[m->row + k + 1]);
         for (int look = 1; look < 8; look++) {
           double q[NSVCD_MAX_JOINTS];
           const double x = look / 8.0;
           const double *t = &r.checker->times[k];
           joints_at_time(&motion, joints, t[0] + x * (t[1] - t[0]), q);
           const placed at = placed_part(&r.scene, part, q);
-          double off = robot_off(&r, part, &at, a, a + 1, x);
+          double off = robot_off(&r, part, &at, &a, &b, x);
           // the share of the step that suits best: the nearest place of its way
           double low = 0;
           double high = 1;
           for (int n = 0; n < 60 && (degree > 1 || pieces > 1); n++) {
             const double u = low + (high - low) / 3;
             const double v = high - (high - low) / 3;
-            const double at_u = robot_off(&r, part, &at, a, a + 1, u);
-            const double at_v = robot_off(&r, part, &at, a, a + 1, v);
+            const double at_u = robot_off(&r, part, &at, &a, &b, u);
+            const double at_v = robot_off(&r, part, &at, &a, &b, v);
             low = at_u < at_v ? low : u;
             high = at_u < at_v ? v : high;
             off = fmin(off, fmin(at_u, at_v));
           }
-          CHECK_LE(off, nsvcd__off(r.checker, part));
+          // the search for the nearest place ends there
+          CHECK_LE(off, nsvcd__off(r.checker, part) + 1e-11);
           farthest = fmax(farthest, off);
         }
       }
@@ -458,7 +465,8 @@ static void robot_parts_are_where_joints_say(void) {
     nsvcd_checker_place(r.checker, q, poses);
     for (size_t n = 0; n < r.scene.part_count; n++) {
       const placed at = placed_part(&r.scene, n, q);
-      CHECK_LE(robot_off(&r, n, &at, &poses[n], &poses[n], 0), 2e-6);
+      const oracle_pose pose = pose_widened(&poses[n]);
+      CHECK_LE(robot_off(&r, n, &at, &pose, &pose, 0), 2e-6);
     }
     free(r.memory);
   }

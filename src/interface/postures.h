@@ -8,8 +8,8 @@
 typedef struct nsvcd_gap {
   // of the scene's
   size_t pair;
-  // HIT: they touch, or one is inside of the other; FREE: they are apart; UNDECIDED, and why: too
-  // near to tell, or too little work
+  // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
+  // be apart; UNDECIDED, and why: too near to tell, or too little work
   nsvcd_verdict verdict;
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`

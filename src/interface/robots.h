@@ -132,7 +132,8 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
-// Where the parts are.
+// Where the parts are, for a picture, say: poses in the world are rounded to float, which far from
+// its origin is more than what nsvcd_check answers to.
 //   joints     (F), radians or metres; not looked at: NaN gives poses that are none
 //   poses      (B), in the world
 NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
@@ -148,7 +149,10 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
-// bodies as nsvcd_sweep says. A HIT is one of the configuration named.
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to both bodies' quanta and
+// to what a pose in float is off: 1e-7 of the distance between the two parts' origins and of the
+// bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
+// is asked about in the frame of one of its parts.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);

@@ -34,6 +34,8 @@
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_GLANCE 200
+// what frames in double are off, as a share of the lengths that they are computed from
+#define NSVCD__FRAME_ROUNDING 1e-13
 
 // A joint, as the checker has it; and the link that it carries.
 typedef struct nsvcd__link {
@@ -79,8 +81,8 @@ typedef struct nsvcd__member {
   nsvcd__bounds box;
   // of a part that moves: where its samples begin
   size_t row;
-  // metres, at most: by how much it leaves the way between its samples, and what poses in float are
-  // off
+  // metres, at most: by how much it leaves the way between its samples, and what frames in double
+  // are off
   double stray, rounding;
 } nsvcd__member;
 
@@ -92,9 +94,11 @@ struct nsvcd_checker {
   uint32_t *order;
   // (P): those of a stretch that are not proven yet
   uint32_t *left;
-  // (movers, NSVCD__MOST_STEPS + 1): samples, and boxes about the parts there
-  nsvcd_pose *poses;
+  // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
+  nsvcd__frame *frames;
   nsvcd__bounds *boxes;
+  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
+  nsvcd_pose *seen[2];
   // the times of the samples, and the most that a part strays in the step after each
   double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
   nsvcd__configuration at, next;
@@ -125,6 +129,15 @@ static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__fram
   const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
   const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
                             nsvcd__d3_add(frame->place, place)};
+  return out;
+}
+
+// What is `frame` in the world, as seen from another one.
+static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
+  const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
+  const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);
+  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
+                            nsvcd__dquat_rotate(back, way)};
   return out;
 }
 

@@ -104,9 +104,11 @@ static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
   c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
   c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
   c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
-  c->poses = (nsvcd_pose *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd_pose));
+  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__frame));
   c->boxes =
       (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  for (size_t n = 0; n < 2; n++)
+    c->seen[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
   c->query_size = nsvcd_sweep_workspace_size(NULL);
   c->query = nsvcd__take(base, &used, 1, c->query_size);
   *checker = (nsvcd_checker *)at;
@@ -175,17 +177,20 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
 // Places the parts that move, at a configuration, as sample k.
 static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
   const nsvcd_scene *scene = c->scene;
+  double reach = 0;
+  for (size_t link = 1; link <= scene->joint_count; link++)
+    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].place));
   for (size_t n = 0; n < scene->part_count; n++) {
     nsvcd__member *m = &c->members[n];
     if (!scene->parts[n].link) continue;
     const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
     const nsvcd__bounds box = nsvcd__box_of(m, &frame);
-    c->poses[m->row + k] = nsvcd__pose_in(&frame);
+    c->frames[m->row + k] = frame;
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
-    // places and quaternions as floats are off by no more
-    const double rounding = 1.1e-7 * nsvcd__d3_length(frame.place) + 1.3e-7 * m->extent;
-    m->rounding = k ? nsvcd__max(m->rounding, rounding) : rounding;
+    // some 5e-16 of its lever for each joint
+    const double lever = reach + nsvcd__d3_length(frame.place) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * lever);
   }
 }
 
@@ -278,15 +283,61 @@ static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, 
   return steps == 0 || last > 0;
 }
 
+// A pair as one of its parts sees it: so places are small where the two are near each other,
+// however far from the world's origin they are, and a float has digits left. That is the part that
+// rests, if one does; else b, where it is half way.
+typedef struct nsvcd__sight {
+  // the frame that both are seen from, in the world
+  nsvcd__frame from;
+  // metres: what poses in float are off there, at most, of both together
+  double rounding;
+} nsvcd__sight;
+
+// Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
+static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                        const nsvcd__frame *const *frames, size_t count, nsvcd__sight *view) {
+  const size_t parts[2] = {pair->a, pair->b};
+  view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
+  if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
+    view->from = frames[1][count / 2];
+  view->rounding = 0;
+  for (size_t n = 0; n < 2; n++) {
+    const int moves = c->scene->parts[parts[n]].link > 0;
+    double most = 0;
+    for (size_t k = 0; k < (moves ? count : 1); k++) {
+      const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
+      c->seen[n][k] = nsvcd__pose_in(&in);
+      most = nsvcd__max(most, nsvcd__d3_length(in.place));
+    }
+    // places and quaternions as floats are off by no more
+    if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
+  }
+}
+
+// A direction and a point as they are seen, in the world.
+static nsvcd__d3 nsvcd__seen_way(const nsvcd__sight *view, nsvcd__d3 way) {
+  return nsvcd__dquat_rotate(view->from.turn, way);
+}
+static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
+  return nsvcd__d3_add(nsvcd__seen_way(view, point), view->from.place);
+}
+
+// Takes a contact as it is seen to the world.
+static void nsvcd__place_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
+  nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
+}
+
 // By how much a part is off the way that its samples say, at most.
 static double nsvcd__off(const nsvcd_checker *c, size_t part) {
   return c->members[part].stray + 2 * c->members[part].rounding;
 }
 
-// Of two parts in so many poses each; what rests has one.
+// Of two parts as they are seen, in so many poses each; what rests has one.
 static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                         const nsvcd_pose *const *poses, size_t count,
-                                         size_t work) {
+                                         size_t count, size_t work) {
   const size_t parts[2] = {pair->a, pair->b};
   nsvcd_question question;
   memset(&question, 0, sizeof question);
@@ -295,7 +346,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     nsvcd_mover *mover = n ? &question.b : &question.a;
     mover->body = part->body;
     mover->scale = part->scale;
-    mover->poses = part->link ? poses[n] : &part->pose;
+    mover->poses = c->seen[n];
     mover->count = part->link ? count : 1;
   }
   question.method = NSVCD_METHOD_PROOF;
@@ -303,35 +354,46 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
   return question;
 }
 
-// Asks whether two parts come as near as the clearance.
-static nsvcd_result nsvcd__ask_poses(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                     const nsvcd_pose *const *poses, size_t count,
-                                     float clearance, const nsvcd_check_options *options,
-                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
-  nsvcd_question question = nsvcd__question_of(c, pair, poses, count, options->work);
+// Asks whether two parts, as they are seen, come as near as the clearance.
+static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    size_t count, float clearance,
+                                    const nsvcd_check_options *options, nsvcd_answer *found,
+                                    nsvcd_check_answer *answer) {
+  nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
   question.clearance = clearance;
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }
 
-// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and
-// `strays` more. spell: what was asked about; the times of *found are of it.
+// The frames of a part from a sample on.
+static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+                                            size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
+}
+
+// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and,
+// if a proof is wanted, all that these may be off. spell: what was asked about; the times of *found
+// are of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                    size_t steps, double strays,
+                                    size_t steps, int is_proof,
                                     const nsvcd_check_options *options, nsvcd__spell *spell,
                                     nsvcd_answer *found, nsvcd_check_answer *answer) {
-  const double clearance = (double)options->clearance + strays;
+  nsvcd__sight view;
   const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
   const double room = (double)options->clearance + off;
   if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
-  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row + spell->first,
-                                      c->poses + c->members[pair->b].row + spell->first};
-  return nsvcd__ask_poses(c, pair, poses, spell->steps + 1,
-                          clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
-                          answer);
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, spell->first),
+                                         nsvcd__frames_at(c, pair->b, spell->first)};
+  nsvcd__look(c, pair, frames, spell->steps + 1, &view);
+  const double strays = is_proof ? off + view.rounding : 0;
+  const double clearance = (double)options->clearance + strays;
+  return nsvcd__ask_seen(c, pair, spell->steps + 1,
+                         clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
+                         answer);
 }
 
 // Is a pair hit at joints of its motion? Then the answer says so.
@@ -339,22 +401,22 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer) {
   nsvcd_answer found;
-  nsvcd_pose at[2];
-  const nsvcd_pose *const poses[2] = {&at[0], &at[1]};
+  nsvcd__sight view;
+  nsvcd__frame at[2];
+  const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
-  const size_t parts[2] = {both->a, both->b};
   memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
   nsvcd__place_links(c, &c->at);
   answer->placed++;
-  for (size_t n = 0; n < 2; n++) {
-    const nsvcd__frame frame = nsvcd__frame_of_part(c, &c->at, parts[n]);
-    at[n] = nsvcd__pose_in(&frame);
-  }
+  at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
+  at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
+  nsvcd__look(c, both, frames, 1, &view);
   const nsvcd_result result =
-      nsvcd__ask_poses(c, both, poses, 1, options->clearance, options, &found, answer);
+      nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
+  nsvcd__place_contact(&view, &answer->contact);
   return NSVCD_OK;
 }
 
@@ -439,9 +501,8 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     for (size_t n = 0; n < left; n++) {
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
-      const double strays = nsvcd__off(c, both->a) + nsvcd__off(c, both->b);
       nsvcd_result result =
-          nsvcd__ask_pair(c, both, steps, strays, options, &spell, &found, answer);
+          nsvcd__ask_pair(c, both, steps, 1, options, &spell, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
       // a glance, but for the last time
       const int is_last = steps == 0 || allowed <= (double)options->finest;

@@ -42,19 +42,22 @@ static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
 }
 
 // Of two parts where they stand.
-static nsvcd_question nsvcd__standing_question(const nsvcd_checker *c,
-                                               const nsvcd_body_pair *pair, size_t work) {
-  const nsvcd_pose *const poses[2] = {c->poses + c->members[pair->a].row,
-                                      c->poses + c->members[pair->b].row};
-  return nsvcd__question_of(c, pair, poses, 1, work);
+static nsvcd_question nsvcd__standing_question(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                               size_t work, nsvcd__sight *view) {
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
+                                         nsvcd__frames_at(c, pair->b, 0)};
+  nsvcd__look(c, pair, frames, 1, view);
+  return nsvcd__question_of(c, pair, 1, work);
 }
 
 // ---- gaps
 
-// How the point of a part that is at `point` now moves along a normal, by each joint: added to the
-// slope, times `sign`.
-static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, nsvcd__d3 point,
-                             nsvcd__d3 normal, double sign, double *slope) {
+// How the point of a part that is seen at `at` now moves along a normal, by each joint: added to
+// the slope, times `sign`.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
+                             nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, at);
+  const nsvcd__d3 normal = nsvcd__seen_way(view, along);
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
@@ -92,9 +95,11 @@ static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question questio
   return NSVCD_OK;
 }
 
-// Of parts that touch: how deep, where, along which normal, and how that shrinks.
+// Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
+// all that poses are off as its clearance.
 static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
-                                        const nsvcd_gap_options *o, nsvcd_gap *gap) {
+                                        const nsvcd__sight *view, const nsvcd_gap_options *o,
+                                        nsvcd_gap *gap) {
   const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
   nsvcd_answer found;
   nsvcd__d3 lift = {0, 0, 0};
@@ -113,6 +118,7 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   if (result) return result;
   // a little beyond, which faces are near
   const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
+  question.clearance = 0;
   question.ask = NSVCD_ASK_DISTANCE;
   question.to = 0.1f * o->to;
   result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, beyond), &found);
@@ -124,12 +130,13 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   gap->contact = found.nearest;
   gap->contact.gap = 0;
   nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
+  nsvcd__place_contact(view, &gap->contact);
   // a lift parts the two faces slower than it goes, unless it is along their normal
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
   const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);
-  nsvcd__slope_add(c, both->a, on_a, normal, 1 / rate, gap->slope);
-  nsvcd__slope_add(c, both->b, point, normal, -1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
   return NSVCD_OK;
 }
 
@@ -139,14 +146,17 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
   const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
   nsvcd_answer found;
-  // poses in float are off by so much, at most
-  const double off = 2 * (members[0]->rounding + members[1]->rounding);
-  const double within = (double)o->within + off;
+  nsvcd__sight view;
+  const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
+  const double within = (double)o->within + frames_off;
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
     return NSVCD_OK;
-  nsvcd_question question = nsvcd__standing_question(c, both, o->work);
-  question.clearance = nsvcd__round_outward(within);
+  nsvcd_question question = nsvcd__standing_question(c, both, o->work, &view);
+  // places are off by so much, at most, and a lift that is told in floats
+  const double off = frames_off + view.rounding;
+  const float deepest_off = nsvcd__round_outward(off + 2e-7 * (double)o->deepest);
+  question.clearance = nsvcd__round_outward((double)o->within + off);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -161,17 +171,29 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->why = found.why;
   gap->contact = found.nearest;
   if (found.verdict == NSVCD_HIT) {
+    nsvcd__place_contact(&view, &gap->contact);
     gap->distance.high = nsvcd__round_outward(off);
     gap->depth = HUGE_VALF;
-    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, o, gap);
+    question.clearance = deepest_off;
+    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
   }
   gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
-  nsvcd__slope_add(c, both->a, point, normal, 1, gap->slope);
-  nsvcd__slope_add(c, both->b, point, normal, -1, gap->slope);
+  nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
+  nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
+  nsvcd__place_contact(&view, &gap->contact);
+  if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
+  // the poses are free of each other: are the parts?
+  question.ask = NSVCD_ASK_HIT;
+  question.to = 0;
+  question.clearance = nsvcd__round_outward(off);
+  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict == NSVCD_FREE) return result;
+  gap->verdict = NSVCD_UNDECIDED;
+  gap->why = NSVCD_WHY_TOO_NEAR;
   return NSVCD_OK;
 }
 
@@ -315,6 +337,7 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
                                         size_t samples, uint64_t random, int *always) {
   nsvcd_answer found;
+  nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
   *always = 1;
   for (size_t n = 0; n < samples && *always && !result; n++) {
@@ -327,7 +350,7 @@ static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__stand(c, joints);
-    const nsvcd_question question = nsvcd__standing_question(c, pair, 0);
+    const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     *always = !result && found.verdict == NSVCD_HIT;
   }
@@ -401,10 +424,7 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
   nsvcd__place_links(checker, &c);
   const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
-  const nsvcd__frame *to = &c.frames[link];
-  const nsvcd__dquat back = {-to->turn.x, -to->turn.y, -to->turn.z, to->turn.w};
-  const nsvcd__frame inner = {nsvcd__dquat_inverse_mul(to->turn, at.turn),
-                              nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};
+  const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
   moved.pose = nsvcd__pose_in(&inner);
