@@ -128,8 +128,9 @@ static const command commands[] = {
     {"pairs", PAIRS, pairs, 1, "ROBOT ", "which bodies of a robot can meet each other?",
      "Which bodies of a planning file's robot can meet each other? A line 'pair NAME NAME' for "
      "each "
-     "two, to stand in the file; in comments those that one joint parts, and those that touch in "
-     "each of 64 random configurations, which are not worth asking."},
+     "two, to stand in the file; in comments those that one joint separates. Two that touch in all "
+     "of 64 random samples are among the pairs, and their lines say so: whether they always touch "
+     "is not known, and who knows it deletes the line."},
 };
 static const manual svcd = {
     "svcd",

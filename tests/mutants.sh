@@ -219,10 +219,10 @@ postures: escapes without the clearance|options.clearance = clearance; const nsv
 postures: escapes to anywhere|ring * farthest;|2 * ring * farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? farthest : ring
-postures: what touches once touches always|*always = !result && found.verdict == NSVCD_HIT;|*always = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
+postures: what touches once touches always|*in_all = !result && found.verdict == NSVCD_HIT;|*in_all = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
-postures: never touching|pairs[always ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
+postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
 postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
 postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;

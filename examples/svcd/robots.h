@@ -6,6 +6,8 @@
 #include "settings.h"
 
 #define PLAN_NODES 100000
+// random configurations that `pairs` looks at
+#define PAIR_SAMPLES 64
 
 // Is an ID one of a list "a,b"? NULL: all are.
 static int is_listed(const char *list, const char *id) {
@@ -261,18 +263,24 @@ static int pairs(settings *options) {
     nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
     good = enter_room(&file, NSVCD_NONE, &in);
     const nsvcd_result result =
-        good ? nsvcd_find_pairs(in.checker, 0, options->seed, found, most, &counts) : NSVCD_OK;
+        good ? nsvcd_find_pairs(in.checker, PAIR_SAMPLES, options->seed, found, most, &counts)
+             : NSVCD_OK;
     if (result) good = complain("%s: %s", file.path, reason_of(result));
     const size_t total = good ? counts.asked + counts.adjacent + counts.touching : 0;
     for (size_t n = 0; n < total; n++) {
-      static const char *const words[2][3] = {{"pair", "# adjacent:", "# always touching:"},
+      static const char *const words[2][3] = {{"pair", "# adjacent:", "pair"},
                                               {"pair", "adjacent", "touching"}};
       const int kind = n < counts.asked ? 0 : n < counts.asked + counts.adjacent ? 1 : 2;
       const char *a = robot_name(&in, found[n].a);
       const char *b = robot_name(&in, found[n].b);
       json_out j = {stdout, 0};
-      if (!options->json) printf("%s %s %s\n", words[0][kind], a, b);
-      if (!options->json) continue;
+      if (!options->json) {
+        printf("%s %s %s", words[0][kind], a, b);
+        // samples prove nothing: it is asked like the others until its line is deleted
+        if (kind == 2) printf("  # touching in all of %d samples", PAIR_SAMPLES);
+        printf("\n");
+        continue;
+      }
       json_open(&j, NULL, '{');
       json_text(&j, "kind", words[1][kind]);
       json_text(&j, "a", a);

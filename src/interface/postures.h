@@ -91,14 +91,16 @@ typedef struct nsvcd_pair_counts {
   size_t asked;
   // of parts on two links that one joint parts, neither of them the world
   size_t adjacent;
-  // of others: they touch in all configurations that were tried, which is no proof that they always
-  // do
+  // of others: they touch in all samples. That is no proof that they always do: to be asked, unless
+  // the caller knows more
   size_t touching;
 } nsvcd_pair_counts;
 
 // Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
-// are made to keep apart or to overlap, and those that always touch. These are told too: ask them
-// where that is not so. None is left out for it seems never to meet: that costs little.
+// are made to keep apart or to overlap. Those that touch in all samples are told apart from the
+// others, not left out: two that separate only in a narrow range of a joint are among them, and a
+// motion is proven without a pair only if the caller leaves it out. None is left out for it seems
+// never to meet: that costs little.
 //   checker    of the parts and joints, whatever pairs its scene has
 //   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
 //   seed       of them
@@ -107,7 +109,7 @@ typedef struct nsvcd_pair_counts {
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
-//   source     as setup assistants do (MoveIt's), but none is left out as "never"
+//   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts);

@@ -333,14 +333,14 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 
 // ---- pairs
 
-// Do two parts touch in so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                        size_t samples, uint64_t random, int *always) {
+// Do two parts touch in all of so many configurations, drawn within the limits?
+static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                        size_t samples, uint64_t random, int *in_all) {
   nsvcd_answer found;
   nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
-  *always = 1;
-  for (size_t n = 0; n < samples && *always && !result; n++) {
+  *in_all = 1;
+  for (size_t n = 0; n < samples && *in_all && !result; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -352,12 +352,12 @@ static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair 
     nsvcd__stand(c, joints);
     const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
-    *always = !result && found.verdict == NSVCD_HIT;
+    *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;
 }
 
-// Does one joint part two links, neither of them the world?
+// Does one joint separate two links, neither of them the world?
 static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
   const size_t a = scene->parts[pair->a].link;
   const size_t b = scene->parts[pair->b].link;
@@ -388,15 +388,15 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   size_t total = 0;
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
-  // what is asked from the front, what always touches from the back
+  // what is asked from the front, what touches in all samples from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
-    int always;
+    int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__touch_always(
-        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &always);
+    const nsvcd_result result = nsvcd__touch_in_all(
+        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
     if (result) return result;
-    pairs[always ? total - ++found.touching : found.asked++] = pair;
+    pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {

@@ -1544,7 +1544,8 @@ def _doubles(value: ArrayLike, shape: tuple[Optional[int], ...], name: str) -> D
 class Robot:
     """Joints, parts on their links, and which parts can meet: nsvcd_scene and its checker. One thread at a time.
 
-    pairs  (P, 2) of parts, on links that differ; None: all that can meet, as `find_pairs` says
+    pairs  (P, 2) of parts, on links that differ; None: all but those that one joint separates, as `find_pairs` says.
+           Also those that touch in all samples, which is no proof that they always do
     """
 
     def __init__(self, joints: Sequence[Joint], parts: Sequence[Part], pairs: Optional[ArrayLike] = None) -> None:
@@ -1562,7 +1563,8 @@ class Robot:
             for part in parts))
         self._open(np.empty((0, 2), np.uint32) if pairs is None else pairs)
         if pairs is None:
-            self._open(self.find_pairs()[0])
+            asked, _, touching = self.find_pairs()
+            self._open(np.concatenate([asked, touching]))
 
     def _open(self, pairs: ArrayLike) -> None:
         self._pairs = _indices(pairs, 2, "pairs")
@@ -1579,7 +1581,7 @@ class Robot:
         return self._pairs.copy()
 
     def find_pairs(self, samples: int = 0, seed: int = 0) -> tuple[NDArray[np.uint32], ...]:
-        """Pairs (n, 2) that can meet, that one joint parts, and that touch in all samples: nsvcd_find_pairs."""
+        """Pairs (n, 2) that can meet, that one joint separates, and that touch in all samples: nsvcd_find_pairs."""
         most = self.part_count * self.part_count
         found = np.empty((max(most, 1), 2), np.uint32)
         counts = _PairCounts()
