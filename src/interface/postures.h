@@ -66,6 +66,9 @@ typedef struct nsvcd_escape_options {
   double farthest;
   // of the random numbers
   uint64_t seed;
+  // asked before each question about a pair; not 0: nothing more is found. May be NULL
+  int (*stop)(void *user);
+  void *user;
 } nsvcd_escape_options;
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or

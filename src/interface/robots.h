@@ -93,6 +93,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
   size_t work;
+  // asked before each question about a pair; not 0 ends the check, UNDECIDED for want of work. May
+  // be NULL
+  int (*stop)(void *user);
+  void *user;
 } nsvcd_check_options;
 
 typedef struct nsvcd_check_answer {

@@ -13,7 +13,8 @@
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes as options allow, and no way; or one of more than 680 corners, as a guess may be
+  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a guess
+  // may be
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
@@ -34,9 +35,12 @@ typedef struct nsvcd_route_problem {
   // (W, F), from the start to a goal, these left out: a way that may be free, or nearly. NULL: none
   const double *guess;
   size_t guess_count;
-  // asked before each proof; not 0 ends the search. What is found by then is not given up. May be
-  // NULL
+  // asked before each proof; not 0 ends the search. What is found by then is not given up: it is
+  // still proven as a whole. May be NULL
   int (*stop)(void *user);
+  // asked before each question about a pair, also in that last proof; not 0 ends that too, and so
+  // bounds the time. May be NULL
+  int (*abandon)(void *user);
   void *user;
 } nsvcd_route_problem;
 
@@ -48,6 +52,9 @@ typedef struct nsvcd_route_options {
   float clearance;
   // of the trees, at most; 20,000
   size_t nodes;
+  // motions asked about in search of a way, at most, free or not: where nothing is free the trees do
+  // not grow, and nodes alone would never end it; 4 times the nodes
+  size_t tries;
   // radians or metres that an edge is long, at most; 1
   double edge;
   // tried on the way, up to NSVCD_MAX_NODES, and on the timed motion; 20 and 200. NSVCD_NONE: none

@@ -361,6 +361,11 @@ static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pai
                                     nsvcd_check_answer *answer) {
   nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
   question.clearance = clearance;
+  if (options->stop && options->stop(options->user)) {
+    memset(found, 0, sizeof *found);
+    found->why = NSVCD_WHY_WORK;
+    return NSVCD_OK;
+  }
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }

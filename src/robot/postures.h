@@ -240,21 +240,19 @@ static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
   }
 }
 
-static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints, float clearance,
-                                      int *is_free) {
+static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
+                                      const nsvcd_escape_options *o, int *is_free) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
-  nsvcd_check_options options;
+  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
-  memset(&options, 0, sizeof options);
-  options.clearance = clearance;
   const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
   *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
   return result;
 }
 
 // From a place that is free back towards `from`, which is not, as far as that stays free.
-static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float clearance,
-                                     double *at) {
+static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
+                                     const nsvcd_escape_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
   double blocked[NSVCD_MAX_JOINTS];
   nsvcd_result result = NSVCD_OK;
@@ -263,7 +261,7 @@ static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float
     double middle[NSVCD_MAX_JOINTS];
     int is_free;
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
-    result = nsvcd__is_free_at(c, middle, clearance, &is_free);
+    result = nsvcd__is_free_at(c, middle, o, &is_free);
     if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
   return result;
@@ -271,15 +269,16 @@ static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float
 
 // Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
 // smaller ones, nearer than the best.
-static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, float clearance,
-                                       double farthest, uint64_t random, double *out,
+static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
+                                       const nsvcd_escape_options *o, double *out,
                                        int *is_found) {
   const size_t joints = c->scene->joint_count;
-  double best = farthest;
+  uint64_t random = o->seed;
+  double best = o->farthest;
   *is_found = 0;
   for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS; n++) {
     const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
-    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * farthest;
+    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
@@ -289,10 +288,10 @@ static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, flo
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__take_into_limits(c->scene, at);
-    nsvcd_result result = nsvcd__is_free_at(c, at, clearance, &is_free);
+    nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
     if (result) return result;
     if (!is_free) continue;
-    result = nsvcd__draw_back(c, from, clearance, at);
+    result = nsvcd__draw_back(c, from, o, at);
     if (result) return result;
     *is_found = 1;
     best = sqrt(nsvcd__way2(at, from, joints));
@@ -316,15 +315,14 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
     return NSVCD_ERROR_TOLERANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
     return NSVCD_ERROR_NUMBER;
-  const double farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
+  o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
   memcpy(from, joints, bytes);
   nsvcd__take_into_limits(checker->scene, from);
   int is_free;
   memcpy(at, from, bytes);
-  result = nsvcd__is_free_at(checker, from, o.clearance, &is_free);
-  if (!result && !is_free)
-    result = nsvcd__seek_escape(checker, from, o.clearance + NSVCD__ESCAPE_ROOM, farthest,
-                                o.seed, at, &is_free);
+  result = nsvcd__is_free_at(checker, from, &o, &is_free);
+  o.clearance += NSVCD__ESCAPE_ROOM;
+  if (!result && !is_free) result = nsvcd__seek_escape(checker, from, &o, at, &is_free);
   if (result) return result;
   *is_found = is_free;
   if (is_free) memcpy(out, at, bytes);

@@ -4,6 +4,9 @@
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__NODES 20000
+// for each node; and those after which a tree that has not grown is to along its joints
+#define NSVCD__TRIES 4
+#define NSVCD__IDLE 100
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 // of all joints whose limits are wider, only what is no farther than this from the start and the
@@ -56,6 +59,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (options) r->options = *options;
   nsvcd_route_options *o = &r->options;
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
+  o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
   if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
@@ -93,19 +97,39 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 
 // ---- trees
 
-// A configuration in the limits, near the start and the goals or anywhere.
-static void nsvcd__draw(nsvcd__router *r, double *out) {
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  for (size_t j = 0; j < r->joints; j++) {
-    const nsvcd_joint *joint = &r->scene->joints[j];
-    double low = r->low[j] - NSVCD__BESIDE;
-    double high = r->high[j] + NSVCD__BESIDE;
-    if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-      low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-      high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-    }
-    out[j] = low + (high - low) * nsvcd__random(&r->random);
+// A value of a joint in the limits, near the start and the goals or anywhere.
+static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
+  const nsvcd_joint *joint = &r->scene->joints[j];
+  double low = r->low[j] - NSVCD__BESIDE;
+  double high = r->high[j] + NSVCD__BESIDE;
+  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
   }
+  return low + (high - low) * nsvcd__random(&r->random);
+}
+
+// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not grown
+// for long, every other time one of its own with one joint moved. The way out of a hole is often
+// along a joint, and no other edge of some length is free there.
+static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
+  const size_t joints = r->joints;
+  const nsvcd__tree *t = &r->trees[turn % 2];
+  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
+    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
+    memcpy(out, t->points + node * joints, joints * sizeof *out);
+    out[joint] = nsvcd__draw_joint(r, joint, 1);
+    return;
+  }
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
+}
+
+// Are there as many nodes, or tries, as are allowed?
+static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
+         r->answer.checks >= r->options.tries;
 }
 
 // Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
@@ -130,7 +154,7 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *
     int is_free;
     const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
     if (result) return result;
-    if (!is_free || r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
     *node = nsvcd__tree_add(t, next, *node);
     *is_there = ends;
   } while (is_greedy && !*is_there);
@@ -209,11 +233,12 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
     int is_there;
-    nsvcd__draw(r, drawn);
+    nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
     result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
     if (result) return result;
-    if (r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (nsvcd__is_at_limit(r)) return NSVCD_OK;
+    r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
     result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
     if (result) return result;
@@ -297,7 +322,7 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
     case NSVCD_ROUTE_FOUND:
       return "found";
     case NSVCD_ROUTE_LIMIT:
-      return "no way found with so many nodes";
+      return "no way found with so many nodes or tries";
     case NSVCD_ROUTE_STOPPED:
       return "stopped";
     case NSVCD_ROUTE_START:
@@ -308,7 +333,8 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
   return "not a status";
 }
 
-// A configuration in *out, taken into the limits where rounding has it out. Is it free?
+// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the work
+// is given to that.
 static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
                                    int *is_free) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
@@ -320,14 +346,20 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
     if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
     if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
   }
-  nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
-  if (result || *is_free || !(r->check.clearance > r->options.clearance)) return result;
-  // nothing to spare here
-  const float was = r->check.clearance;
-  r->check.clearance = r->options.clearance;
-  result = nsvcd__ask_motion(r, &motion, is_free);
-  if (!result && !*is_free) r->check.clearance = was;
-  return result;
+  // where there is nothing to spare, or to be proven only by more work, all edges from there need it
+  const nsvcd_check_options was = r->check;
+  for (size_t n = 0; n < 4; n++) {
+    r->check = was;
+    if (n % 2) r->check.clearance = r->options.clearance;
+    if (n / 2) r->check.work = 0;
+    const nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
+    if (result || *is_free) return result;
+    // no work makes that free
+    const nsvcd_check_answer *found = &r->answer.check;
+    if (found->joint != NSVCD_NONE || (n % 2 && found->verdict == NSVCD_HIT)) break;
+  }
+  r->check = was;
+  return NSVCD_OK;
 }
 
 // Adds a root to a tree, and takes it into the range of all roots.
@@ -379,6 +411,8 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   nsvcd_check_options whole;
   memset(&whole, 0, sizeof whole);
   whole.clearance = r->options.clearance;
+  whole.stop = r->check.stop;
+  whole.user = r->check.user;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
     if (!nsvcd__course_along(r)) break;
@@ -420,6 +454,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.clearance = r->options.clearance + NSVCD__SPARE;
   r->check.finest = NSVCD__SEEK_FINEST;
   r->check.work = NSVCD__SEEK_WORK;
+  r->check.stop = problem->abandon;
+  r->check.user = problem->user;
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);

@@ -43,6 +43,8 @@ typedef struct nsvcd__router {
   nsvcd_check_options check;
   uint64_t random;
   int is_stopped;
+  // turns since each tree has grown
+  size_t idle[2];
   nsvcd__tree trees[2];  // from the start, from the goals
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
@@ -66,6 +68,7 @@ static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *
   *is_free =
       !result && r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
   r->answer.proven += (size_t)*is_free;
+  if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
   return result;
 }
 
