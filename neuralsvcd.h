@@ -1216,6 +1216,10 @@ typedef struct nsvcd_check_options {
   float finest;
   // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
   size_t work;
+  // asked before each question about a pair; not 0 ends the check, UNDECIDED for want of work. May
+  // be NULL
+  int (*stop)(void *user);
+  void *user;
 } nsvcd_check_options;
 
 typedef struct nsvcd_check_answer {
@@ -1372,6 +1376,9 @@ typedef struct nsvcd_escape_options {
   double farthest;
   // of the random numbers
   uint64_t seed;
+  // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
+  int (*stop)(void *user);
+  void *user;
 } nsvcd_escape_options;
 
 // A configuration near another one that is proven free, within the limits: a way out of a start or
@@ -1397,14 +1404,16 @@ typedef struct nsvcd_pair_counts {
   size_t asked;
   // of parts on two links that one joint parts, neither of them the world
   size_t adjacent;
-  // of others: they touch in all configurations that were tried, which is no proof that they always
-  // do
+  // of others: they touch in all samples. That is no proof that they always do: to be asked, unless
+  // the caller knows more
   size_t touching;
 } nsvcd_pair_counts;
 
 // Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
-// are made to keep apart or to overlap, and those that always touch. These are told too: ask them
-// where that is not so. None is left out for it seems never to meet: that costs little.
+// are made to keep apart or to overlap. Those that touch in all samples are told apart from the
+// others, not left out: two that separate only in a narrow range of a joint are among them, and a
+// motion is proven without a pair only if the caller leaves it out. None is left out for it seems
+// never to meet: that costs little.
 //   checker    of the parts and joints, whatever pairs its scene has
 //   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
 //   seed       of them
@@ -1413,7 +1422,7 @@ typedef struct nsvcd_pair_counts {
 //   counts     not NULL; left as it was on failure
 //   allocates  nothing
 //   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
-//   source     as setup assistants do (MoveIt's), but none is left out as "never"
+//   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
 NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
                                        nsvcd_body_pair *pairs, size_t capacity,
                                        nsvcd_pair_counts *counts);
@@ -1444,7 +1453,8 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes as options allow, and no way; or one of more than 680 corners, as a guess may be
+  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a
+  // guess may be
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
@@ -1465,9 +1475,12 @@ typedef struct nsvcd_route_problem {
   // (W, F), from the start to a goal, these left out: a way that may be free, or nearly. NULL: none
   const double *guess;
   size_t guess_count;
-  // asked before each proof; not 0 ends the search. What is found by then is not given up. May be
-  // NULL
+  // asked before each proof; not 0 ends the search. What is found by then is not given up: it is
+  // still proven as a whole. May be NULL
   int (*stop)(void *user);
+  // asked before each question about a pair, also in that last proof; not 0 ends that too, and so
+  // bounds the time. May be NULL
+  int (*abandon)(void *user);
   void *user;
 } nsvcd_route_problem;
 
@@ -1479,6 +1492,9 @@ typedef struct nsvcd_route_options {
   float clearance;
   // of the trees, at most; 20,000
   size_t nodes;
+  // motions asked about in search of a way, at most, free or not: where nothing is free the trees
+  // do not grow, and nodes alone would never end it; 4 times the nodes
+  size_t tries;
   // radians or metres that an edge is long, at most; 1
   double edge;
   // tried on the way, up to NSVCD_MAX_NODES, and on the timed motion; 20 and 200. NSVCD_NONE: none
@@ -20332,6 +20348,11 @@ static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pai
                                     nsvcd_check_answer *answer) {
   nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
   question.clearance = clearance;
+  if (options->stop && options->stop(options->user)) {
+    memset(found, 0, sizeof *found);
+    found->why = NSVCD_WHY_WORK;
+    return NSVCD_OK;
+  }
   answer->sweeps++;
   return nsvcd_sweep(&question, c->query, c->query_size, found);
 }
@@ -21216,21 +21237,19 @@ static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
   }
 }
 
-static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints, float clearance,
-                                      int *is_free) {
+static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
+                                      const nsvcd_escape_options *o, int *is_free) {
   const nsvcd_joint_motion still = {0, 0, joints, NULL};
-  nsvcd_check_options options;
+  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
   nsvcd_check_answer answer;
-  memset(&options, 0, sizeof options);
-  options.clearance = clearance;
   const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
   *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
   return result;
 }
 
 // From a place that is free back towards `from`, which is not, as far as that stays free.
-static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float clearance,
-                                     double *at) {
+static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
+                                     const nsvcd_escape_options *o, double *at) {
   const size_t joints = c->scene->joint_count;
   double blocked[NSVCD_MAX_JOINTS];
   nsvcd_result result = NSVCD_OK;
@@ -21239,7 +21258,7 @@ static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float
     double middle[NSVCD_MAX_JOINTS];
     int is_free;
     for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
-    result = nsvcd__is_free_at(c, middle, clearance, &is_free);
+    result = nsvcd__is_free_at(c, middle, o, &is_free);
     if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
   }
   return result;
@@ -21247,28 +21266,30 @@ static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from, float
 
 // Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
 // smaller ones, nearer than the best.
-static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from, float clearance,
-                                       double farthest, uint64_t random, double *out,
+static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
+                                       const nsvcd_escape_options *o, double *out,
                                        int *is_found) {
   const size_t joints = c->scene->joint_count;
-  double best = farthest;
+  uint64_t random = o->seed;
+  double best = o->farthest;
   *is_found = 0;
   for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS; n++) {
     const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
-    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * farthest;
+    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * o->farthest;
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
+    if (o->stop && o->stop(o->user)) return NSVCD_OK;
     for (size_t j = 0; j < joints; j++) {
       at[j] = 2 * nsvcd__random(&random) - 1;
       square += at[j] * at[j];
     }
     for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
     nsvcd__take_into_limits(c->scene, at);
-    nsvcd_result result = nsvcd__is_free_at(c, at, clearance, &is_free);
+    nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
     if (result) return result;
     if (!is_free) continue;
-    result = nsvcd__draw_back(c, from, clearance, at);
+    result = nsvcd__draw_back(c, from, o, at);
     if (result) return result;
     *is_found = 1;
     best = sqrt(nsvcd__way2(at, from, joints));
@@ -21292,15 +21313,14 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
     return NSVCD_ERROR_TOLERANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
     return NSVCD_ERROR_NUMBER;
-  const double farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
+  o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
   memcpy(from, joints, bytes);
   nsvcd__take_into_limits(checker->scene, from);
   int is_free;
   memcpy(at, from, bytes);
-  result = nsvcd__is_free_at(checker, from, o.clearance, &is_free);
-  if (!result && !is_free)
-    result = nsvcd__seek_escape(checker, from, o.clearance + NSVCD__ESCAPE_ROOM, farthest,
-                                o.seed, at, &is_free);
+  result = nsvcd__is_free_at(checker, from, &o, &is_free);
+  o.clearance += NSVCD__ESCAPE_ROOM;
+  if (!result && !is_free) result = nsvcd__seek_escape(checker, from, &o, at, &is_free);
   if (result) return result;
   *is_found = is_free;
   if (is_free) memcpy(out, at, bytes);
@@ -21309,14 +21329,14 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
 
 // ---- pairs
 
-// Do two parts touch in so many configurations, drawn within the limits?
-static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                        size_t samples, uint64_t random, int *always) {
+// Do two parts touch in all of so many configurations, drawn within the limits?
+static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                        size_t samples, uint64_t random, int *in_all) {
   nsvcd_answer found;
   nsvcd__sight view;
   nsvcd_result result = NSVCD_OK;
-  *always = 1;
-  for (size_t n = 0; n < samples && *always && !result; n++) {
+  *in_all = 1;
+  for (size_t n = 0; n < samples && *in_all && !result; n++) {
     double joints[NSVCD_MAX_JOINTS];
     for (size_t j = 0; j < c->scene->joint_count; j++) {
       const nsvcd_joint *joint = &c->scene->joints[j];
@@ -21328,12 +21348,12 @@ static nsvcd_result nsvcd__touch_always(nsvcd_checker *c, const nsvcd_body_pair 
     nsvcd__stand(c, joints);
     const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
-    *always = !result && found.verdict == NSVCD_HIT;
+    *in_all = !result && found.verdict == NSVCD_HIT;
   }
   return result;
 }
 
-// Does one joint part two links, neither of them the world?
+// Does one joint separate two links, neither of them the world?
 static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
   const size_t a = scene->parts[pair->a].link;
   const size_t b = scene->parts[pair->b].link;
@@ -21364,15 +21384,15 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
   size_t total = 0;
   while (nsvcd__next_pair(scene, &pair)) total++;
   if (capacity < total) return NSVCD_ERROR_WORKSPACE;
-  // what is asked from the front, what always touches from the back
+  // what is asked from the front, what touches in all samples from the back
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
-    int always;
+    int in_all;
     if (nsvcd__are_adjacent(scene, &pair)) continue;
-    const nsvcd_result result = nsvcd__touch_always(
-        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &always);
+    const nsvcd_result result = nsvcd__touch_in_all(
+        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
     if (result) return result;
-    pairs[always ? total - ++found.touching : found.asked++] = pair;
+    pairs[in_all ? total - ++found.touching : found.asked++] = pair;
   }
   pair.a = pair.b = 0;
   while (nsvcd__next_pair(scene, &pair)) {
@@ -21617,6 +21637,8 @@ typedef struct nsvcd__router {
   nsvcd_check_options check;
   uint64_t random;
   int is_stopped;
+  // turns since each tree has grown
+  size_t idle[2];
   nsvcd__tree trees[2];  // from the start, from the goals
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
@@ -21640,6 +21662,7 @@ static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *
   *is_free =
       !result && r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
   r->answer.proven += (size_t)*is_free;
+  if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
   return result;
 }
 
@@ -21825,6 +21848,9 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
 
 #if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__NODES 20000
+// for each node; and those after which a tree that has not grown is to along its joints
+#define NSVCD__TRIES 4
+#define NSVCD__IDLE 100
 #define NSVCD__SHORTCUTS 20
 #define NSVCD__SMOOTHINGS 200
 // of all joints whose limits are wider, only what is no farther than this from the start and the
@@ -21877,6 +21903,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   if (options) r->options = *options;
   nsvcd_route_options *o = &r->options;
   o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
+  o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
   o->edge = o->edge > 0 ? o->edge : 1;
   if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
   if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
@@ -21914,19 +21941,39 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 
 // ---- trees
 
-// A configuration in the limits, near the start and the goals or anywhere.
-static void nsvcd__draw(nsvcd__router *r, double *out) {
-  const int is_wide = nsvcd__random(&r->random) < 0.125;
-  for (size_t j = 0; j < r->joints; j++) {
-    const nsvcd_joint *joint = &r->scene->joints[j];
-    double low = r->low[j] - NSVCD__BESIDE;
-    double high = r->high[j] + NSVCD__BESIDE;
-    if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
-      low = is_wide ? joint->low : nsvcd__max(low, joint->low);
-      high = is_wide ? joint->high : nsvcd__min(high, joint->high);
-    }
-    out[j] = low + (high - low) * nsvcd__random(&r->random);
+// A value of a joint in the limits, near the start and the goals or anywhere.
+static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
+  const nsvcd_joint *joint = &r->scene->joints[j];
+  double low = r->low[j] - NSVCD__BESIDE;
+  double high = r->high[j] + NSVCD__BESIDE;
+  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
   }
+  return low + (high - low) * nsvcd__random(&r->random);
+}
+
+// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not
+// grown for long, every other time one of its own with one joint moved. The way out of a hole is
+// often along a joint, and no other edge of some length is free there.
+static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
+  const size_t joints = r->joints;
+  const nsvcd__tree *t = &r->trees[turn % 2];
+  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
+    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
+    memcpy(out, t->points + node * joints, joints * sizeof *out);
+    out[joint] = nsvcd__draw_joint(r, joint, 1);
+    return;
+  }
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
+}
+
+// Are there as many nodes, or tries, as are allowed?
+static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
+         r->answer.checks >= r->options.tries;
 }
 
 // Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
@@ -21951,7 +21998,7 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *
     int is_free;
     const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
     if (result) return result;
-    if (!is_free || r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
     *node = nsvcd__tree_add(t, next, *node);
     *is_there = ends;
   } while (is_greedy && !*is_there);
@@ -22030,11 +22077,12 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
     int is_there;
-    nsvcd__draw(r, drawn);
+    nsvcd__draw(r, turn, drawn);
     const size_t before = grown->count;
     result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
     if (result) return result;
-    if (r->trees[0].count + r->trees[1].count >= r->options.nodes) return NSVCD_OK;
+    if (nsvcd__is_at_limit(r)) return NSVCD_OK;
+    r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
     if (grown->count == before) continue;
     result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
     if (result) return result;
@@ -22118,7 +22166,7 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
     case NSVCD_ROUTE_FOUND:
       return "found";
     case NSVCD_ROUTE_LIMIT:
-      return "no way found with so many nodes";
+      return "no way found with so many nodes or tries";
     case NSVCD_ROUTE_STOPPED:
       return "stopped";
     case NSVCD_ROUTE_START:
@@ -22129,7 +22177,8 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
   return "not a status";
 }
 
-// A configuration in *out, taken into the limits where rounding has it out. Is it free?
+// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the
+// work is given to that.
 static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
                                    int *is_free) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
@@ -22141,14 +22190,20 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
     if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
     if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
   }
-  nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
-  if (result || *is_free || !(r->check.clearance > r->options.clearance)) return result;
-  // nothing to spare here
-  const float was = r->check.clearance;
-  r->check.clearance = r->options.clearance;
-  result = nsvcd__ask_motion(r, &motion, is_free);
-  if (!result && !*is_free) r->check.clearance = was;
-  return result;
+  // if it is free only with nothing to spare, or by more work, so are edges from there
+  const nsvcd_check_options was = r->check;
+  for (size_t n = 0; n < 4; n++) {
+    r->check = was;
+    if (n % 2) r->check.clearance = r->options.clearance;
+    if (n / 2) r->check.work = 0;
+    const nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
+    if (result || *is_free) return result;
+    // no work makes that free
+    const nsvcd_check_answer *found = &r->answer.check;
+    if (found->joint != NSVCD_NONE || (n % 2 && found->verdict == NSVCD_HIT)) break;
+  }
+  r->check = was;
+  return NSVCD_OK;
 }
 
 // Adds a root to a tree, and takes it into the range of all roots.
@@ -22200,6 +22255,8 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   nsvcd_check_options whole;
   memset(&whole, 0, sizeof whole);
   whole.clearance = r->options.clearance;
+  whole.stop = r->check.stop;
+  whole.user = r->check.user;
   for (int rests = 0; rests < 2 && !is_free; rests++) {
     nsvcd_result result = NSVCD_OK;
     if (!nsvcd__course_along(r)) break;
@@ -22241,6 +22298,8 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   r->check.clearance = r->options.clearance + NSVCD__SPARE;
   r->check.finest = NSVCD__SEEK_FINEST;
   r->check.work = NSVCD__SEEK_WORK;
+  r->check.stop = problem->abandon;
+  r->check.user = problem->user;
   r->answer.status = NSVCD_ROUTE_LIMIT;
   result = nsvcd__plant(r);
   if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);

@@ -44,6 +44,9 @@ static const option options[] = {
     {"--certificates", CHECK | PLAN, OPTION_TEXT, AT(certificates), 0, 0, NULL, "FOLDER",
      "writes a proof of each answer, ID.cert, into a folder that is there: svcd-verify FILE FOLDER "
      "checks them"},
+    {"--visits", CHECK | SWEEP | PLAN, OPTION_COUNT, AT(visits), 1, 1000000000, NULL, "N",
+     "steps that a certificate, of a plan that of a pair, may take (" DIGITS(
+         NSVCD_DEFAULT_VISITS) ")"},
     {"--clearance", CHECK | SWEEP | PLAN | PATH, OPTION_NUMBER, AT(sweep.clearance), 0, METRES,
      "NSVCD_MAX_COORDINATE", "METRES", "to come as near as this is a hit (0: to meet is)"},
     {"--measure", SWEEP, OPTION_NUMBER, AT(measure), 1e-9, METRES, "NSVCD_MAX_COORDINATE", "METRES",
@@ -86,6 +89,8 @@ static const option options[] = {
     {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "these alone"},
     {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL, "S",
      "of the random numbers (0)"},
+    {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
+     "each plan ends within so many, with the best motion that is proven by then, or with 'limit'"},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL, "N",
      "with --joints: the joints at so many times"},
     {"--joints", PLAN, OPTION_TEXT, AT(joints), 0, 0, NULL, "OUT.tsv",
@@ -120,7 +125,8 @@ static const command commands[] = {
      "tabs: "
      "ID certified|start|goal|limit|undecided SECONDS DURATION LENGTH. A clearance is kept from "
      "all "
-     "that it must not touch."},
+     "that it must not touch. The exit status is 1 if a certificate that is asked for is not "
+     "written."},
     {"path", PATH, path, 1, "ROBOT ", "are paths of a robot free, between their points too?",
      "Is each path of a planning file free, between its points as well? A line each, separated by "
      "tabs: ID free|hit|undecided EDGE T NAME NAME MICROSECONDS: the first edge that is not free, "

@@ -613,6 +613,28 @@ grep -qx 'pair ring pin  # touching in all of 64 samples' "$dir/out" || fail "sv
 { cat "$dir/slot.txt" "$dir/out"; printf 'scene s\nplan in s -0.005 0.005\nplan out s 0 1.5\n'; } >"$dir/slot_plan.txt"
 expect 0 'out: the goal: ring and pin meet' build/svcd plan "$dir/slot_plan.txt"
 test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'in certified out goal ' || fail "plans by pairs: $(cat "$dir/out")"
+# A cube on slides in a hollow one, whose goal is in another one, ends by time; what is planned before is there to be
+# read while it is sought. A scene that is not asked about may lack its mesh.
+{ for x in -1 1; do for y in -1 1; do for z in -1 1; do echo "v $x $y $z"; done; done; done
+  printf 'f %s\n' '1 2 4 3' '5 7 8 6' '1 5 6 2' '3 4 8 7' '1 3 7 5' '2 6 8 4'; } >"$dir/solid.obj"
+awk '$1 == "v" { print "v", 0.9 * $2, 0.9 * $3, 0.9 * $4; next } { print }' "$dir/solid.obj" >"$dir/cube.obj"
+{ awk '$1 == "v" { print "v", 1.1 * $2, 1.1 * $3, 1.1 * $4; next } { print }' "$dir/solid.obj"
+  awk '$1 == "f" { print "f", $5 + 8, $4 + 8, $3 + 8, $2 + 8; next } { print }' "$dir/solid.obj"; } >"$dir/closed.obj"
+slide='prismatic -9 9 1\njoint'
+{ printf "nsvcd-plans 1\njoint x world 0 0 0 0 0 0 1 1 0 0 $slide y x 0 0 0 0 0 0 1 0 1 0 $slide z y 0 0 0 0 0 0 1 0 0 1 prismatic -9 9 1\n"
+  printf 'body cube z cube.obj\nscene open\nobstacle far closed.obj 5 0 0 0 0 0 1\nplan quick open 0 0 0 1 0 0\n'
+  printf 'scene rooms\nobstacle a closed.obj 0 0 0 0 0 0 1\nobstacle b closed.obj 4 0 0 0 0 0 1\nplan shut rooms 0 0 0 4 0 0\n'
+  printf 'scene other\nobstacle none none.obj 0 0 0 0 0 0 1\nplan lacks other 0 0 0 1 0 0\n'; } >"$dir/rooms.txt"
+expect 1 'rooms.txt:14: .*none.obj: No such file' build/svcd plan "$dir/rooms.txt" --only lacks
+expect 0 ': 2 meshes encoded' build/svcd plan "$dir/rooms.txt" --only quick,shut --seconds 0.1
+test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'quick certified shut limit ' || fail "plans with --seconds: $(cat "$dir/out")"
+build/svcd plan "$dir/rooms.txt" --only quick,shut --seconds 1e6 >"$dir/flushed" 2>"$dir/err" &
+touch "$dir/flushed"
+until grep -q '^quick	certified' "$dir/flushed" || ! kill -0 $! 2>"$dir/none"; do sleep 0.1; done
+grep -q shut "$dir/flushed" && fail "the first plan is told with the last: $(cat "$dir/flushed")"
+kill $! 2>"$dir/none"
+wait $! 2>"$dir/none"
+expect 2 'not a number in' build/svcd plan "$dir/rooms.txt" --seconds 0
 for command in plan path pairs; do json $command "$dir/robot.txt"; done
 robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
   { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
@@ -687,6 +709,9 @@ expect 0 '' build/svcd sweep "$PWD/examples/assets/mug.obj" "$PWD/examples/asset
 expect 0 '' build/verify "$dir/sweep.txt" "$dir"
 grep -q '^sweep	accepted	hit	' "$dir/out" || fail "a sweep's certificate: $(cat "$dir/out")"
 expect 2 'ends in .cert' build/svcd sweep a.obj b.obj --certificate x.txt
+expect 1 'none.cert: not written' build/svcd sweep examples/assets/mug.obj examples/assets/dish_rack.obj --from 0,-0.4,0.3 --to 0,0.4,0.3 \
+  --certificate "$dir/none.cert" --visits 1
+grep -q certificate "$dir/out" && fail "a certificate that is none: $(cat "$dir/out")"
 expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
 expect 1 'No such file' build/svcd check "$dir/proofs.txt" --certificates "$dir/no folder"
 expect 2 'FILE.txt FOLDER' build/verify
@@ -706,7 +731,17 @@ for number in nan NaN inf -INF 'nan(0)' 1e39; do
   printf 'nsvcd-problems 1\nmesh m cube.obj\nproblem x m 1 m 1 0 0 0 0 0 0 1 -1 nan 1\n%s 0 0 0 0 0 1\n' "$number" >"$dir/bad_number.txt"
   expect 2 'a number is none' build/verify "$dir/bad_number.txt" "$dir"
 done
+# what is not certified, or takes more steps than are allowed, has none; the other plans are answered
+echo old >"$dir/certs/stuck.cert"
+echo old >"$dir/certs/up.cert"
+expect 1 'stuck.cert: not written: no motion is certified' build/svcd plan "$dir/robot.txt" --certificates "$dir/certs" --visits 1
+grep -q 'up: no certificate for .* and .*: undecided, for want of --visits' "$dir/err" || fail "no --visits: $(cat "$dir/err")"
+test "$(cut -f 1,2 "$dir/out" | tr '\t\n' '  ')" = 'up certified turned certified stuck start ' || fail "plans with --visits 1: $(cat "$dir/out")"
+ls "$dir/certs" | grep -q 'up\|stuck\|turned' && fail "certificates that are none: $(ls "$dir/certs")"
 expect 0 '' build/svcd plan "$dir/robot.txt" --only up,turned --certificates "$dir/certs"
+for plan in up turned; do
+  grep -q "$plan.cert: certificates of 80 pairs, $(($(wc -c <"$dir/certs/$plan.cert"))) bytes" "$dir/err" || fail "the bytes of $plan.cert: $(cat "$dir/err")"
+done
 expect 1 '' build/verify "$dir/robot.txt" "$dir/certs"
 test "$(grep -c '	accepted	free	' "$dir/out")" = 2 || fail "plans: $(cat "$dir/out")"
 grep -q '^stuck	refused	there is no certificate	' "$dir/out" || fail "a plan without one: $(cat "$dir/out")"

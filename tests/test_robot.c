@@ -882,6 +882,151 @@ static void robot_routes_end(void) {
     CHECK(nsvcd_route_status_string((nsvcd_route_status)status)[0] != 0);
 }
 
+// A peg of 50 mm by 300 mm on three slides, and meshes about it that rest.
+static void robot_gantry(robot *r, const robot_shape *peg, const robot_shape *about) {
+  memset(r, 0, sizeof *r);
+  r->scene.joint_count = 3;
+  r->scene.part_count = 3;
+  r->scene.pair_count = 2;
+  for (uint32_t j = 0; j < 3; j++) {
+    r->joints[j].kind = NSVCD_JOINT_PRISMATIC;
+    r->joints[j].parent = j;
+    r->joints[j].origin.rotation[3] = 1;
+    r->joints[j].axis[j] = 1;
+    r->joints[j].low = -1;
+    r->joints[j].high = 1;
+    r->parts[j].body = j ? about->body : peg->body;
+    r->parts[j].pose.rotation[3] = 1;
+  }
+  r->parts[0].link = 3;
+  r->parts[2].pose.position[0] = 0.5f;
+  for (uint32_t n = 0; n < 2; n++) r->pairs[n].b = n + 1;
+  robot_open(r);
+}
+
+// Walls about a box of these sides, open above unless it has a lid.
+static robot_shape walls(double x, double y, double z, int has_lid) {
+  shapes_mesh mesh;
+  memset(&mesh, 0, sizeof mesh);
+  const double wall = 0.01;
+  for (int side = -1; side < 2; side += 2) {
+    shapes_box_at(&mesh, side * (x + wall) / 2, 0, 0, wall, y + 2 * wall, z);
+    shapes_box_at(&mesh, 0, side * (y + wall) / 2, 0, x, wall, z);
+    if (has_lid || side < 0)
+      shapes_box_at(&mesh, 0, 0, side * (z + wall) / 2, x + 2 * wall, y + 2 * wall, wall);
+  }
+  return shape_of(&mesh);
+}
+static void free_shape(robot_shape *shape) {
+  nsvcd_body_free(shape->body, NULL);
+  oracle_mesh_free(&shape->exact);
+  free(shape->points);
+}
+
+// Where nothing is free tries end the search, whatever the nodes are; a start that is as tight as
+// proofs can tell is one; and a way out of a hole is found, along a joint.
+static void robot_routes_out_of_the_narrow(void) {
+  static robot r;
+  shapes_mesh box;
+  asked_route a;
+  memset(&box, 0, sizeof box);
+  memset(&a, 0, sizeof a);
+  shapes_box(&box, 0.05, 0.05, 0.3, 1);
+  robot_shape peg = shape_of(&box);
+  for (int kind = 0; kind < 3; kind++) {
+    // a room; one that leaves 1 mm everywhere; a hole as narrow
+    const double side = kind ? 0.052 : 0.08;
+    robot_shape room = walls(side, side, kind ? 0.302 : 0.35, kind < 2);
+    robot_gantry(&r, &peg, &room);
+    a.goals[0][0] = 0.5;
+    a.options.tries = kind < 2 ? 300 : 20000;
+    nsvcd_check_answer answer;
+    const nsvcd_joint_motion still = {0, 1, a.start, NULL};
+    CHECK_EQ(nsvcd_check(r.checker, &still, NULL, &answer), NSVCD_OK);
+    CHECK_EQ(answer.verdict, NSVCD_FREE);
+    ask_route(&r, &a);
+    CHECK_EQ(a.answer.status, kind < 2 ? NSVCD_ROUTE_LIMIT : NSVCD_ROUTE_FOUND);
+    if (kind < 2) CHECK_EQ(a.answer.checks, 300);
+    for (int k = 0; k <= 200 && kind == 2; k++) {
+      double q[3];
+      nsvcd_motion_at(&a.answer.motion, 3, a.answer.duration * k / 200, q);
+      for (int n = 0; n < 2; n++) {
+        const double x = fabs(q[0] - 0.5 * n);
+        const double y = fabs(q[1]);
+        const int is_within = x <= 0.001 && y <= 0.001 && q[2] >= -0.001;
+        CHECK(is_within || x >= 0.061 || y >= 0.061 || q[2] >= 0.301 || q[2] <= -0.311);
+      }
+    }
+    free(r.memory);
+    free_shape(&room);
+  }
+  free(a.memory);
+  free_shape(&peg);
+}
+
+// Of how many questions it is asked before it ends them; and whether it has.
+typedef struct countdown {
+  int left, is_over;
+} countdown;
+static int count_down(void *user) {
+  countdown *c = (countdown *)user;
+  c->is_over |= --c->left < 0;
+  return c->is_over;
+}
+
+// What is abandoned is not found, and what is found was not abandoned, wherever that comes, in the
+// last proof too; nothing is asked any more. The same of a check and an escape.
+static void robot_routes_are_abandoned(void) {
+  static robot r;
+  shapes_rng rng = {101};
+  asked_route a;
+  nsvcd_check_answer checked;
+  nsvcd_check_options options;
+  nsvcd_escape_options escape;
+  countdown count = {1 << 20, 0};
+  memset(&a, 0, sizeof a);
+  memset(&options, 0, sizeof options);
+  memset(&escape, 0, sizeof escape);
+  robot_arm(&r, &rng, 8);
+  if (!robot_free_place(&r, &rng, 0.001f, a.start)) return;
+  if (!robot_free_place(&r, &rng, 0.001f, a.goals[0])) return;
+  a.problem.abandon = count_down;
+  a.problem.user = &count;
+  ask_route(&r, &a);
+  CHECK_EQ(a.answer.status, NSVCD_ROUTE_FOUND);
+  const int all = (1 << 20) - count.left;
+  size_t found = 0;
+  for (int n = 0; n < 40; n++) {
+    count.left = n < 20 ? all * n / 20 : all - (n - 20);
+    count.is_over = 0;
+    ask_route(&r, &a);
+    CHECK_EQ(a.answer.status, count.is_over ? NSVCD_ROUTE_STOPPED : NSVCD_ROUTE_FOUND);
+    found += a.answer.status == NSVCD_ROUTE_FOUND;
+  }
+  CHECK_GE(40 - found, 20);
+  const nsvcd_joint_motion motion = {1, 1, a.start, NULL};
+  options.stop = escape.stop = count_down;
+  options.user = escape.user = &count;
+  count.left = 0;
+  CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &checked), NSVCD_OK);
+  CHECK_EQ(checked.verdict, NSVCD_UNDECIDED);
+  CHECK_EQ(checked.why, NSVCD_WHY_WORK);
+  CHECK_EQ(checked.sweeps, 0);
+  double out[6];
+  int is_found = 1;
+  // the forearm in the first link
+  memset(a.start, 0, sizeof a.start);
+  a.start[2] = 3.1;
+  CHECK_EQ(nsvcd_escape(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
+  CHECK_EQ(is_found, 0);
+  count.left = 1 << 20;
+  count.is_over = 0;
+  CHECK_EQ(nsvcd_escape(r.checker, a.start, &escape, out, &is_found), NSVCD_OK);
+  CHECK_EQ(is_found, 1);
+  free(a.memory);
+  free(r.memory);
+}
+
 static void robot_routes_refuse(void) {
   static robot r;
   shapes_rng rng = {85};
@@ -935,6 +1080,8 @@ void test_robot(void) {
   RUN(robot_ramps_are_quickest);
   RUN(robot_routes_are_free);
   RUN(robot_routes_end);
+  RUN(robot_routes_out_of_the_narrow);
+  RUN(robot_routes_are_abandoned);
   RUN(robot_routes_refuse);
 }
 CHECK_ALONE(test_robot)

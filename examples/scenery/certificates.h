@@ -10,9 +10,9 @@ static void free_trees(proof_mesh *meshes, size_t count) {
 
 // Makes a certificate; *bytes is to be freed. Returns 0 after a complaint.
 static int make_certificate(const nsvcd_question *question, const proof_mesh *a,
-                            const proof_mesh *b, const nsvcd_answer *answer, uint8_t **bytes,
-                            nsvcd_certificate *made) {
-  const nsvcd_certify_options options = {answer, 0};
+                            const proof_mesh *b, const nsvcd_answer *answer, size_t visits,
+                            uint8_t **bytes, nsvcd_certificate *made) {
+  const nsvcd_certify_options options = {answer, visits};
   const size_t size = nsvcd_certify_workspace_size(question, a->tree, b->tree);
   void *workspace = allocate(size);
   size_t room = 4096;
@@ -33,11 +33,11 @@ static int make_certificate(const nsvcd_question *question, const proof_mesh *a,
 // 0 after a complaint.
 static int write_certificate(const char *folder, const char *id, const nsvcd_question *question,
                              const proof_mesh *a, const proof_mesh *b, const nsvcd_answer *answer,
-                             nsvcd_certificate *made) {
+                             size_t visits, nsvcd_certificate *made) {
   char path[4096];
   uint8_t *bytes;
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
-  int good = make_certificate(question, a, b, answer, &bytes, made);
+  int good = make_certificate(question, a, b, answer, visits, &bytes, made);
   if (good && made->size == 0) remove(path);
   if (good && made->size > 0) {
     FILE *file = open_file(path, "wb");
@@ -48,15 +48,16 @@ static int write_certificate(const char *folder, const char *id, const nsvcd_que
   return good;
 }
 
-// One for each problem that has an answer. Returns 0 after a complaint.
-static int write_certificates(const session *s, const char *folder, float clearance) {
+// One for each problem that has an answer; *made_count: how many. Returns 0 after a complaint.
+static int write_certificates(const session *s, const char *folder, float clearance, size_t visits,
+                              size_t *made_count) {
   const problem_file *file = &s->file;
   proof_mesh *meshes = (proof_mesh *)allocate(file->mesh_count * sizeof *meshes);
-  size_t made_count = 0;
   size_t answered = 0;
   size_t bytes = 0;
   double taken = 0;
   int good = 1;
+  *made_count = 0;
   memset(meshes, 0, file->mesh_count * sizeof *meshes);
   for (size_t i = 0; i < file->mesh_count && good; i++)
     good = load_tree(file->path, file->meshes[i].path, NULL, &meshes[i]);
@@ -68,11 +69,11 @@ static int write_certificates(const session *s, const char *folder, float cleara
     question.clearance = clearance;
     const double start = seconds();
     good = write_certificate(folder, p->id, &question, &meshes[p->moving], &meshes[p->fixed],
-                             answer, &made);
+                             answer, visits, &made);
     taken += seconds() - start;
     if (!good) break;
     answered += answer->verdict != NSVCD_UNDECIDED;
-    made_count += made.size > 0;
+    *made_count += made.size > 0;
     bytes += made.size;
     if (answer->verdict != NSVCD_UNDECIDED && made.verdict != answer->verdict)
       complain("%s:%zu: problem %s: %s, and no certificate of that%s", file->path, p->line, p->id,
@@ -80,7 +81,7 @@ static int write_certificates(const session *s, const char *folder, float cleara
   }
   if (good)
     fprintf(stderr, "certificates: %zu, of %zu answers; %.0f bytes and %.0f us on average\n",
-            made_count, answered, made_count ? (double)bytes / (double)made_count : 0,
+            *made_count, answered, *made_count ? (double)bytes / (double)*made_count : 0,
             file->problem_count ? 1e6 * taken / (double)file->problem_count : 0);
   free_trees(meshes, file->mesh_count);
   return good;
@@ -116,12 +117,14 @@ static int write_problem(const char *path, const char *id, const char *const *me
   return close_written(out, path);
 }
 
-// Writes OUT.txt and OUT.cert, of what that file says. Returns 0 after a complaint.
+// Writes OUT.txt and OUT.cert, of what that file says. Returns 0 after a complaint, also if there can
+// be no certificate.
 static int write_proof(const char *path, const char *const *meshes, const float *scales,
-                       const nsvcd_pose *poses, size_t count, float clearance,
+                       const nsvcd_pose *poses, size_t count, float clearance, size_t visits,
                        const nsvcd_answer *answer) {
   char folder[4096], id[256], problem_path[4096];
   const char *name = file_name(path);
+  size_t made;
   session s;
   outcome outcome_of;
   memset(&s, 0, sizeof s);
@@ -134,8 +137,9 @@ static int write_proof(const char *path, const char *const *meshes, const float 
   snprintf(problem_path, sizeof problem_path, "%.*stxt", (int)strlen(path) - 4, path);
   const int good = write_problem(problem_path, id, meshes, scales, poses, count) &&
                    read_problems(problem_path, &s.file) &&
-                   write_certificates(&s, folder, clearance);
+                   write_certificates(&s, folder, clearance, visits, &made);
   free_problems(&s.file);
+  if (good && !made) return complain("%s: not written: no certificate could be made", path);
   return good;
 }
 
@@ -150,65 +154,89 @@ static void put_double(FILE *out, double value) {
   put_bytes(out, bits, 8);
 }
 
+// The tree of a part's mesh, made once for all plans of the file. Returns NULL after a complaint.
+static const proof_mesh *tree_of_part(const robot_in_room *in, size_t part) {
+  robot_mesh *mesh = &in->file->meshes[robot_thing_of(in, part)->mesh];
+  const int good =
+      mesh->proof.tree || load_tree(in->file->path, mesh->path, mesh->scale, &mesh->proof);
+  return good ? &mesh->proof : NULL;
+}
+
+// Makes the certificate of a pair; *bytes is to be freed. Returns 0 after a complaint, also if there
+// can be none.
+static int make_pair_proof(const robot_in_room *in, const char *id,
+                           const nsvcd_joint_motion *motion, size_t pair, float clearance,
+                           size_t visits, uint8_t **bytes, nsvcd_certificate *made) {
+  const nsvcd_certify_options options = {NULL, visits};
+  const nsvcd_body_pair *parts = &in->scene.pairs[pair];
+  const proof_mesh *a = tree_of_part(in, parts->a);
+  const proof_mesh *b = a ? tree_of_part(in, parts->b) : NULL;
+  if (!b) return 0;
+  const size_t size = nsvcd_certify_pair_workspace_size(motion, a->tree, b->tree);
+  void *workspace = allocate(size);
+  size_t room = 1 << 16;
+  nsvcd_result result;
+  made->size = 0;
+  do {
+    if (made->size > room) room = made->size;
+    free(*bytes);
+    *bytes = (uint8_t *)allocate(room);
+    result = nsvcd_certify_pair(in->checker, motion, pair, clearance, a->tree, b->tree, &options,
+                                workspace, size, *bytes, room, made);
+  } while (!result && made->size > room);
+  free(workspace);
+  if (result) return complain("%s: %s", id, reason_of(result));
+  if (made->verdict == NSVCD_FREE) return 1;
+  return complain("%s: no certificate for %s and %s: %s%s", id, robot_name(in, parts->a),
+                  robot_name(in, parts->b), nsvcd_verdict_string(made->verdict),
+                  made->why == NSVCD_WHY_WORK       ? ", for want of --visits"
+                  : made->why == NSVCD_WHY_TOO_NEAR ? ", they come too near each other"
+                                                    : "");
+}
+
 // Writes FOLDER/ID.cert: the motion, and a certificate for each pair of the scene, as
-// examples/FORMATS.md has it. No file where one cannot be had. Returns 0 after a complaint.
+// examples/FORMATS.md has it. motion: NULL: there is none. Where there can be no certificate a file
+// that is there goes. Returns 0 after a complaint, also then.
 static int write_motion_proof(const robot_in_room *in, const char *folder, const char *id,
-                              const nsvcd_joint_motion *motion, float clearance) {
-  const robot_file *file = in->file;
+                              const nsvcd_joint_motion *motion, float clearance, size_t visits) {
   const nsvcd_scene *scene = &in->scene;
-  const size_t numbers = (motion->pieces * motion->degree + 1) * scene->joint_count;
   char path[4096];
-  size_t bytes_of_all = 0;
-  int is_proven = 1;
   const double start = seconds();
   snprintf(path, sizeof path, "%s/%s.cert", folder, id);
+  if (!motion) {
+    remove(path);
+    return complain("%s: not written: no motion is certified", path);
+  }
+  const size_t numbers = (motion->pieces * motion->degree + 1) * scene->joint_count;
   FILE *out = open_file(path, "wb");
-  int good = out ? 1 : complain("%s: %s", path, strerror(errno));
-  // once for all plans of the file
-  for (size_t i = 0; i < file->mesh_count && good; i++) {
-    robot_mesh *mesh = &file->meshes[i];
-    if (!mesh->proof.tree) good = load_tree(file->path, mesh->path, mesh->scale, &mesh->proof);
-  }
-  if (good) {
-    fputs("NSVM", out);
-    put_bytes(out, motion->pieces, 4);
-    put_bytes(out, motion->degree, 4);
-    put_bytes(out, scene->joint_count, 4);
-    for (size_t p = 0; p <= motion->pieces; p++)
-      put_double(out, motion->times ? motion->times[p] : (double)p);
-    for (size_t k = 0; k < numbers; k++) put_double(out, motion->points[k]);
-    put_bytes(out, scene->pair_count, 4);
-  }
-  for (size_t n = 0; n < scene->pair_count && good && is_proven; n++) {
-    const nsvcd_body_pair *pair = &scene->pairs[n];
-    const proof_mesh *a = &file->meshes[robot_thing_of(in, pair->a)->mesh].proof;
-    const proof_mesh *b = &file->meshes[robot_thing_of(in, pair->b)->mesh].proof;
+  if (!out) return complain("%s: %s", path, strerror(errno));
+  fputs("NSVM", out);
+  put_bytes(out, motion->pieces, 4);
+  put_bytes(out, motion->degree, 4);
+  put_bytes(out, scene->joint_count, 4);
+  for (size_t p = 0; p <= motion->pieces; p++)
+    put_double(out, motion->times ? motion->times[p] : (double)p);
+  for (size_t k = 0; k < numbers; k++) put_double(out, motion->points[k]);
+  put_bytes(out, scene->pair_count, 4);
+  int good = 1;
+  for (size_t n = 0; n < scene->pair_count && good; n++) {
     nsvcd_certificate made;
-    const size_t size = nsvcd_certify_pair_workspace_size(motion, a->tree, b->tree);
-    const size_t room = (size_t)1 << 22;
-    void *workspace = allocate(size);
-    uint8_t *bytes = (uint8_t *)allocate(room);
-    const nsvcd_result result =
-        nsvcd_certify_pair(in->checker, motion, n, clearance, a->tree, b->tree, NULL, workspace,
-                           size, bytes, room, &made);
-    if (result) good = complain("%s: %s", id, reason_of(result));
-    is_proven = good && made.verdict == NSVCD_FREE && made.size <= room;
-    if (good && !is_proven)
-      complain("%s: no certificate for %s and %s: %s", id, robot_name(in, pair->a),
-               robot_name(in, pair->b), nsvcd_verdict_string(made.verdict));
-    if (is_proven) {
+    uint8_t *bytes = NULL;
+    good = make_pair_proof(in, id, motion, n, clearance, visits, &bytes, &made);
+    if (good) {
       put_bytes(out, made.size, 4);
       fwrite(bytes, 1, made.size, out);
-      bytes_of_all += made.size;
     }
-    free(workspace);
     free(bytes);
   }
-  if (out) good = close_written(out, path) && good;
-  if (out && (!good || !is_proven)) remove(path);
-  if (good && is_proven)
-    fprintf(stderr, PROGRAM ": %s: certificates of %zu pairs, %zu bytes, in %.0f ms\n", path,
-            scene->pair_count, bytes_of_all, 1e3 * (seconds() - start));
+  const long size = ftell(out);
+  const int is_proven = good;
+  good = close_written(out, path) && good;
+  if (!good) remove(path);
+  if (!is_proven) complain("%s: not written", path);
+  if (good)
+    fprintf(stderr, PROGRAM ": %s: certificates of %zu pairs, %ld bytes, in %.0f ms\n", path,
+            scene->pair_count, size, 1e3 * (seconds() - start));
   return good;
 }
 #endif  // NSVCD_SCENERY_CERTIFICATES_H

@@ -20,6 +20,7 @@ typedef struct robot_mesh {
   double scale[3];
   size_t line;              // where it is named first
   const char *kind, *name;  // "body" or "obstacle", and its name, there
+  int is_needed;
   const nsvcd_body *body;
   proof_mesh proof;  // made where a certificate is written
 } robot_mesh;
@@ -309,13 +310,24 @@ static int read_robot(const char *path, robot_file *file) {
   return 1;
 }
 
-// Loads and encodes all meshes. Returns 0 after a complaint.
-static int encode_robot(robot_file *file, double *taken) {
+// Notes which meshes are needed: those of the robot, and of a room, unless it is NSVCD_NONE.
+static void need_room(robot_file *file, size_t room) {
+  const size_t first = room == NSVCD_NONE ? 0 : file->rooms[room].first;
+  const size_t count = room == NSVCD_NONE ? 0 : file->rooms[room].count;
+  for (size_t n = 0; n < file->body_count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
+  for (size_t n = first; n < first + count; n++) file->meshes[file->things[n].mesh].is_needed = 1;
+}
+
+// Loads and encodes the meshes that are needed. Returns 0 after a complaint.
+static int encode_robot(robot_file *file, size_t *count, double *taken) {
+  *count = 0;
   *taken = 0;
   for (size_t i = 0; i < file->mesh_count; i++) {
     robot_mesh *mesh = &file->meshes[i];
     char from[1024];
     double one;
+    if (!mesh->is_needed) continue;
+    ++*count;
     snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
     mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, NULL, &one);
     if (!mesh->body) return 0;

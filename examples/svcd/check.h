@@ -166,6 +166,7 @@ static int check(settings *options) {
   if (status != DONE) return status;
   session s;
   memset(&s, 0, sizeof s);
+  size_t made;
   int good = read_problems(options->paths[0], &s.file);
   if (good) {
     s.bodies = (encoded *)allocate(s.file.mesh_count * sizeof *s.bodies);
@@ -176,7 +177,8 @@ static int check(settings *options) {
          (!options->details || write_details(&s, options->details)) &&
          print_answers(&s, options->json) &&
          (!options->certificates ||
-          write_certificates(&s, options->certificates, options->sweep.clearance));
+          write_certificates(&s, options->certificates, options->sweep.clearance, options->visits,
+                             &made));
   if (good) print_summary(&s);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);

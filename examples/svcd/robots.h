@@ -59,7 +59,7 @@ static double route_length(const nsvcd_joint_motion *m, size_t joints) {
 // All pairs that are as near as the clearance, and the nearest place that was found to be free, on
 // standard error.
 static void tell_way_out(const robot_in_room *in, const char *from, const double *joints,
-                         float clearance) {
+                         const nsvcd_route_problem *problem, float clearance) {
   nsvcd_gap_options options;
   nsvcd_escape_options escape;
   size_t count = 0;
@@ -71,6 +71,8 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   options.within = clearance > 0 ? clearance : 1e-6f;
   options.deepest = 0.1f;
   escape.clearance = clearance;
+  escape.stop = problem->abandon;
+  escape.user = problem->user;
   if (nsvcd_gaps(in->checker, joints, &options, gaps, in->scene.pair_count, &count)) count = 0;
   for (size_t k = 0; k < count; k++) {
     const nsvcd_gap *gap = &gaps[k];
@@ -97,7 +99,8 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
 
 // What is wrong with a start or a goal, on standard error.
 static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
-                       const double *joints, const nsvcd_check_answer *found, float clearance) {
+                       const double *joints, const nsvcd_check_answer *found,
+                       const nsvcd_route_problem *problem, float clearance) {
   char from[1024];
   snprintf(from, sizeof from, "%s:%zu: %s: %s", in->file->path, task->line, task->id, where);
   if (found->joint != NSVCD_NONE) {
@@ -107,7 +110,7 @@ static void tell_check(const robot_in_room *in, const robot_task *task, const ch
     complain("%s: %s and %s are too near each other to tell", from, robot_name(in, pair->a),
              robot_name(in, pair->b));
   }
-  tell_way_out(in, from, joints, clearance);
+  tell_way_out(in, from, joints, problem, clearance);
 }
 
 static const char *plan_word(const nsvcd_route_answer *answer) {
@@ -119,11 +122,60 @@ static const char *plan_word(const nsvcd_route_answer *answer) {
   return "limit";
 }
 
+// When the search for a motion ends, and when all does; what is left in between is for its proof.
+#define SEARCH_SHARE 0.8
+typedef struct plan_clock {
+  double search_end, end;
+} plan_clock;
+static int search_is_over(void *user) {
+  return seconds() >= ((const plan_clock *)user)->search_end;
+}
+static int time_is_over(void *user) {
+  return seconds() >= ((const plan_clock *)user)->end;
+}
+
+static void print_plan(const robot_in_room *in, const robot_task *task, const settings *options,
+                       const nsvcd_route_answer *answer, double taken) {
+  const int is_found = answer->status == NSVCD_ROUTE_FOUND;
+  const double duration = is_found ? answer->duration : HUGE_VAL;
+  const double length = is_found ? route_length(&answer->motion, in->file->joint_count) : HUGE_VAL;
+  if (options->json) {
+    json_out j = {stdout, 0};
+    json_open(&j, NULL, '{');
+    json_text(&j, "id", task->id);
+    json_text(&j, "status", plan_word(answer));
+    json_digits(&j, "seconds", taken, 6);
+    json_float(&j, "duration", duration);
+    json_float(&j, "length", length);
+    json_end_line(&j);
+  } else if (is_found) {
+    printf("%s\t%s\t%.6f\t%.9g\t%.9g\n", task->id, plan_word(answer), taken, duration, length);
+  } else {
+    printf("%s\t%s\t%.6f\tnan\tnan\n", task->id, plan_word(answer), taken);
+  }
+  // whoever reads along need not wait for the next plan
+  fflush(stdout);
+}
+
+static void write_samples(const robot_task *task, const nsvcd_route_answer *answer, size_t joints,
+                          size_t samples, FILE *out) {
+  for (size_t k = 0; k < samples; k++) {
+    double q[NSVCD_MAX_JOINTS];
+    const double share = (double)k / (double)(samples - 1);
+    nsvcd_motion_at(&answer->motion, joints, answer->duration * share, q);
+    fprintf(out, "%s\t%zu", task->id, k);
+    for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
+    fprintf(out, "\n");
+  }
+  fflush(out);
+}
+
 static int plan_one(const robot_in_room *in, const robot_task *task, const settings *options,
                     FILE *out) {
   nsvcd_route_problem problem;
   nsvcd_route_options asked;
   nsvcd_route_answer answer;
+  plan_clock limits = {0, 0};
   int good = 1;
   const size_t joints = in->file->joint_count;
   memset(&problem, 0, sizeof problem);
@@ -135,44 +187,31 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   asked.clearance = options->sweep.clearance;
   asked.nodes = PLAN_NODES;
   const size_t size = nsvcd_route_size(in->checker, &problem, &asked);
-  void *memory = allocate(size);
   const double began = seconds();
+  if (options->seconds > 0) {
+    problem.stop = search_is_over;
+    problem.abandon = time_is_over;
+    problem.user = &limits;
+    limits.search_end = began + SEARCH_SHARE * (double)options->seconds;
+    limits.end = began + (double)options->seconds;
+  }
+  void *memory = allocate(size);
   const nsvcd_result result = nsvcd_route(in->checker, &problem, &asked, memory, size, &answer);
   const double taken = seconds() - began;
   if (!result) {
     const nsvcd_joint_motion *m = &answer.motion;
     const int is_found = answer.status == NSVCD_ROUTE_FOUND;
-    const double duration = is_found ? answer.duration : HUGE_VAL;
-    const double length = is_found ? route_length(m, joints) : HUGE_VAL;
-    if (options->json) {
-      json_out j = {stdout, 0};
-      json_open(&j, NULL, '{');
-      json_text(&j, "id", task->id);
-      json_text(&j, "status", plan_word(&answer));
-      json_digits(&j, "seconds", taken, 6);
-      json_float(&j, "duration", duration);
-      json_float(&j, "length", length);
-      json_end_line(&j);
-    } else if (is_found) {
-      printf("%s\t%s\t%.6f\t%.9g\t%.9g\n", task->id, plan_word(&answer), taken, duration, length);
-    } else {
-      printf("%s\t%s\t%.6f\tnan\tnan\n", task->id, plan_word(&answer), taken);
-    }
+    print_plan(in, task, options, &answer, taken);
     if (answer.status == NSVCD_ROUTE_START)
-      tell_check(in, task, "the start", problem.start, &answer.check, asked.clearance);
+      tell_check(in, task, "the start", problem.start, &answer.check, &problem, asked.clearance);
     if (answer.status == NSVCD_ROUTE_GOAL)
-      tell_check(in, task, "the goal", problem.goals, &answer.check, asked.clearance);
-    for (size_t k = 0; is_found && k < options->samples; k++) {
-      double q[NSVCD_MAX_JOINTS];
-      nsvcd_motion_at(m, joints, answer.duration * (double)k / (double)(options->samples - 1), q);
-      fprintf(out, "%s\t%zu", task->id, k);
-      for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
-      fprintf(out, "\n");
-    }
+      tell_check(in, task, "the goal", problem.goals, &answer.check, &problem, asked.clearance);
+    if (is_found && out) write_samples(task, &answer, joints, options->samples, out);
     if (is_found && options->picture) good = robot_draw(options->picture, 0, in, task->id, m);
-    if (is_found && options->certificates)
-      good = write_motion_proof(in, options->certificates, task->id, m, asked.clearance);
     if (is_found && options->film) good &= robot_draw(options->film, 1, in, task->id, m);
+    if (options->certificates)
+      good &= write_motion_proof(in, options->certificates, task->id, is_found ? m : NULL,
+                                 asked.clearance, options->visits);
   }
   free(memory);
   if (result) complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
@@ -219,6 +258,7 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
     if (pair) json_text(&j, "b", names[1]);
     json_digits(&j, "microseconds", mean, 4);
     json_end_line(&j);
+    fflush(stdout);
     return 1;
   }
   printf("%s\t%s\t", task->id, nsvcd_verdict_string(answer.verdict));
@@ -227,20 +267,29 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   else
     printf("%zu\t%.9g", edge, answer.share);
   printf("\t%s\t%s\t%.2f\n", names[0], names[1], mean);
+  fflush(stdout);
   return 1;
 }
 
-// Plans, or paths, one after another. A checker is opened where the scene is another one.
+static int is_asked(const robot_task *task, const settings *options, int is_path) {
+  return (task->points > 0) == is_path && is_listed(options->only, task->id);
+}
+
+// Plans, or paths, one after another; what goes wrong with one does not keep the others from being
+// answered. A checker is opened where the scene is another one.
 static int robot_tasks(const robot_file *file, const settings *options, int is_path, FILE *out) {
   robot_in_room in;
   int good = 1;
   memset(&in, 0, sizeof in);
-  for (size_t i = 0; i < file->task_count && good; i++) {
+  for (size_t i = 0; i < file->task_count; i++) {
     const robot_task *task = &file->tasks[i];
-    if ((task->points > 0) != is_path || !is_listed(options->only, task->id)) continue;
+    if (!is_asked(task, options, is_path)) continue;
     // a plan does not depend on those before: a checker remembers what was hit
-    if (!is_path || in.room != &file->rooms[task->room]) good = enter_room(file, task->room, &in);
-    if (good) good = (is_path ? path_one : plan_one)(&in, task, options, out);
+    if ((!is_path || in.room != &file->rooms[task->room]) && !enter_room(file, task->room, &in)) {
+      good = 0;
+      break;
+    }
+    good &= (is_path ? path_one : plan_one)(&in, task, options, out);
   }
   leave_room(&in);
   return good;
@@ -251,13 +300,15 @@ static int pairs(settings *options) {
   robot_file file;
   robot_in_room in;
   nsvcd_pair_counts counts;
+  size_t encoded_count;
   double taken;
   const int status = plan_options(options, "pairs");
   if (status != DONE) return status;
   memset(&in, 0, sizeof in);
   int good = read_robot(options->paths[0], &file);
   if (good && file.body_count == 0) good = complain("%s: no body", file.path);
-  good = good && encode_robot(&file, &taken);
+  if (good) need_room(&file, NSVCD_NONE);
+  good = good && encode_robot(&file, &encoded_count, &taken);
   if (good) {
     const size_t most = file.body_count * file.body_count;
     nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
@@ -296,14 +347,17 @@ static int pairs(settings *options) {
 
 static int robot_command(settings *options, int is_path) {
   robot_file file;
+  size_t encoded_count;
   double taken;
   FILE *out = NULL;
   const int status = plan_options(options, is_path ? "path" : "plan");
   if (status != DONE) return status;
   int good = read_robot(options->paths[0], &file);
-  good = good && encode_robot(&file, &taken);
+  for (size_t i = 0; i < file.task_count && good; i++)
+    if (is_asked(&file.tasks[i], options, is_path)) need_room(&file, file.tasks[i].room);
+  good = good && encode_robot(&file, &encoded_count, &taken);
   if (good)
-    fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", file.mesh_count, 1e3 * taken);
+    fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", encoded_count, 1e3 * taken);
   if (good && (options->picture || options->film) && file.body_count == 0)
     good = complain("%s: no body to draw", file.path);
   if (good && options->joints) {

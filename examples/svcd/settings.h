@@ -23,6 +23,8 @@ struct settings {
   nsvcd_question sweep;  // what is asked, of whatever bodies
   float first[2];        // a share of the motion, or metres; 0: not asked for
   float measure;         // metres
+  float seconds;         // of a plan; 0: as long as it takes
+  size_t visits;         // of certificates; 0: as the library has it
   size_t repeat;         // 0: as the command has it
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates;

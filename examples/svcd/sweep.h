@@ -321,7 +321,7 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   options->answer = job->answer.verdict == NSVCD_UNDECIDED ? 3 : job->answer.verdict == NSVCD_HIT;
   if (options->certificate) {
     if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
-                     options->sweep.clearance, &job->answer))
+                     options->sweep.clearance, options->visits, &job->answer))
       return REFUSED;
     if (!options->json)
       printf("certificate  %s, of the problem in %.*stxt\n", options->certificate,

@@ -66,7 +66,7 @@ typedef struct nsvcd_escape_options {
   double farthest;
   // of the random numbers
   uint64_t seed;
-  // asked before each question about a pair; not 0: nothing more is found. May be NULL
+  // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
   int (*stop)(void *user);
   void *user;
 } nsvcd_escape_options;

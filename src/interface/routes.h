@@ -13,8 +13,8 @@
 typedef enum nsvcd_route_status {
   // the motion is proven free, within the limits, and ends at a goal
   NSVCD_ROUTE_FOUND = 0,
-  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a guess
-  // may be
+  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a
+  // guess may be
   NSVCD_ROUTE_LIMIT,
   // by the caller
   NSVCD_ROUTE_STOPPED,
@@ -52,8 +52,8 @@ typedef struct nsvcd_route_options {
   float clearance;
   // of the trees, at most; 20,000
   size_t nodes;
-  // motions asked about in search of a way, at most, free or not: where nothing is free the trees do
-  // not grow, and nodes alone would never end it; 4 times the nodes
+  // motions asked about in search of a way, at most, free or not: where nothing is free the trees
+  // do not grow, and nodes alone would never end it; 4 times the nodes
   size_t tries;
   // radians or metres that an edge is long, at most; 1
   double edge;

@@ -282,6 +282,7 @@ static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
     double at[NSVCD_MAX_JOINTS];
     double square = 0;
     int is_free;
+    if (o->stop && o->stop(o->user)) return NSVCD_OK;
     for (size_t j = 0; j < joints; j++) {
       at[j] = 2 * nsvcd__random(&random) - 1;
       square += at[j] * at[j];

@@ -109,9 +109,9 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
   return low + (high - low) * nsvcd__random(&r->random);
 }
 
-// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not grown
-// for long, every other time one of its own with one joint moved. The way out of a hole is often
-// along a joint, and no other edge of some length is free there.
+// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not
+// grown for long, every other time one of its own with one joint moved. The way out of a hole is
+// often along a joint, and no other edge of some length is free there.
 static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const size_t joints = r->joints;
   const nsvcd__tree *t = &r->trees[turn % 2];
@@ -333,8 +333,8 @@ NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
   return "not a status";
 }
 
-// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the work
-// is given to that.
+// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the
+// work is given to that.
 static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
                                    int *is_free) {
   const nsvcd_joint_motion motion = {0, 0, out, NULL};
@@ -346,7 +346,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
     if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
     if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
   }
-  // where there is nothing to spare, or to be proven only by more work, all edges from there need it
+  // if it is free only with nothing to spare, or by more work, so are edges from there
   const nsvcd_check_options was = r->check;
   for (size_t n = 0; n < 4; n++) {
     r->check = was;

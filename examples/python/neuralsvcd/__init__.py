@@ -230,19 +230,21 @@ _Part = _struct("nsvcd_part", body=c_void_p, link=c_uint32, pose=_Pose, scale=c_
 _Scene = _struct("nsvcd_scene", joints=c_void_p, joint_count=c_size_t, parts=c_void_p, part_count=c_size_t,
                  pairs=c_void_p, pair_count=c_size_t)
 _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, points=c_void_p, times=c_void_p)
-_CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t)
+_CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
+                        user=c_void_p)
 _CheckAnswer = _struct(
     "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, share=c_double, contact=_Contact,
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
 _Gap = _struct("nsvcd_gap", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
 _GapOptions = _struct("nsvcd_gap_options", within=c_float, to=c_float, deepest=c_float, work=c_size_t)
-_EscapeOptions = _struct("nsvcd_escape_options", clearance=c_float, farthest=c_double, seed=c_uint64)
+_EscapeOptions = _struct("nsvcd_escape_options", clearance=c_float, farthest=c_double, seed=c_uint64, stop=_STOP,
+                         user=c_void_p)
 _PairCounts = _struct("nsvcd_pair_counts", asked=c_size_t, adjacent=c_size_t, touching=c_size_t)
 _RouteProblem = _struct("nsvcd_route_problem", start=c_void_p, goals=c_void_p, goal_count=c_size_t, guess=c_void_p,
-                        guess_count=c_size_t, stop=_STOP, user=c_void_p)
-_RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, edge=c_double,
-                        shortcuts=c_size_t, smoothings=c_size_t)
+                        guess_count=c_size_t, stop=_STOP, abandon=_STOP, user=c_void_p)
+_RouteOptions = _struct("nsvcd_route_options", seed=c_uint64, clearance=c_float, nodes=c_size_t, tries=c_size_t,
+                        edge=c_double, shortcuts=c_size_t, smoothings=c_size_t)
 _RouteAnswer = _struct(
     "nsvcd_route_answer", status=c_int, goal=c_size_t, motion=_JointMotion, stops=c_size_t, duration=c_double,
     unhindered=c_double, check=_CheckAnswer, nodes=c_size_t, checks=c_size_t, proven=c_size_t)
@@ -1648,11 +1650,12 @@ class Robot:
         return _checked(answer)
 
     def route(self, start: ArrayLike, goals: ArrayLike, *, guess: Optional[ArrayLike] = None, clearance: float = 0,
-              seed: int = 0, nodes: int = 0, edge: float = 0, shortcuts: int = 0, smoothings: int = 0,
+              seed: int = 0, nodes: int = 0, tries: int = 0, edge: float = 0, shortcuts: int = 0, smoothings: int = 0,
               stop: Optional[Callable[[], Any]] = None) -> Route:
         """A motion from the start (F) to a goal (F), or one of several (G, F), proven free: nsvcd_route.
 
         guess  (n, F) a way that may be free, its ends left out
+        tries  motions asked about in search of a way, at most; 0: 4 times the nodes
         stop   asked before each proof; something true ends the search
         """
         rows = [_doubles(start, (self.joint_count,), "start"),
@@ -1665,7 +1668,7 @@ class Robot:
         if stop:
             asked = stop
             problem.stop = _STOP(lambda _: _cancels(lambda _: asked(), caught, None, None))
-        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, shortcuts=shortcuts,
+        options = _filled(_RouteOptions, seed=seed, clearance=clearance, nodes=nodes, tries=tries, shortcuts=shortcuts,
                           smoothings=smoothings)
         options.edge = edge
         size = _library.nsvcd_route_size(self._checker, byref(problem), byref(options))
