@@ -201,6 +201,9 @@ robot: ramps beyond the speed|if (fabs(peak) > speed) {|if (fabs(peak) > 2 * spe
 robot: ramps with any acceleration|return fabs(a) <= most;|return 1;
 robot: ramps that are slow|const double side = way >= least ? 1 : -1;|const double side = way >= 0 ? 1 : -1;
 robot: shortcuts that are not proven|if (!is_free) continue;\n    // corners|if (0) continue;\n    // corners
+robot: starts by the work of the search|if (n / 2) r->check.work = 0;|
+robot: a last proof that nobody ends|whole.stop = r->check.stop;|
+robot: trees that stay in their holes|if (r->idle[turn % 2] >= NSVCD__IDLE \&\&|if (0 \&\&
 robot: limits of joints that a route may leave|\&\& r->answer.check.joint == NSVCD_NONE;|;
 robot: whole turns are gone|at[j] -= 6.283185307179586 * turns;|at[j] -= 0 * turns;
 postures: slopes by the lever alone|slope[j] += sign * nsvcd__d3_dot(normal, speed);|slope[j] += sign * nsvcd__d3_length(speed);
@@ -209,22 +212,22 @@ postures: depths of a alone|nsvcd__slope_add(c, both->b, view, point, normal, -1
 postures: depths without a rate|nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, view, on_a, normal, 1, gap->slope);
 postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);|const nsvcd__d3 on_a = point;
 postures: near without the boxes' room|&members[1]->box, 1.000001 * within))|&members[1]->box, 0.5 * within))
-postures: near without within|question.clearance = nsvcd__round_outward(within);|question.clearance = 0;
+postures: near without within|question.clearance = nsvcd__round_outward((double)o->within + off);|question.clearance = 0;
 postures: no depth|gap->depth = nsvcd__round_outward(high * length);|
 postures: a depth of half|gap->depth = nsvcd__round_outward(high * length);|gap->depth = 0.5f * nsvcd__round_outward(high * length);
 postures: a depth of all the lift|*(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
 postures: brackets without rounding|gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);|gap->distance.high = found.distance.high;
 postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
-postures: escapes without the clearance|options.clearance = clearance; const nsvcd_result result = nsvcd_check(c, &still,|options.clearance = 0; const nsvcd_result result = nsvcd_check(c, &still,
-postures: escapes to anywhere|ring * farthest;|2 * ring * farthest;
+postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
+postures: escapes to anywhere|ring * o->farthest;|2 * ring * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
 postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? farthest : ring
 postures: what touches once touches always|*in_all = !result && found.verdict == NSVCD_HIT;|*in_all = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b
 postures: never touching|pairs[in_all ? total - ++found.touching : found.asked++] = pair;|pairs[found.asked++] = pair;
-postures: handed over unturned|nsvcd__dquat_inverse_mul(to->turn, at.turn),|at.turn,
-postures: handed over from the world|nsvcd__dquat_rotate(back, nsvcd__d3_sub(at.place, to->place))};|nsvcd__dquat_rotate(back, at.place)};
+postures: handed over unturned|const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),|const nsvcd__frame out = {frame->turn,
+postures: handed over from the world|const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);|const nsvcd__d3 way = frame->place;
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
 verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
 verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > least)) return 0;

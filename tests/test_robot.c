@@ -947,7 +947,7 @@ static void robot_routes_out_of_the_narrow(void) {
     ask_route(&r, &a);
     CHECK_EQ(a.answer.status, kind < 2 ? NSVCD_ROUTE_LIMIT : NSVCD_ROUTE_FOUND);
     if (kind < 2) CHECK_EQ(a.answer.checks, 300);
-    for (int k = 0; k <= 200 && kind == 2; k++) {
+    for (int k = 0; k <= 200 && a.answer.status == NSVCD_ROUTE_FOUND; k++) {
       double q[3];
       nsvcd_motion_at(&a.answer.motion, 3, a.answer.duration * k / 200, q);
       for (int n = 0; n < 2; n++) {
