@@ -637,7 +637,7 @@ wait $! 2>"$dir/none"
 expect 2 'not a number in' build/svcd plan "$dir/rooms.txt" --seconds 0
 for command in plan path pairs; do json $command "$dir/robot.txt"; done
 robot_refused() {  # TEXT LINE: a planning file that ends in this line is refused with this text, and its line is named
-  { cat "$dir/arm.txt"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
+  { cat "$dir/arm.txt"; echo "plan p shelf 0 0 0 0 0 0 0 0 0 0 0 0"; printf '%b\n' "$2"; } >"$dir/bad_robot.txt"
   expect 1 "bad_robot.txt:$(wc -l <"$dir/bad_robot.txt"): $1" build/svcd plan "$dir/bad_robot.txt"
 }
 robot_refused "no scene of this name" 'plan x nowhere 0 0 0 0 0 0 0 0 0 0 0 0'
