@@ -165,6 +165,7 @@
 //     faces           faces of any number of corners
 //     obj             Wavefront OBJ
 //     stl             STL, binary and text
+//     files           either, of a map or in millimetres
 //   patches: a mesh in parts
 //     samples         points of the surface, in equal share
 //     clusters        farthest point sampling, then Lloyd's algorithm
@@ -351,13 +352,23 @@ extern "C" {
 
 typedef enum nsvcd_result {
   NSVCD_OK = 0,
-  // NULL where it is not allowed, or an option out of its range
+  // NULL where it is not allowed
   NSVCD_ERROR_ARGUMENT,
   // the file is missing or cannot be read
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // OBJ: a line that cannot be understood, or a face of one or two vertices
+  // the memory given is NULL, too small, or not aligned to NSVCD_ALIGNMENT bytes
+  NSVCD_ERROR_WORKSPACE,
+  // by the caller's progress function
+  NSVCD_ERROR_CANCELLED,
+  // a count is 0, or larger than the library takes: of joints, parts, goals or what a guess has
+  NSVCD_ERROR_COUNT,
+
+  // ---- files and meshes
+  // the file is of another format, or, of what is binary, cut short
+  NSVCD_ERROR_FORMAT,
+  // a line that cannot be understood, or a face of one or two vertices
   NSVCD_ERROR_SYNTAX,
   // an index that is zero, or refers to no vertex
   NSVCD_ERROR_INDEX,
@@ -367,27 +378,109 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_EMPTY,
   // more vertices, triangles or bytes than can be counted
   NSVCD_ERROR_TOO_LARGE,
-  // a pose is not finite, or its quaternion is not of unit length to 1e-4
+  // sizes of faces: fewer than three, or in all not corner_count
+  NSVCD_ERROR_SIZES,
+  // low or high is not finite, or low is not less than high
+  NSVCD_ERROR_BOX,
+  // more patches than NSVCD_MAX_PATCHES, or a patch_radius that is negative or not finite
+  NSVCD_ERROR_PATCHES,
+  // a radius, `round` or `half` is not positive where it must be, not finite, or beyond
+  // NSVCD_MAX_COORDINATE
+  NSVCD_ERROR_RADIUS,
+
+  // ---- bodies
+  // what is passed as a body is none, is damaged, cut short or misaligned
+  NSVCD_ERROR_BODY,
+  // a body of another version, model or byte order
+  NSVCD_ERROR_VERSION,
+  // a body without triangles, which a proof needs
+  NSVCD_ERROR_TRIANGLES,
+  // a body without latents, which the network needs; or they were asked for where there are none:
+  // without the network, or of what is round
+  NSVCD_ERROR_LATENTS,
+
+  // ---- questions
+  // poses that are NULL have a count of 0, others one of 1 to NSVCD_MAX_POSES
+  NSVCD_ERROR_POSES,
+  // times that do not rise, or, of poses, not from 0 to 1
+  NSVCD_ERROR_TIMES,
+  // a pose's position is not finite, or beyond NSVCD_MAX_COORDINATE
   NSVCD_ERROR_POSE,
-  // a scale is not finite, negative or out of range, or the body becomes larger or smaller than
-  // a body may be
+  // a quaternion's length is not 1, to NSVCD_UNIT_TOLERANCE
+  NSVCD_ERROR_QUATERNION,
+  // a scale is not finite, negative or out of range, or makes a body too small or too large
   NSVCD_ERROR_SCALE,
-  // a tolerance, a clearance or the like is negative, not finite, or beyond the scene
-  NSVCD_ERROR_TOLERANCE,
   // both sides of a question are the same body in the same motion: something was passed twice
   NSVCD_ERROR_SAME,
-  // a blob is damaged, cut short, misaligned, or of another version, model or byte order; or a body
-  // lacks what the method needs
-  NSVCD_ERROR_BODY,
-  // the memory given is too small, or not aligned to NSVCD_ALIGNMENT bytes
-  NSVCD_ERROR_WORKSPACE,
-  // by the caller's progress function
-  NSVCD_ERROR_CANCELLED,
+  // `ask` is none of its values
+  NSVCD_ERROR_ASK,
+  // `method` is none of its values, or cannot answer this: the network knows no FIRST, to,
+  // clearance or skin, and no proof has a gradient
+  NSVCD_ERROR_METHOD,
+  // `to` is negative, not finite, too large, or set where HIT is asked
+  NSVCD_ERROR_TO,
+  // `to_time` is not in [0,1], or set where FIRST is not asked
+  NSVCD_ERROR_TO_TIME,
+  // `clearance` is negative, not finite or too large
+  NSVCD_ERROR_CLEARANCE,
+  // `skin` is negative, not finite or too large, or set for a certificate
+  NSVCD_ERROR_SKIN,
+  // `tolerance` is negative, not finite or too large
+  NSVCD_ERROR_TOLERANCE,
+  // `manifold` is set where FIRST is not asked
+  NSVCD_ERROR_MANIFOLD,
+  // `segments` is not a multiple of 16 up to 64
+  NSVCD_ERROR_SEGMENTS,
+  // `network.pairs` is more than NSVCD_MAX_PAIRS
+  NSVCD_ERROR_PAIRS,
+  // `network.model` is none of its values, or not compiled in
+  NSVCD_ERROR_MODEL,
+  // `network.precision` is none of its values, or not compiled in
+  NSVCD_ERROR_PRECISION,
+  // `network.recall` is none of those there are
+  NSVCD_ERROR_RECALL,
+  // `network.swell` is negative or not finite
+  NSVCD_ERROR_SWELL,
+
+  // ---- joints
+  // a joint's kind is none of its values, or its parent does not come before it
+  NSVCD_ERROR_JOINT,
+  // a joint's axis has no length, or is not finite
+  NSVCD_ERROR_AXIS,
+  // a joint's limits are not finite or too large, or low is above high
+  NSVCD_ERROR_LIMITS,
+  // a joint's speed or acceleration is negative, not finite or too large
+  NSVCD_ERROR_SPEED,
+  // a part's link is no joint of the scene
+  NSVCD_ERROR_LINK,
+  // a pair that is not there, or that names a part that is not there, or two that never move apart
+  NSVCD_ERROR_PAIR,
+  // a joint's value is not finite or too large: in a start, a goal, a motion's points
+  NSVCD_ERROR_VALUE,
+  // `degree` is not 1 to NSVCD_MAX_DEGREE, or pieces are more than can be counted
+  NSVCD_ERROR_DEGREE,
+  // a motion whose joints turn too far in a piece to be certified
+  NSVCD_ERROR_TURN,
+  // `finest` is negative or not finite
+  NSVCD_ERROR_FINEST,
+  // `within` or `deepest` is negative, not finite or too large
+  NSVCD_ERROR_WITHIN,
+  // `farthest` is negative, not finite or too large
+  NSVCD_ERROR_FARTHEST,
+  // `nodes` or `shortcuts` is too large, or `edge` negative
+  NSVCD_ERROR_ROUTE,
+  // a planner's stage is out of range
+  NSVCD_ERROR_STAGE,
+  // a planner's weight, duration or margin is not finite, or its seeds or checks are too many
+  NSVCD_ERROR_PLAN,
+
+  // ---- this build
   // the compiler, or its flags, made a program that reckons wrongly
   NSVCD_ERROR_BUILD
 } nsvcd_result;
 
-// What a result says, for a person: a sentence without a full stop, never NULL.
+// What a result says, for a person: a sentence without a full stop, never NULL. It names the field
+// at fault, as it is called here.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
 // Does this build reckon rightly, on this processor? Certificates of one that does not are false.
@@ -421,8 +514,10 @@ typedef struct nsvcd_mesh {
 
 #ifndef NSVCD_NO_OBJ
 // Reads OBJ text into a mesh. Only lines v and f matter; they end in LF, CR or CR LF. Corners of a
-// face are v, v/vt, v//vn or v/vt/vn, and may refer to vertices further down. Faces of any number
-// of corners are cut into triangles, concave ones too.
+// face are v, v/vt, v//vn or v/vt/vn, what follows a slash may be missing, and they may refer to
+// vertices further down. Faces of any number of corners are cut into triangles, concave ones too: a
+// face of n corners into n - 2, whatever its shape, and so triangles are numbered as faces follow
+// each other. What follows x y z (a weight, a colour) is skipped, NaNs too.
 //   text       (size) characters, not NULL; they need not end in a NUL or a newline
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
@@ -430,7 +525,8 @@ typedef struct nsvcd_mesh {
 //   allocates  the mesh, and working memory that is given back; time is linear in size, but for
 //              concave faces of thousands of corners: of n corners, n^1.5 in the worst shapes that
 //              tests/test_mesh.c tries
-//   errors     ARGUMENT, MEMORY, SYNTAX, INDEX, NUMBER, EMPTY, TOO_LARGE. Of several faults the
+//   errors     ARGUMENT, MEMORY, FORMAT (no line is one of OBJ's), SYNTAX, INDEX, NUMBER (of
+//              what becomes of it: a coordinate in metres), EMPTY, TOO_LARGE. Of several faults the
 //              one that is found first: statements and counts come before vertices, these before
 //              faces
 //   source     Wavefront, "Object Files", version 3.0; ear clipping after Meisters 1975
@@ -450,7 +546,8 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 //   data       (size) bytes, not NULL
 //   allocator, mesh, error_line  as above; of what is binary no line is at fault
 //   allocates  the mesh, with room for three vertices a triangle, and working memory
-//   errors     ARGUMENT, MEMORY, SYNTAX, NUMBER, EMPTY, TOO_LARGE
+//   errors     ARGUMENT, MEMORY, FORMAT (neither text that begins with "solid", nor as long
+//              as its count of triangles says), SYNTAX, NUMBER, EMPTY, TOO_LARGE
 //   source     3D Systems, "StereoLithography Interface Specification", 1989
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
@@ -459,6 +556,40 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
 // nsvcd_stl_parse on what a file holds.
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line);
+#endif
+
+typedef enum nsvcd_mesh_format {
+  // STL where it begins with "solid", or has the size that its count of triangles says; else OBJ
+  NSVCD_MESH_ANY = 0,
+  NSVCD_MESH_OBJ,
+  NSVCD_MESH_STL
+} nsvcd_mesh_format;
+
+// How the numbers of a file become metres, in double, before they are rounded to float and held
+// against NSVCD_MAX_COORDINATE. What is zero is the default.
+typedef struct nsvcd_mesh_options {
+  nsvcd_mesh_format format;
+  // in the file's units: this place becomes the mesh's origin. Of a map, whose coordinates are
+  // millions, a place near what is asked about: floats near 5,400,000 are half a metre apart
+  double origin[3];
+  // then to metres: 0.001 of millimetres; 0: 1
+  double scale;
+} nsvcd_mesh_options;
+
+// Reads OBJ or STL into a mesh: nsvcd_obj_parse or nsvcd_stl_parse, with options.
+//   data       (size) bytes, not NULL
+//   options    NULL: by what it is, and the numbers are metres
+//   allocator, mesh, error_line  as above
+//   errors     those of both, SCALE, and NUMBER for an origin that is not finite
+NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
+                                       const nsvcd_mesh_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                       size_t *error_line);
+#ifndef NSVCD_NO_STDIO
+// nsvcd_mesh_parse on what a file holds.
+NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line);
 #endif
 
 // Faces of any number of corners: what readers of other formats, and engines, have.
@@ -479,8 +610,7 @@ typedef struct nsvcd_faces {
 //   allocator  NULL: malloc and free
 //   mesh       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   allocates  the mesh, and working memory that is given back; time as of nsvcd_obj_parse
-//   errors     ARGUMENT (also sizes that are not those of the corners), INDEX, NUMBER, EMPTY,
-//              TOO_LARGE, MEMORY
+//   errors     ARGUMENT, SIZES, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
                                           const nsvcd_allocator *allocator, nsvcd_mesh *mesh);
 #endif
@@ -494,7 +624,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
 //   allocator  NULL: malloc and free
 //   part       not NULL; nsvcd_mesh_free gives it back; left as it was on failure
 //   allocates  the part
-//   errors     ARGUMENT, EMPTY (nothing of it is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
+//   errors     ARGUMENT, BOX, EMPTY (nothing of it is in the box), INDEX, NUMBER, TOO_LARGE, MEMORY
 //   source     Sutherland and Hodgman 1974
 NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
                                      const float high[3], const nsvcd_allocator *allocator,
@@ -512,7 +642,8 @@ NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator
 // memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
 // byte order of the machine that encoded it, and refused by one of the other order: it begins with
 // "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
-// its size. Threads may share it.
+// its size. Threads may share it. Whatever takes one looks at its first bytes, and says BODY or
+// VERSION of what is none; it trusts the rest.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -590,7 +721,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //              from the allocator, and nsvcd_body_free gives it back
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  working memory, which is given back, and the body where memory is NULL
-//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
+//   errors     ARGUMENT, PATCHES, RADIUS (`round`), LATENTS, INDEX, NUMBER, EMPTY, TOO_LARGE,
+//              MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
@@ -612,7 +744,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 //   body            not NULL; set to the body, about the origin or where its ends and points are;
 //                   left as it was on failure; nsvcd_body_free gives it back
 //   allocates       the body, and working memory, which is given back
-//   errors          ARGUMENT, NUMBER, EMPTY, TOO_LARGE, MEMORY
+//   errors          ARGUMENT, RADIUS, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
                                           const nsvcd_body **body);
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
@@ -626,7 +758,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_body **body);
 #endif
 // Gives back a body that nsvcd_encode allocated.
-//   body       may be NULL
+//   body       may be NULL; what does not begin as a body does is left alone
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
@@ -635,7 +767,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 //   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL), BODY (anything is wrong with it)
+//   errors     ARGUMENT (NULL), VERSION (it is a body, but of another version, other weights or the
+//              other byte order), BODY (anything else is wrong with it)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
                                       const nsvcd_body **body);
 
@@ -655,8 +788,9 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
-//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
+//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy were smaller or larger than a body
+//              may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: it has some, which that
+//              cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -682,8 +816,8 @@ typedef struct nsvcd_body_facts {
   int latents;
 } nsvcd_body_facts;
 
-// What a body is.
-//   body       not NULL
+// What a body is; all 0 where it is none.
+//   body       may be NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
 // The sphere of one patch. Returns 1, or, if there is no such patch or no body, 0: then nothing is
@@ -700,9 +834,11 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
 // Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
-  // unit quaternion x y z w
+  // unit quaternion x y z w, its length 1 to NSVCD_UNIT_TOLERANCE
   float rotation[4];
 } nsvcd_pose;
+
+#define NSVCD_UNIT_TOLERANCE 1e-4f
 
 // What is asked of two bodies that move.
 typedef enum nsvcd_ask {
@@ -964,8 +1100,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with its own workspace; they may share bodies
-//   errors     ARGUMENT, POSE, SCALE, TOLERANCE, SAME, WORKSPACE, and BODY where a body lacks what
-//              the method needs
+//   errors     ARGUMENT, WORKSPACE, BODY and VERSION (by a body's first bytes), SAME, TRIANGLES or
+//              LATENTS where a body lacks what the method needs, and of the question the code of
+//              the field at fault: POSES, TIMES, POSE, QUATERNION, SCALE; ASK, METHOD, TO,
+//              TO_TIME, CLEARANCE, SKIN, TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION,
+//              RECALL, SWELL
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
@@ -1113,7 +1252,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
 //   made       not NULL
 //   allocates  nothing
-//   errors     ARGUMENT (also if there is a skin), SCALE, POSE, TOLERANCE, WORKSPACE
+//   errors     ARGUMENT, SKIN (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
+//              WORKSPACE
 //   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
@@ -1253,9 +1393,9 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   checker    not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with a checker of its own
-//   errors     ARGUMENT (NULL, counts, an axis of no length, limits that cross, a joint on a link
-//              that comes after it, a pair of what never moves apart), NUMBER (not finite), POSE,
-//              SCALE, BODY (without triangles), WORKSPACE
+//   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
+//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (or of what never
+//              moves apart), WORKSPACE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -1272,7 +1412,8 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   options    NULL: the defaults
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER (points not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
+//              CLEARANCE, FINEST
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
@@ -1297,8 +1438,8 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   pair       of the scene's pairs
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, and ARGUMENT for a motion whose joints turn
-//              by more than 1,000 or, in the whole motion's time, 100,000
+//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
+//              turn by more than 1,000 or, in the whole motion's time, 100,000
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,
@@ -1361,7 +1502,7 @@ typedef struct nsvcd_gap_options {
 //              written
 //   allocates  nothing
 //   threads    each with a checker of its own, as all of this page
-//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE;
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
@@ -1392,7 +1533,7 @@ typedef struct nsvcd_escape_options {
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER, TOLERANCE; POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_gaps
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
                                    const nsvcd_escape_options *options, double *out,
@@ -1434,7 +1575,8 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //   link       the new one; 0: the world
 //   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
 //              off: 1e-7 of its distance from the link
-//   errors     ARGUMENT, NUMBER, POSE (farther than NSVCD_MAX_COORDINATE from the link)
+//   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
+//              from the link)
 NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
                                       size_t part, uint32_t link, nsvcd_part *out);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
@@ -1533,8 +1675,9 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              to NSVCD_ALIGNMENT; the motion is in it
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL, counts), NUMBER (a configuration not finite or beyond
-//              NSVCD_MAX_COORDINATE), TOLERANCE, WORKSPACE
+//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
+//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
+//              WORKSPACE
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
 //              Ng-Thow-Hing 2010); with proofs in place of samples: this library
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
@@ -1731,9 +1874,10 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with its own workspace; they may share bodies
-//   errors     ARGUMENT (NULL, sizes, options, a lower limit above the upper one), NUMBER (limits,
-//              start or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of
-//              float), POSE (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
+//   errors     ARGUMENT (NULL), COUNT, PAIR, BODY, VERSION, STAGE, PLAN (of the options), LIMITS
+//              (low above high), VALUE (limits, start or goal not finite or beyond
+//              NSVCD_MAX_COORDINATE), NUMBER (a cost beyond the range of float), POSE and
+//              QUATERNION (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
 //   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
 //              NeuralSVCD, appendix D
 //
@@ -1846,23 +1990,71 @@ static const char *nsvcd__text_of(const char *texts, size_t n) {
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
   return nsvcd__text_of(
       "ok\0"
-      "an argument is NULL or out of its range\0"
+      "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
       "the file is missing or cannot be read\0"
       "out of memory\0"
+      "the memory given is NULL, too small or misaligned\0"
+      "cancelled\0"
+      "joint_count, part_count, body_count, goal_count or guess_count is 0, or larger "
+      "than the library takes\0"
+      "the file is of another format than is read here, or is cut short\0"
       "a line cannot be understood, or a face has fewer than three corners\0"
       "an index is zero or refers to no vertex\0"
       "a coordinate is not finite, or beyond a million metres\0"
       "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
       "more vertices, triangles or bytes than can be counted\0"
-      "a pose is not finite, or its quaternion is not of unit length\0"
-      "a scale is not finite, negative or out of range, or makes a body too small or too "
+      "sizes: a face has fewer than three corners, or all together not corner_count\0"
+      "low or high is not finite, or low is not less than high on each axis\0"
+      "patches is more than 65536, or patch_radius is negative or not finite\0"
+      "radius, round or half is negative, zero where it must not be, not finite or too "
       "large\0"
-      "a tolerance or a clearance is negative, not finite or beyond the scene\0"
+      "this is not a body: its first bytes are others, or it is damaged, cut short or "
+      "misaligned\0"
+      "the body is of another version, model or byte order: encode the mesh again\0"
+      "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
+      "a body holds no latents, which the network needs: encode it with latents, and "
+      "without round\0"
+      "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
+      "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
+      "the position of a pose is not finite, or beyond a million metres\0"
+      "a quaternion (x y z w) is not of unit length, to 1e-4\0"
+      "a scale is not finite, negative or out of range, or makes a body too small or "
+      "too large\0"
       "both sides are the same body in the same motion\0"
-      "the body is damaged, cut short, misaligned, of another version, model or byte "
-      "order, or lacks what the method needs\0"
-      "the memory given is too small or misaligned\0"
-      "cancelled\0"
+      "ask is none of its values\0"
+      "method is none of its values, or cannot answer this: the network knows no FIRST, "
+      "to, clearance or skin, and no proof has a gradient\0"
+      "to is negative, not finite or beyond a million metres, or set where HIT is "
+      "asked, which has no use for it\0"
+      "to_time is not in 0 to 1, or set where FIRST is not asked\0"
+      "clearance is negative, not finite or too large\0"
+      "skin is negative, not finite or too large, or set for a certificate, which knows "
+      "none\0"
+      "tolerance is negative, not finite or beyond a million metres\0"
+      "manifold is set where FIRST is not asked\0"
+      "segments is not a multiple of 16 up to 64\0"
+      "network.pairs is more than 256\0"
+      "network.model is none of its values, or not compiled in\0"
+      "network.precision is none of its values, or not compiled in\0"
+      "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
+      "network.swell is negative or not finite\0"
+      "a joint's kind is none of its values, or its parent does not come before it\0"
+      "a joint's axis has no length, or is not finite\0"
+      "a joint's limits are not finite or too large, or low is above high\0"
+      "a joint's speed or acceleration is negative, not finite or too large\0"
+      "a link is no joint of the scene\0"
+      "a pair is not there, or names a part that is not there, or two of one link\0"
+      "a joint's value (start, goal, guess, points) is not finite or too large\0"
+      "degree is not 1 to 5, or pieces are more than can be counted\0"
+      "joints turn too far in a piece of the motion to be certified\0"
+      "finest is negative or not finite\0"
+      "within or deepest is negative, not finite or too large\0"
+      "farthest is negative, not finite or too large\0"
+      "nodes or shortcuts is too large, or edge is negative or no number\0"
+      "explore or refine: via_points, segments, iterations, draws or noise is out of "
+      "range\0"
+      "velocity, acceleration, jerk, collision, duration or margin is not finite, or "
+      "seeds or check too large\0"
       "this build reckons wrongly: see the compiler, and its flags\0"
       "unknown result\0",
       (size_t)result);
@@ -2602,7 +2794,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
     const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
-    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_ARGUMENT;
+    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_BOX;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;
@@ -2938,12 +3130,12 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangl
   *most = 0;
   for (size_t f = 0; f < faces->face_count; f++) {
     const uint32_t size = faces->sizes ? faces->sizes[f] : 3;
-    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_ARGUMENT;
+    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_SIZES;
     corners += size;
     *triangles += size - 2;
     if (size > *most) *most = size;
   }
-  if (corners != faces->corner_count) return NSVCD_ERROR_ARGUMENT;
+  if (corners != faces->corner_count) return NSVCD_ERROR_SIZES;
   if (faces->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < corners; i++) {
@@ -3000,8 +3192,33 @@ NSVCDDEF nsvcd_result nsvcd_mesh_of_faces(const nsvcd_faces *faces,
 // one, f1 is a mistake.
 
 #ifndef NSVCD_NO_OBJ
+// Options with their defaults filled in; what a file's reader is given.
+static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
+                                           nsvcd_mesh_options *out) {
+  memset(out, 0, sizeof *out);
+  if (given) *out = *given;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(fabs(out->origin[k]) < HUGE_VAL)) return NSVCD_ERROR_NUMBER;
+  }
+  if (!(out->scale >= 0 && out->scale < HUGE_VAL)) return NSVCD_ERROR_SCALE;
+  if (!(out->scale > 0)) out->scale = 1;
+  return NSVCD_OK;
+}
+
+// A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
+static nsvcd_result nsvcd__mesh_coordinate(const nsvcd_mesh_options *options, size_t axis,
+                                           double value, float *out) {
+  const double metres = (value - options->origin[axis]) * options->scale;
+  if (!(fabs(metres) <= (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  *out = (float)metres;
+  return NSVCD_OK;
+}
+
 typedef struct nsvcd__obj {
   const char *at, *end;
+  // the first token of the statement; NULL: there is none
+  const char *word;
+  nsvcd_mesh_options options;
   size_t line;  // of `at`, from 1; 0: before the first
   // v statements so far
   uint32_t vertices;
@@ -3077,8 +3294,10 @@ static int nsvcd__obj_next(nsvcd__obj *obj) {
     obj->at += nsvcd__obj_newline(obj->at, obj->end);
   }
   obj->line++;
+  obj->word = NULL;
   if (!nsvcd__obj_has_token(obj)) return obj->at == obj->end ? 0 : '#';
   const char *start = obj->at;
+  obj->word = start;
   nsvcd__obj_skip_token(obj);
   if (obj->at - start == 1 && (*start == 'v' || *start == 'f')) return *start;
   for (const char *p = start; p < obj->at; p++) {
@@ -3109,13 +3328,10 @@ static int nsvcd__obj_minus(nsvcd__obj *obj) {
 }
 
 // A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
-// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
-// hold it.
+// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER where it is an
+// infinity or not a number, as printf has them (nan, -nan(ind), inf, 1.#QNAN).
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
-  // FLT_MAX
-  const double greatest = 3.4028234663852886e38;
   const int negative = nsvcd__obj_minus(obj);
-  // nan, inf
   if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
   // digits and a point: mantissa * 10^exponent
   uint64_t mantissa = 0;
@@ -3131,6 +3347,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
     exponent += !fits - point;
   }
   if (!digits) return NSVCD_ERROR_SYNTAX;
+  if (obj->at[-1] == '.' && nsvcd__obj_accept(obj, '#')) return NSVCD_ERROR_NUMBER;
   if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
     const int minus = nsvcd__obj_minus(obj);
     int64_t written;
@@ -3142,13 +3359,13 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   if (exponent > 400) return NSVCD_ERROR_NUMBER;
   const int power = exponent < -400 ? -400 : (int)exponent;
   const double magnitude = nsvcd__obj_scale(mantissa, power);
-  if (magnitude > greatest) return NSVCD_ERROR_NUMBER;
   *value = negative ? -magnitude : magnitude;
   return NSVCD_OK;
 }
 
 // One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
-// against a range. vertex_count: of the file.
+// against a range, and may be missing: some write v// where there are neither. vertex_count: of the
+// file.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
                                       uint32_t *vertex) {
   const int negative = nsvcd__obj_accept(obj, '-');
@@ -3157,8 +3374,7 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
   int64_t unused;
   if (!nsvcd__obj_integer(obj, &number)) return NSVCD_ERROR_SYNTAX;
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
-    // v//vn
-    if (i == 0 && obj->at < obj->end && *obj->at == '/') continue;
+    if (nsvcd__obj_token_ends(obj) || (i == 0 && *obj->at == '/')) continue;
     nsvcd__obj_accept(obj, '-');
     if (!nsvcd__obj_integer(obj, &unused)) return NSVCD_ERROR_SYNTAX;
   }
@@ -3176,10 +3392,36 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) obj->at += 3;
 }
 
+// Is the statement's keyword one of OBJ's?
+static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
+  static const char words[] =
+      " v f vt vn vp p l g o s mg usemtl mtllib usemap maplib cstype deg bmat step curv curv2 "
+      "surf "
+      "parm trim hole scrv sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech "
+      "stech ";
+  const size_t length = (size_t)(obj->at - obj->word);
+  for (const char *word = words; *++word; word += strcspn(word, " ")) {
+    if (strcspn(word, " ") == length && memcmp(word, obj->word, length) == 0) return 1;
+  }
+  return 0;
+}
+
+// Is what is left of a text no OBJ: statements of others, and none of its own? Then the first of
+// them is told of. line: of one that was found before, or 0.
+static nsvcd_result nsvcd__obj_other(nsvcd__obj *obj, size_t line, nsvcd_result otherwise) {
+  int is_obj = obj->vertices > 0 || obj->triangles > 0;
+  while (!is_obj && nsvcd__obj_next(obj)) {
+    is_obj = obj->word && nsvcd__obj_is_own(obj);
+    if (obj->word && !line) line = obj->line;
+  }
+  obj->line = line;
+  return is_obj || !line ? otherwise : NSVCD_ERROR_FORMAT;
+}
+
 // First pass: counts vertices and triangles.
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
-    if (keyword == '?') return NSVCD_ERROR_SYNTAX;
+    if (keyword == '?') return nsvcd__obj_other(obj, obj->line, NSVCD_ERROR_SYNTAX);
     if (keyword == 'v' && obj->vertices++ == NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
     if (keyword != 'f') continue;
     size_t corners = 0;
@@ -3193,19 +3435,22 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
 }
 
 // Second pass: positions (vertices, 3), of v x y z, then up to five more: a weight, a colour. These
-// are skipped, but must be numbers.
+// are skipped, but must be numbers, if not finite ones.
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
     if (keyword != 'v') continue;
     int count = 0;
     for (; nsvcd__obj_has_token(obj); count++) {
-      double value;
-      const nsvcd_result result = nsvcd__obj_number(obj, &value);
+      double value = 0;
+      nsvcd_result result = nsvcd__obj_number(obj, &value);
+      if (count >= 3 && result == NSVCD_ERROR_NUMBER) {
+        nsvcd__obj_skip_token(obj);
+        result = NSVCD_OK;
+      }
+      if (count == 8) result = NSVCD_ERROR_SYNTAX;
+      if (!result && count < 3)
+        result = nsvcd__mesh_coordinate(&obj->options, (size_t)count, value, positions++);
       if (result) return result;
-      if (count == 8) return NSVCD_ERROR_SYNTAX;
-      if (count >= 3) continue;
-      if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-      *positions++ = (float)value;
     }
     if (count < 3) return NSVCD_ERROR_SYNTAX;
   }
@@ -3231,23 +3476,30 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
+// As nsvcd_obj_parse. options: NULL, or what the caller gave.
+static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
+                                     const nsvcd_mesh_options *options,
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                     size_t *error_line) {
   if (error_line) *error_line = 0;
   if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
   nsvcd_mesh parsed;
   nsvcd__obj obj;
   nsvcd__polygon polygon;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_mesh_options o;
+  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  if (result) return result;
   memset(&parsed, 0, sizeof parsed);
   nsvcd__obj_begin(&obj, text, size);
-  nsvcd_result result = nsvcd__obj_count(&obj);
+  result = nsvcd__obj_count(&obj);
   if (!result) {
     // what follows is not tied to a line
     obj.line = 0;
     if (obj.triangles == 0) {
-      result = NSVCD_ERROR_EMPTY;
+      if (obj.vertices == 0) nsvcd__obj_begin(&obj, text, size);
+      result = nsvcd__obj_other(&obj, 0, NSVCD_ERROR_EMPTY);
+      if (result == NSVCD_ERROR_EMPTY) obj.line = 0;
     } else if (!nsvcd__mesh_alloc(&parsed, obj.vertices, obj.triangles, allocator) ||
                !nsvcd__polygon_alloc(&polygon, obj.max_corners, &arena)) {
       result = NSVCD_ERROR_MEMORY;
@@ -3255,6 +3507,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
   }
   if (!result) {
     nsvcd__obj_begin(&obj, text, size);
+    obj.options = o;
     result = nsvcd__obj_vertices(&obj, parsed.positions);
   }
   if (!result) {
@@ -3269,6 +3522,12 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
   }
   *mesh = parsed;
   return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
@@ -3315,8 +3574,9 @@ NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *al
 // ---------------------------------------------------------------------------------------- mesh/stl
 // In: an STL file, binary or text. Out: nsvcd_mesh.
 //
-// Binary is what has the size that its count of triangles says, or does not begin with "solid". Of
-// text only the words vertex and endloop count: three vertices a loop.
+// Binary is what has the size that its count of triangles says, does not begin with "solid", or
+// holds a NUL, as no text does. Of text only the words vertex and endloop count: three vertices a
+// loop.
 
 #ifndef NSVCD_NO_OBJ
 #define NSVCD__STL_HEADER 84  // bytes, the count of triangles included
@@ -3327,14 +3587,16 @@ static uint32_t nsvcd__stl_word(const unsigned char *p) {
 }
 
 // Three floats of a file that is binary.
-static nsvcd_result nsvcd__stl_corner(const unsigned char *at, float *out) {
-  for (size_t k = 0; k < 3; k++) {
+static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
+                                      const nsvcd_mesh_options *options, float *out) {
+  nsvcd_result result = NSVCD_OK;
+  for (size_t k = 0; k < 3 && !result; k++) {
     const uint32_t bits = nsvcd__stl_word(at + 4 * k);
-    memcpy(&out[k], &bits, sizeof bits);
-    if (!nsvcd__is_finite(out[k]) || fabsf(out[k]) > NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_NUMBER;
+    float value;
+    memcpy(&value, &bits, sizeof bits);
+    result = nsvcd__mesh_coordinate(options, k, (double)value, &out[k]);
   }
-  return NSVCD_OK;
+  return result;
 }
 
 // Goes to the next token, past the ends of lines; 0 at the end of the text.
@@ -3374,12 +3636,12 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
       in_loop = 0;
     } else if (nsvcd__stl_accept(text, "vertex")) {
       for (size_t k = 0; k < 3 && corners; k++) {
-        double value;
+        double value = 0;
         if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
-        const nsvcd_result result = nsvcd__obj_number(text, &value);
+        nsvcd_result result = nsvcd__obj_number(text, &value);
+        float *corner = corners + 3 * *count + k;
+        if (!result) result = nsvcd__mesh_coordinate(&text->options, k, value, corner);
         if (result) return result;
-        if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-        corners[3 * *count + k] = (float)value;
       }
       in_loop++;
       ++*count;
@@ -3446,21 +3708,25 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
   mesh->vertex_count = count;
 }
 
-NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
+// As nsvcd_stl_parse. options: NULL, or what the caller gave.
+static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
+                                     const nsvcd_mesh_options *options,
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                     size_t *error_line) {
   const unsigned char *bytes = (const unsigned char *)data;
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
   nsvcd__obj text;
-  nsvcd_result result = NSVCD_OK;
+  nsvcd_mesh_options o;
+  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  if (result) return result;
   size_t corners = 0;
   nsvcd__obj_begin(&text, (const char *)data, size);
   const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
   const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
   const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
-  const int is_binary = size == needed || !is_solid;
-  if (is_binary && size < needed) return NSVCD_ERROR_SYNTAX;
+  const int is_binary = size == needed || !is_solid || memchr(data, 0, size);
+  if (is_binary && size < needed) return NSVCD_ERROR_FORMAT;
   nsvcd__obj_begin(&text, (const char *)data, size);
   text.line = 1;
   if (is_binary) {
@@ -3486,11 +3752,12 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
   if (!result && !is_binary) {
     nsvcd__obj_begin(&text, (const char *)data, size);
     text.line = 1;
+    text.options = o;
     result = nsvcd__stl_text(&text, out.positions, &corners);
   }
   for (size_t i = 0; i < corners && is_binary && !result; i++) {
     const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
-    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), out.positions + 3 * i);
+    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
   }
   if (!result) nsvcd__stl_weld(&out, &places);
   nsvcd__arena_free(&arena);
@@ -3503,6 +3770,12 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
   return NSVCD_OK;
 }
 
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
+}
+
 #ifndef NSVCD_NO_STDIO
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
@@ -3513,6 +3786,48 @@ NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *al
   nsvcd__arena arena = nsvcd__arena_of(allocator);
   nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
   if (!result) result = nsvcd_stl_parse(data, size, allocator, mesh, error_line);
+  nsvcd__arena_free(&arena);
+  return result;
+}
+#endif  // NSVCD_NO_STDIO
+#endif  // NSVCD_NO_OBJ
+
+// -------------------------------------------------------------------------------------- mesh/files
+// In: an OBJ or STL file, and how its numbers become metres. Out: nsvcd_mesh.
+
+#ifndef NSVCD_NO_OBJ
+// Is it an STL: does it begin with "solid", or has it the size that its count of triangles says?
+static int nsvcd__is_stl(const void *data, size_t size) {
+  const unsigned char *bytes = (const unsigned char *)data;
+  nsvcd__obj text;
+  nsvcd__obj_begin(&text, (const char *)data, size);
+  if (nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid")) return 1;
+  return size >= NSVCD__STL_HEADER &&
+         size == NSVCD__STL_HEADER + NSVCD__STL_FACET * (uint64_t)nsvcd__stl_word(bytes + 80);
+}
+
+NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
+                                       const nsvcd_mesh_options *options,
+                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                       size_t *error_line) {
+  const nsvcd_mesh_format format = options ? options->format : NSVCD_MESH_ANY;
+  const int stl = format == NSVCD_MESH_ANY && data && nsvcd__is_stl(data, size);
+  if (stl || format == NSVCD_MESH_STL)
+    return nsvcd__stl_parse(data, size, options, allocator, mesh, error_line);
+  return nsvcd__obj_parse((const char *)data, size, options, allocator, mesh, error_line);
+}
+
+#ifndef NSVCD_NO_STDIO
+NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  char *data;
+  size_t size;
+  if (error_line) *error_line = 0;
+  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
+  if (!result) result = nsvcd_mesh_parse(data, size, options, allocator, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;
 }
@@ -5989,6 +6304,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 // metres, over every radius and distance that coordinates within bounds can give
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
+#define NSVCD__OTHER_MAGIC 0x4e535642u
 #define NSVCD__BODY_VERSION 7u
 
 struct nsvcd_body {
@@ -7099,7 +7415,7 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
 // ---- whole bodies
 
-// Is this the beginning of a blob of ours, of `size` bytes or fewer?
+// Are the sizes that a blob of ours begins with right, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b) return 0;
   if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
@@ -7205,16 +7521,29 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   return nsvcd__triangles_are_sound(within, left);
 }
 
+// Is this a body, as far as its header tells? Of what does not begin as one, such as a text or a
+// nsvcd_mesh, no more than its first eight bytes are read.
+static nsvcd_result nsvcd__body_check(const nsvcd_body *b, size_t size) {
+  if (!b) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_aligned(b) || size < sizeof b->magic + sizeof b->version)
+    return NSVCD_ERROR_BODY;
+  if (b->magic == NSVCD__OTHER_MAGIC) return NSVCD_ERROR_VERSION;
+  if (b->magic != NSVCD__BODY_MAGIC) return NSVCD_ERROR_BODY;
+  if (b->version != NSVCD__BODY_VERSION) return NSVCD_ERROR_VERSION;
+  if (!nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_VERSION;
+#endif
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body) {
-  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
-#ifndef NSVCD_NO_NETWORK
-  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
-#endif
-  *body = b;
-  return NSVCD_OK;
+  if (!body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(b, size);
+  if (!result) *body = b;
+  return result;
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
@@ -7274,24 +7603,26 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
-  if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !scaled) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(body, SIZE_MAX);
+  if (result) return result;
+  if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
 #ifdef NSVCD_NO_PROOF
   // The triangles would keep their size; nor were they looked at when the body was loaded.
-  if (body->triangles) return NSVCD_ERROR_BODY;
+  if (body->triangles) return NSVCD_ERROR_TRIANGLES;
 #endif
   // Would it still be within the limits of nsvcd_body_load?
   const float radius = nsvcd__whole_radius(body);
-  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
   for (size_t i = 0; i < numbers; i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_ARGUMENT;
+    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_SCALE;
   }
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
 #endif
   // in place is allowed
   memmove(memory, body, body->size);
@@ -7307,6 +7638,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   nsvcd_body_facts facts;
   memset(&facts, 0, sizeof facts);
+  if (nsvcd__body_check(body, SIZE_MAX)) return facts;
   facts.size = body->size;
   facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
@@ -7329,7 +7661,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius) {
-  if (!body || patch >= body->patches) return 0;
+  if (nsvcd__body_check(body, SIZE_MAX) || patch >= body->patches) return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
   *radius = sphere.radius + nsvcd__whole_radius(body) - body->radius;
@@ -7592,13 +7924,13 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #endif
   if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
-  if (o->latents) return NSVCD_ERROR_ARGUMENT;
+  if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
-  if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_RADIUS;
+  if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;
+  if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
 #ifndef NSVCD_NO_PROOF
@@ -7655,6 +7987,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
   void *memory;
+  if (nsvcd__body_check(body, SIZE_MAX)) return;
   // a cast would take away a const
   memcpy(&memory, &body, sizeof memory);
   nsvcd__free(allocator, memory);
@@ -7680,7 +8013,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
   float centre[3] = {0, 0, 0};
   uint32_t point[3] = {0, 0, 0};
   const nsvcd_mesh mesh = {centre, point, 1, 1};
-  if (!(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   return nsvcd__encode_round(&mesh, radius, allocator, body);
 }
 
@@ -7690,7 +8023,8 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
   float ends[6];
   uint32_t segment[3] = {0, 1, 1};
   const nsvcd_mesh mesh = {ends, segment, 2, 1};
-  if (!from || !to || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!from || !to) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   memcpy(ends, from, 3 * sizeof *from);
   memcpy(ends + 3, to, 3 * sizeof *to);
   return nsvcd__encode_round(&mesh, radius, allocator, body);
@@ -7704,9 +8038,10 @@ NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
                         2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
   float corners[24];
   const nsvcd_mesh mesh = {corners, faces, 8, 12};
-  if (!half || !(round >= 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!half) return NSVCD_ERROR_ARGUMENT;
+  if (!(round >= 0)) return NSVCD_ERROR_RADIUS;
   for (size_t k = 0; k < 3; k++) {
-    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_ARGUMENT;
+    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_RADIUS;
     for (size_t n = 0; n < 8; n++)
       corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
   }
@@ -7717,7 +8052,8 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_allocator *allocator,
                                          const nsvcd_body **body) {
   nsvcd_mesh mesh = {NULL, NULL, count, count};
-  if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!points) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
@@ -8320,8 +8656,13 @@ typedef struct nsvcd__motion {
   nsvcd__f3 lift;
 } nsvcd__motion;
 
-// Are all numbers in range and all quaternions of unit length, to 1e-4?
-static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
+// Is it a length that may be told, or 0?
+static int nsvcd__is_length(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
+}
+
+// Are all numbers in range and all quaternions of unit length?
+static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   // 7 to a pose
   const float *numbers = poses->position;
   uint32_t most = 0;
@@ -8331,14 +8672,20 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
     const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
   }
-  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
   for (size_t k = 0; k < count; k++) {
     const float *q = poses[k].rotation;
     const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
     shortest = square < shortest ? square : shortest;
     longest = square > longest ? square : longest;
   }
-  return shortest >= 0.9998f && longest <= 1.0002f;
+  const int is_unit =
+      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
+  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
+  // which of both?
+  for (size_t k = 0; k < count; k++) {
+    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+  }
+  return NSVCD_ERROR_QUATERNION;
 }
 
 // Do they rise from 0 to 1, or are there none?
@@ -8364,15 +8711,16 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
   return mover->poses ? mover->count : 1;
 }
 
-static nsvcd_result nsvcd__poses_check(const nsvcd_mover *mover) {
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
-  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
+  return nsvcd__poses_check(mover->poses, mover->count);
 }
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
-  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(mover->body, SIZE_MAX);
+  if (result) return result;
   const float scale = mover->scale;
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
@@ -8381,7 +8729,7 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
     if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
-  return nsvcd__poses_check(mover);
+  return nsvcd__track_check(mover);
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
@@ -15838,15 +16186,15 @@ typedef struct nsvcd__hint {
 // of log2 N.
 static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
-  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
-    return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_ARGUMENT;
+  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
+  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
+  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_SWELL;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
   const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
   // compiled out
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[decoder];
@@ -15857,7 +16205,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
 #endif
 #ifdef NSVCD_NO_INT8
-  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
+  if (settings->int8) return NSVCD_ERROR_PRECISION;
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
@@ -15875,7 +16223,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     settings->swell = fmaxf(o->swell, least);
     return NSVCD_OK;
   }
-  return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_ERROR_RECALL;
 }
 
 // Scores `count` candidates, 1 to 16, by a decoder.
@@ -16562,28 +16910,28 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
   // Are the options' numbers in their ranges, and do they go together?
   const nsvcd_question *q = question;
-  const float lengths[5] = {q->tolerance, q->clearance, q->to, q->skin, q->to_time};
-  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ARGUMENT;
+  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
   if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
-    return NSVCD_ERROR_ARGUMENT;
-  for (size_t k = 0; k < 5; k++) {
-    const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
-    if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
-    if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
-  }
-  if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
-  if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
-  if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_SEGMENTS;
+  if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_length(q->skin)) return NSVCD_ERROR_SKIN;
+  const int is_first = q->ask == NSVCD_ASK_FIRST;
+  if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
+    return NSVCD_ERROR_TO;
+  if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
+    return NSVCD_ERROR_TO_TIME;
+  if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
   // of these the network knows nothing
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
   int needs_proof = q->clearance > 0 || q->skin > 0;
-  needs_proof |= q->ask == NSVCD_ASK_FIRST || q->to > 0;
+  needs_proof |= is_first || q->to > 0;
   needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
-  if (needs_proof && by_network) return NSVCD_ERROR_ARGUMENT;
+  if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
-    return NSVCD_ERROR_BODY;
+    return wanted == NSVCD_METHOD_NETWORK ? NSVCD_ERROR_LATENTS : NSVCD_ERROR_TRIANGLES;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
   return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);
@@ -17483,7 +17831,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                                           size_t workspace_size, nsvcd_answer *answer,
                                           float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
@@ -17759,6 +18107,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_inside NSVCD__AT(is_inside)
 #define nsvcd__is_large NSVCD__AT(is_large)
+#define nsvcd__is_length NSVCD__AT(is_length)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
@@ -17872,7 +18221,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__pose_count NSVCD__AT(pose_count)
 #define nsvcd__pose_members NSVCD__AT(pose_members)
 #define nsvcd__pose_of NSVCD__AT(pose_of)
-#define nsvcd__poses_are_valid NSVCD__AT(poses_are_valid)
 #define nsvcd__poses_at NSVCD__AT(poses_at)
 #define nsvcd__poses_check NSVCD__AT(poses_check)
 #define nsvcd__poses_opposed NSVCD__AT(poses_opposed)
@@ -17995,6 +18343,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__touch NSVCD__AT(touch)
 #define nsvcd__track NSVCD__AT(track)
 #define nsvcd__track_box NSVCD__AT(track_box)
+#define nsvcd__track_check NSVCD__AT(track_check)
 #define nsvcd__track_of NSVCD__AT(track_of)
 #define nsvcd__track_pose NSVCD__AT(track_pose)
 #define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
@@ -18701,7 +19050,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   *meant = *mover;
   if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
   if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-  const nsvcd_result result = nsvcd__poses_check(mover);
+  const nsvcd_result result = nsvcd__track_check(mover);
   if (result) return result;
   if (!mover->poses) {
     meant->poses = &nsvcd__at_origin;
@@ -19499,7 +19848,7 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   nsvcd_certificate out;
   memset(&out, 0, sizeof out);
   if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   const uint64_t needed =
       nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
   if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
@@ -19529,8 +19878,8 @@ static size_t nsvcd__knots_of(const nsvcd_question *question) {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b) {
   nsvcd__certifier counted;
-  if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
-      nsvcd__poses_check(&question->b))
+  if (!question || !a || !b || nsvcd__track_check(&question->a) ||
+      nsvcd__track_check(&question->b))
     return 0;
   const uint64_t size =
       nsvcd__certifier_layout(nsvcd__knots_of(question), a, b, NULL, &counted);
@@ -19548,7 +19897,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
   nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
   if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
   if (result) return result;
-  if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
+  if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
   return nsvcd__certify(&c, nsvcd__knots_of(question), question->clearance, options, workspace,
                         workspace_size, bytes, capacity, made);
 }
@@ -20003,37 +20352,42 @@ static int nsvcd__is_number(double x, double most) {
 static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_JOINT;
   for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_AXIS;
     axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
   }
-  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__poses_are_valid(&joint->origin, 1)) return NSVCD_ERROR_POSE;
+  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
+  const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
+  if (result) return result;
   const double most = (double)NSVCD_MAX_COORDINATE;
   if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
-    return NSVCD_ERROR_NUMBER;
-  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_SPEED;
+  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_SPEED;
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
-    return NSVCD_ERROR_NUMBER;
-  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_LIMITS;
+  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
-  if (!part->body || part->link > scene->joint_count) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_BODY;
+  const nsvcd_result result = nsvcd__body_check(part->body, SIZE_MAX);
+  if (result) return result;
+  if (part->link > scene->joint_count) return NSVCD_ERROR_LINK;
+  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_TRIANGLES;
   const float scale = part->scale;
   const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
   if (!(fits || (scale <= 0 && scale >= 0))) return NSVCD_ERROR_SCALE;
-  return nsvcd__poses_are_valid(&part->pose, 1) ? NSVCD_OK : NSVCD_ERROR_POSE;
+  return nsvcd__poses_check(&part->pose, 1);
 }
 
 static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   nsvcd_result result = NSVCD_OK;
-  if (!scene || scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
-    return NSVCD_ERROR_ARGUMENT;
-  if (!scene->joints || scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_ARGUMENT;
+  if (!scene) return NSVCD_ERROR_ARGUMENT;
+  if (scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
+    return NSVCD_ERROR_COUNT;
+  if (scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_COUNT;
+  if (!scene->joints) return NSVCD_ERROR_ARGUMENT;
   if ((scene->part_count > 0 && !scene->parts) || (scene->pair_count > 0 && !scene->pairs))
     return NSVCD_ERROR_ARGUMENT;
   for (size_t i = 0; i < scene->joint_count && !result; i++)
@@ -20042,9 +20396,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
     const nsvcd_body_pair *pair = &scene->pairs[k];
-    if (pair->a >= scene->part_count || pair->b >= scene->part_count)
-      return NSVCD_ERROR_ARGUMENT;
-    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_ARGUMENT;
+    if (pair->a >= scene->part_count || pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
   }
   return result;
 }
@@ -20567,16 +20920,15 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 // Is a motion, as it is meant, in order?
 static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
   const double most = (double)NSVCD_MAX_COORDINATE;
-  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE))
-    return NSVCD_ERROR_ARGUMENT;
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_DEGREE;
   for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_VALUE;
   }
   for (size_t p = 0; p <= m->pieces && m->times; p++) {
-    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_NUMBER;
-    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_TIMES;
+    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_TIMES;
   }
   return NSVCD_OK;
 }
@@ -20594,9 +20946,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_finite(o.clearance) || !nsvcd__is_finite(o.finest) || o.clearance < 0 ||
-      o.finest < 0)
-    return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;
@@ -20854,8 +21205,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
   if (!motion->points) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
   if (result) return result;
-  if (pair >= scene->pair_count || !nsvcd__is_provable(checker, motion))
-    return NSVCD_ERROR_ARGUMENT;
+  if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;
   memset(&c, 0, sizeof c);
   const nsvcd_body_pair *parts = &scene->pairs[pair];
   const size_t base =
@@ -21026,7 +21377,7 @@ static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
   if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
   for (size_t j = 0; j < checker->scene->joint_count; j++) {
-    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
   }
   return NSVCD_OK;
 }
@@ -21204,11 +21555,8 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  const float *lengths[3] = {&o.within, &o.to, &o.deepest};
-  for (size_t n = 0; n < 3; n++) {
-    if (!nsvcd__within(lengths[n], 1, NSVCD_MAX_COORDINATE) || *lengths[n] < 0)
-      return NSVCD_ERROR_TOLERANCE;
-  }
+  if (!nsvcd__is_length(o.within) || !nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
   o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
@@ -21310,9 +21658,9 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__within(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_FARTHEST;
   o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
   memcpy(from, joints, bytes);
   nsvcd__take_into_limits(checker->scene, from);
@@ -21415,8 +21763,8 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   const nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;
-  if (!out || part >= scene->part_count || link > scene->joint_count)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!out) return NSVCD_ERROR_ARGUMENT;
+  if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
   memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
   nsvcd__place_links(checker, &c);
   const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
@@ -21424,9 +21772,9 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
   moved.pose = nsvcd__pose_in(&inner);
-  if (!nsvcd__poses_are_valid(&moved.pose, 1)) return NSVCD_ERROR_POSE;
-  *out = moved;
-  return NSVCD_OK;
+  const nsvcd_result placed = nsvcd__poses_check(&moved.pose, 1);
+  if (!placed) *out = moved;
+  return placed;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS
 
@@ -21866,18 +22214,18 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
                                        const nsvcd_route_options *options) {
   if (!checker || !problem || !problem->start || !problem->goals) return NSVCD_ERROR_ARGUMENT;
   const size_t most = NSVCD_MAX_NODES;
-  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_ARGUMENT;
+  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_COUNT;
   if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_COUNT;
+  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ROUTE;
   if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_ROUTE;
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
     for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
       if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
-        return NSVCD_ERROR_NUMBER;
+        return NSVCD_ERROR_VALUE;
     }
   }
   return NSVCD_OK;
@@ -22285,7 +22633,7 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   if (result) return result;
   if (!answer) return NSVCD_ERROR_ARGUMENT;
   if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   const size_t needed = nsvcd__router_layout(checker, problem, options, NULL, &r);
   if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
     return NSVCD_ERROR_WORKSPACE;
@@ -22448,7 +22796,7 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 //   plan        start and goal, several seeds, and the last check
 //
 // The planner asks as any program does, by the public functions. Of what is private to the floors
-// above entry it uses nsvcd__settings_of, nsvcd__poses_are_valid and nsvcd__is_aligned, to refuse
+// above entry it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse
 // what a query would, and NSVCD__ROUNDING.
 //
 // A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
@@ -22629,43 +22977,55 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
 }
 
 // Is the problem one that can be stated?
-static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->place) return 0;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return 0;
-  if (problem->body_count > 65536) return 0;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
+static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
+  if (!problem || !problem->place) return NSVCD_ERROR_ARGUMENT;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
+  if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal)
+    return NSVCD_ERROR_ARGUMENT;
   const int by_network = !problem->collision;
   if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
-    return 0;
+    return NSVCD_ERROR_ARGUMENT;
+  // those that are NULL have no shape
+  for (size_t b = 0; problem->bodies && b < problem->body_count; b++) {
+    const nsvcd_body *body = problem->bodies[b];
+    const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
+    if (result) return result;
+  }
   for (size_t k = 0; k < problem->pair_count; k++) {
     const size_t a = problem->pairs[k].a;
     const size_t b = problem->pairs[k].b;
-    if (a >= problem->body_count || b >= problem->body_count || a == b) return 0;
-    if (by_network && (!problem->bodies[a] || !problem->bodies[b])) return 0;
+    if (a >= problem->body_count || b >= problem->body_count || a == b)
+      return NSVCD_ERROR_PAIR;
+    if (by_network && (!problem->bodies[a] || !problem->bodies[b]))
+      return NSVCD_ERROR_ARGUMENT;
   }
-  return 1;
+  return NSVCD_OK;
 }
 
-// Fills in the defaults. Returns 0 for what cannot be.
-static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
-                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
+// Fills in the defaults.
+static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
+                                            const nsvcd_plan_options *options,
+                                            nsvcd__planner *p) {
   // via points, segments, iterations, draws, noise
   static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
   static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   nsvcd__settings unused;
   memset(p, 0, sizeof *p);
-  if (!nsvcd__problem_is_whole(problem)) return 0;
+  nsvcd_result result = nsvcd__problem_check(problem);
+  if (result) return result;
   p->problem = problem;
   if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
   const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
                           o->duration, o->margin,       o->explore.noise, o->refine.noise};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
-    if (!nsvcd__is_finite(floats[k])) return 0;
+    if (!nsvcd__is_finite(floats[k])) return NSVCD_ERROR_PLAN;
   }
-  if (nsvcd__settings_of(&o->sweep.network, 1, 1, &unused)) return 0;
-  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
-  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
+  result = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
+  if (result) return result;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return NSVCD_ERROR_STAGE;
+  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return NSVCD_ERROR_STAGE;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
 
   o->seeds = o->seeds ? o->seeds : 6;
@@ -22684,7 +23044,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   const size_t dense = NSVCD__CHECKS * (finest - 1);
   o->check = o->check ? o->check : dense < most ? dense : most;
   p->check.moments = o->check + 1;
-  return o->check <= most && o->seeds <= 1000;
+  return o->check <= most && o->seeds <= 1000 ? NSVCD_OK : NSVCD_ERROR_PLAN;
 }
 
 // The next rows of so many floats of a workspace: nsvcd__take.
@@ -23111,8 +23471,9 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
     problem->place(problem->user, joints + s * problem->joints, poses + s * bodies);
-  if (count > 0 && !nsvcd__poses_are_valid(poses, count)) {
-    p->error = NSVCD_ERROR_POSE;
+  const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
+  if (placed) {
+    p->error = placed;
     return;
   }
   for (size_t k = 0; k < count; k++) {
@@ -23576,7 +23937,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options) {
   nsvcd__planner planner;
-  if (!nsvcd__planner_settings(problem, options, &planner)) return 0;
+  if (nsvcd__planner_settings(problem, options, &planner)) return 0;
   return nsvcd__planner_memory(&planner, NULL);
 }
 
@@ -23705,7 +24066,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
   const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
   nsvcd__planner p;
   nsvcd_plan_answer found;
-  if (!nsvcd__planner_settings(problem, options, &p)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__planner_settings(problem, options, &p);
+  if (result) return result;
   if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(&p, NULL);
   if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
@@ -23715,9 +24077,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
     const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
                            problem->goal[j]};
     for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_NUMBER;
+      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_VALUE;
     }
-    if (ends[0] > ends[1]) return NSVCD_ERROR_ARGUMENT;
+    if (ends[0] > ends[1]) return NSVCD_ERROR_LIMITS;
   }
 
   (void)nsvcd__planner_memory(&p, (char *)workspace);

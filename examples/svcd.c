@@ -33,6 +33,10 @@ static const option options[] = {
      "turn on the way, about A's origin: z,90"},
     {"--scale", ENCODE | INFO | SWEEP, OPTION_TEXT, AT(scale), 0, 0, NULL, "S[,S]",
      "to metres: 0.001 of millimetres; where there are two files, of both, or of A and of B (1)"},
+    {"--recentre", ENCODE | INFO | SWEEP, OPTION_FLAG, AT(recentre), 0, 0, NULL, NULL,
+     "takes the middle of each mesh's box, in whole units of the file, off its coordinates, as "
+     "those "
+     "of a map need it; poses stay as they are for the files, but A turns about its middle"},
     {"--picture", SWEEP, OPTION_TEXT, AT(picture), 0, 0, NULL, "OUT.svg",
      "draws B, and A at the start, at the contact and at the end"},
     {"--picture", PLAN, OPTION_TEXT, AT(picture), 0, 0, NULL, "OUT.svg",

@@ -225,6 +225,7 @@ extern "C" {
 #include "mesh/faces.h"     // faces of any number of corners
 #include "mesh/obj.h"       // Wavefront OBJ
 #include "mesh/stl.h"       // STL, binary and text
+#include "mesh/files.h"     // either, of a map or in millimetres
 
 // ======================================================================== patches: a mesh in parts
 #include "patches/samples.h"   // points of the surface, in equal share

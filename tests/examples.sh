@@ -134,7 +134,7 @@ expect 0 '' build/svcd encode examples/assets/mug.obj "$dir/latents.body" --no-t
 expect 0 '' build/svcd info "$dir/latents.body"
 ! grep -q triangles "$dir/out" || fail "--no-triangles leaves triangles: $(cat "$dir/out")"
 printf 'bad' >"$dir/bad.body"
-expect 1 'bad.body: the body is damaged' build/svcd info "$dir/bad.body"
+expect 1 'bad.body: this is not a body: .*damaged' build/svcd info "$dir/bad.body"
 expect 1 'none.body: No such file' build/svcd info "$dir/none.body"
 case $(head -c 4 "$dir/mug.body") in NSVB) mark=BVSN ;; *) mark=NSVB ;; esac
 { printf $mark; tail -c +5 "$dir/mug.body"; } >"$dir/other.body"
@@ -205,7 +205,35 @@ for scale in 0 -1 x 1e7 nan 1,2; do expect 2 'scale' build/svcd info "$dir/cube.
     1 "\nv", i % 64 / 64, int(i / 64) / 64 + .01, 1 "\nf -1 -2 -3" }'; } >"$dir/floor.obj"
 says floor 3 'wrong: 2 triangles are too large for the patches'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1e9 0\nf 1 2 3\n' >"$dir/large.obj"
-expect 1 "large.obj:3: .*NSVCD_MAX_COORDINATE: 1e+06.*: 'v 0 1e9 0'" build/svcd info "$dir/large.obj"
+expect 1 "large.obj:3: .*NSVCD_MAX_COORDINATE.*--scale 0.001.*--recentre.*: 'v 0 1e9 0'" build/svcd info "$dir/large.obj"
+# A limit of a million metres is one of metres; a map's offset is taken off in double. Two squares of a map, 1 m wide, 0.25 m
+# apart, where floats are 0.5 m apart. Poses stay as they are for the files.
+expect 0 '' build/svcd info "$dir/large.obj" --scale 1e-6
+line 'box: 1e-06 x 1000 x 0 m'
+map() { printf 'v %s %s0 0\nv %s %s0 0\nv %s %s1 0\nv %s %s1 0\nf 1// 2// 3// 4//\n' "$1" "$3" "$2" "$3" "$2" "$3" "$1" "$3"; }
+map 500000.1 500001.1 540000 >"$dir/map_a.obj"
+map 500001.35 500002.35 540000 >"$dir/map_b.obj"
+map 4.5 5.5 '' >"$dir/own.obj"  # in coordinates of its own
+expect 1 'map_a.obj:1: a coordinate.*--recentre' build/svcd info "$dir/map_a.obj"
+expect 0 '' build/svcd info --recentre "$dir/map_a.obj"
+line 'origin: 50000[01] 540000[01] 0, in'
+line 'box: 1 x 1 x 0 m'
+moved() {  # VERDICT A FROM: straight down through map_b
+  expect 0 '' build/svcd sweep "$dir/$2.obj" "$dir/map_b.obj" --recentre --from="$3,1" --to="$3,-1"
+  line "^$1"
+}
+moved free map_a 0,0
+moved free map_a 0.24,0
+moved hit map_a 0.26,0
+moved hit map_a 2.24,0
+moved free map_a 2.26,0
+moved free own 499995.8,5400000
+moved hit own 499995.9,5400000
+moved free own 499996,5400001.1
+expect 2 'without --skin and --recentre' build/svcd sweep "$dir/map_a.obj" "$dir/map_b.obj" --recentre --certificate "$dir/x.cert"
+printf 'v 500000 0 0\nv 500001 0 0\nv 500001 1 0\nf 1 2 3\n' >"$dir/far.obj"
+expect 0 '' build/svcd info "$dir/far.obj"
+line 'wrong: 5e+05 m from its origin, where floats are 0.06 m apart: .*--recentre'
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/line.obj"
 expect 1 'line.obj: there is no triangle, or no area' build/svcd info "$dir/line.obj"
 grep -q 'wrong: 1 degenerate triangle' "$dir/out" || fail "info of no area: $(cat "$dir/out")"
@@ -214,6 +242,10 @@ grep -q 'wrong: 1 degenerate triangle' "$dir/out" || fail "info of no area: $(ca
 printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >"$dir/x.ply"
 expect 0 '' build/svcd info "$dir/x.ply"
 line 'x.ply: a PLY: 2 triangles, 4 vertices'
+sed 's/^element face 1/element tristrips 1/;s/^4 0 1 2 3/5 0 1 3 2 -1/' "$dir/x.ply" >"$dir/strips.ply"
+expect 0 '' build/svcd info "$dir/strips.ply"
+line 'strips.ply: a PLY: 2 triangles, 4 vertices'
+line '^area: 1 m2'
 sed 's/^4 0 1 2 3/4 0 1 2 4/' "$dir/x.ply" >"$dir/index.ply"
 expect 1 'index.ply: an index' build/svcd info "$dir/index.ply"
 sed 's/^0 1 0$/0 x 0/' "$dir/x.ply" >"$dir/letter.ply"
@@ -427,10 +459,13 @@ fi
 # What is wrong is named.
 expect 1 'none.obj: No such file' build/svcd sweep "$dir/cube.obj" "$dir/none.obj"
 expect 1 "bad.obj:4: an index .*: 'f 1 2 4'" build/svcd sweep "$dir/bad.obj" "$dir/cube.obj"
-expect 1 'bad.body: the body is damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
+expect 1 'bad.body: this is not a body: .*damaged' build/svcd sweep "$dir/cube.obj" "$dir/bad.body"
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form 1,2,3
 expect 2 'did you mean --from' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --form=1,2,3
 expect 2 'the length 2, not 1' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,2
+# one tolerance, that of the library and of files
+expect 2 'the length 1.0002, not 1 to 0.0001' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,1.0002
+expect 0 '' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,0,1.00005
 expect 2 'not together with another rotation' build/svcd sweep "$dir/cube.obj" "$dir/cube.obj" --to 1,2,3,0,0,1,0 --rotate z,9
 for option in --from=1,2 --from=1,2,x --from=1,2,nan --from=1,2,3,4 --from=1,2,2e6 '--from=1,2,3,' --to= --rotate=w,9 '--rotate=z,' \
   --rotate=z,99999 --scale=1,2,3 --scale=0 --measure=0 --measure=-1 --clearance=2e6 --skin=-1 --points=0 --method=magic --picture; do

@@ -302,7 +302,7 @@ static int plan_open(plan_scene *s, plan_inside *in) {
   const size_t size = nsvcd_plan_workspace_size(&s->problem, &s->options);
   CHECK(size > 0);
   in->memory = query_reserve(size);
-  if (!nsvcd__planner_settings(&s->problem, &s->options, p)) return 0;
+  if (nsvcd__planner_settings(&s->problem, &s->options, p)) return 0;
   CHECK_EQ(nsvcd__planner_memory(p, (char *)in->memory.at), size);
   nsvcd__planner_begin(p);
   return 1;

@@ -6,11 +6,15 @@
 #include "question_of.h"
 #include "random_numbers.h"
 
+// A header and nothing behind it: what a motion looks at of a body.
+static const struct nsvcd_body any_body = {
+    NSVCD__BODY_MAGIC, NSVCD__BODY_VERSION, 0, 64 + 16 * 32, 0, 1, 16, {0, 0, 0}, 0, 0, 0, 0, 0};
+
 // As nsvcd_sweep does; bodies do not matter to it.
 static nsvcd_result motion_init(const nsvcd_pose *samples, size_t count,
                                 const nsvcd_pose *fixed_pose, nsvcd__motion *motion) {
-  static const struct nsvcd_body any = {0};
-  const nsvcd_question question = question_of(&any, samples, count, &any, fixed_pose, NULL);
+  const nsvcd_question question =
+      question_of(&any_body, samples, count, &any_body, fixed_pose, NULL);
   nsvcd_result result = nsvcd__mover_check(&question.a);
   if (!result) result = nsvcd__mover_check(&question.b);
   if (!result) nsvcd__motion_init(&question.a, &question.b, motion);

@@ -775,13 +775,13 @@ static void certificates_refuse(void) {
   CERTIFY_IS((void)0, (void)0, NSVCD_OK);
   CHECK_EQ(made.verdict, NSVCD_FREE);
   whole = made;
-  CERTIFY_IS(s.question.skin = 0.1f, s.question.skin = 0, NSVCD_ERROR_ARGUMENT);
-  CERTIFY_IS(s.question.clearance = NAN, s.question.clearance = 0, NSVCD_ERROR_TOLERANCE);
-  CERTIFY_IS(s.question.clearance = -1, s.question.clearance = 0, NSVCD_ERROR_TOLERANCE);
+  CERTIFY_IS(s.question.skin = 0.1f, s.question.skin = 0, NSVCD_ERROR_SKIN);
+  CERTIFY_IS(s.question.clearance = NAN, s.question.clearance = 0, NSVCD_ERROR_CLEARANCE);
+  CERTIFY_IS(s.question.clearance = -1, s.question.clearance = 0, NSVCD_ERROR_CLEARANCE);
   CERTIFY_IS(s.question.b.scale = -1, s.question.b.scale = 0, NSVCD_ERROR_SCALE);
   CERTIFY_IS(s.question.b.scale = 1e7f, s.question.b.scale = 0, NSVCD_ERROR_SCALE);
   const nsvcd_pose kept = s.poses[0][1];
-  CERTIFY_IS(s.poses[0][1].rotation[3] = 3, s.poses[0][1] = kept, NSVCD_ERROR_POSE);
+  CERTIFY_IS(s.poses[0][1].rotation[3] = 3, s.poses[0][1] = kept, NSVCD_ERROR_QUATERNION);
   // room for some of it: the size is told, and what there is room for is the beginning
   CHECK_EQ(cert_certify(&s, NULL, few, 10, &made), NSVCD_OK);
   CHECK_EQ(made.size, whole.size);

@@ -225,12 +225,12 @@ static void cost_batch_refuses_as_a_query_does(void) {
   memset(b.batch, 0x5a, sizeof b.batch);
   memcpy(before, b.batch, sizeof before);
   b.poses[COST_MOTIONS * QUERY_POSES - 1].rotation[0] = 2;  // the very last
-  CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_POSE);
+  CHECK_EQ(cost_ask_batch(&b, NULL, w, b.batch), NSVCD_ERROR_QUATERNION);
   nsvcd_question questions[2];
   for (size_t k = 0; k < 2; k++)
     questions[k] = question_of(s->moving, b.poses, 2, s->fixed, &s->fixed_pose, NULL);
   questions[1].a.count = 0;
-  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, b.batch), NSVCD_ERROR_POSES);
   questions[1].a.count = 2;
   CHECK_EQ(nsvcd_sweep_batch(NULL, 2, w, size, b.batch), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, NULL), NSVCD_ERROR_ARGUMENT);

@@ -101,9 +101,9 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_encode_options negative = {.patch_radius = -1, .no_triangles = 1};
   nsvcd_encode_options nan = {.patch_radius = NAN, .no_triangles = 1};
   query_encode_refuses(NULL, &options, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_ARGUMENT);
-  query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_ARGUMENT);
+  query_encode_refuses(&mesh, &too_many, memory.at, size, NSVCD_ERROR_PATCHES);
+  query_encode_refuses(&mesh, &negative, memory.at, size, NSVCD_ERROR_PATCHES);
+  query_encode_refuses(&mesh, &nan, memory.at, size, NSVCD_ERROR_PATCHES);
   query_encode_refuses(&mesh, &options, memory.at, size - 1, NSVCD_ERROR_WORKSPACE);
   query_encode_refuses(&mesh, &options, (char *)memory.at + 4, size, NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, memory.at, size, NULL), NSVCD_ERROR_ARGUMENT);

@@ -677,9 +677,9 @@ static void gradient_refuses(void) {
   const nsvcd_question wrong = query_options(NSVCD_MAX_PAIRS + 1, NSVCD_MODEL_DEFAULT, 0);
   nsvcd_pose broken[REFERENCE_POSES];
   check_refused(&s, s.poses, s.count, workspace, size, NULL, 0, NSVCD_ERROR_ARGUMENT);
-  check_refused(&s, NULL, s.count, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
-  check_refused(&s, s.poses, 0, workspace, size, NULL, 1, NSVCD_ERROR_ARGUMENT);
-  check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_ARGUMENT);
+  check_refused(&s, NULL, s.count, workspace, size, NULL, 1, NSVCD_ERROR_POSES);
+  check_refused(&s, s.poses, 0, workspace, size, NULL, 1, NSVCD_ERROR_POSES);
+  check_refused(&s, s.poses, s.count, workspace, size, &wrong, 1, NSVCD_ERROR_PAIRS);
   check_refused(&s, s.poses, s.count, NULL, size, NULL, 1, NSVCD_ERROR_WORKSPACE);
   nsvcd_question by_network = question_of(s.moving, s.poses, s.count, s.fixed, &s.fixed_pose, NULL);
   by_network.method = NSVCD_METHOD_NETWORK;
@@ -689,7 +689,8 @@ static void gradient_refuses(void) {
   for (size_t k = 0; k < 2; k++) {
     memcpy(broken, s.poses, sizeof broken);
     *(k ? &broken[1].rotation[3] : &broken[2].position[0]) = (float)NAN;
-    check_refused(&s, broken, s.count, workspace, size, NULL, 1, NSVCD_ERROR_POSE);
+    check_refused(&s, broken, s.count, workspace, size, NULL, 1,
+                  k ? NSVCD_ERROR_QUATERNION : NSVCD_ERROR_POSE);
   }
   float gradient[6 * REFERENCE_POSES];
   const nsvcd_question question =

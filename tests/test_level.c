@@ -545,7 +545,7 @@ static void level_by_the_network(void) {
   nsvcd_answer answer;
   question.method = NSVCD_METHOD_NETWORK;  // which this one has nothing for
   CHECK_EQ(nsvcd_sweep(&question, level_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
-           NSVCD_ERROR_BODY);
+           NSVCD_ERROR_LATENTS);
 }
 
 // A ball in one of many crates is inside, and between two of them it is not.
@@ -795,7 +795,7 @@ static void level_encoding_ends_well(void) {
   CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_NUMBER);
   CHECK(body == NULL);
   options.patches = NSVCD_MAX_PATCHES + 1;
-  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_encode(&solid.mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_PATCHES);
   level_free(&solid);
 }
 

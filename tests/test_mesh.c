@@ -5,7 +5,7 @@
 static size_t boxes_seen;  // by the search for ears
 #define NSVCD__TALLY(what, amount) (boxes_seen += #what[0] == 'b' ? (size_t)(amount) : 0)
 #include "../src/ground/strings.h"
-#include "../src/mesh/stl.h"
+#include "../src/mesh/files.h"
 #include "../src/patches/samples.h"
 
 #include "arrays.h"
@@ -69,6 +69,16 @@ static void mesh_obj_accepted(void) {
       {"#\rv 0 0 0\r\nv 1 0 0\nv 0 1 0 #\rf 1 2 3", 3, 1, {0, 1, 2}},  // all three
       {"v 0 0 \\\r0\rv 1 0 0\rv 0 1 0\rf 1 2 \\\r 3\r", 3, 1, {0, 1, 2}},
       {TETRAHEDRON "f 1 1 1\nf 1 2 2\n", 4, 2, {0, 1, 1}},  // no area
+      // numbers that are missing behind a slash
+      {TETRAHEDRON "f 1// 2// 3//\n", 4, 1, {0, 1, 2}},
+      {TETRAHEDRON "f 1/ 2/ 3/\nf -4/ -3// -2//7", 4, 2, {0, 1, 2}},
+      {TETRAHEDRON "f 1/1/ 2/1/ 3/1/\r\n", 4, 1, {0, 1, 2}},
+      // colours, and what is no weight
+      {"v 0 0 0 nan nan nan\nv 1 0 0 -nan(ind) 1 1.#QNAN\nv 0 1 0 inf -Infinity 1e999 -1.#IND 0\n"
+       "v 0 0 1 1e39\nf 2 3 4\n",
+       4,
+       1,
+       {1, 2, 3}},
       {"v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3 4\n", 4, 2, {1, 2, 3}},
       {"\n\n   \nv +1. -.5 1E+2\nv 1e-3 -0 0e999999999999999999999\nv 1e-999999 0.000 007\nf 1 2 3",
        3,
@@ -122,15 +132,15 @@ static void mesh_obj_refused(void) {
       {TETRAHEDRON "f 1/1/1/1 2 3\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f 1/a 2 3\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f /1 2 3\n", NSVCD_ERROR_SYNTAX, 5},
-      {TETRAHEDRON "f 1/ 2/ 3/\n", NSVCD_ERROR_SYNTAX, 5},
-      {TETRAHEDRON "f 1// 2// 3//\n", NSVCD_ERROR_SYNTAX, 5},
-      {TETRAHEDRON "f 1/1/ 2/1/ 3/1/\n", NSVCD_ERROR_SYNTAX, 5},
+      {TETRAHEDRON "f 1/// 2 3\n", NSVCD_ERROR_SYNTAX, 5},
+      {TETRAHEDRON "f 1/1/1/ 2 3\n", NSVCD_ERROR_SYNTAX, 5},
+      {TETRAHEDRON "f // 2 3\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f 1/-/1 2/-/1 3/-/1\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f 1//- 2//1 3//1\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f - 2 3\n", NSVCD_ERROR_SYNTAX, 5},
       {TETRAHEDRON "f1 2 3\n", NSVCD_ERROR_SYNTAX, 5},
-      {"v1 2 3\n", NSVCD_ERROR_SYNTAX, 1},
-      {"2v 1 2 3\n", NSVCD_ERROR_SYNTAX, 1},
+      {"v1 2 3\n", NSVCD_ERROR_FORMAT, 1},
+      {"2v 1 2 3\n", NSVCD_ERROR_FORMAT, 1},
       {"v\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
       {"v 1 2\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
       {"v 1 2 3 4 5 6 7 8 9\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
@@ -141,19 +151,19 @@ static void mesh_obj_refused(void) {
       {"v 1 2 1.2.3\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
       {"v 1 2 0x10\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
       {"v 1 2 --1\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},
-      {"v 1 0 1.#INF\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},  // as old Microsoft libraries print it
+      {"v 1 0 1.#INF\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},  // as old Microsoft libraries print it
       {"v nan 0 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 0\nv 0 -NaN 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 2},
       {"v 0 0 inf\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 -Infinity\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
-      {"v 0 0 0 0.5 1e39 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},  // a colour
+      {"v 0 0 0 nan nan nan red\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 1},  // a colour
       {"v 0 0 1e39\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 1e999999999999999999999\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 1e15 0\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},
       {"v 0 0 -1000001\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 1},  // beyond NSVCD_MAX_COORDINATE
       {"v 0 0 \\\n\\\n1e7\nf 1 1 1\n", NSVCD_ERROR_NUMBER, 3},
       {"v 0 0 0\n\x01\x02 1 2 3\nf 1 1 1\n", NSVCD_ERROR_SYNTAX, 2},
-      {"\x89PNG\r\n\x1a\n", NSVCD_ERROR_SYNTAX, 1},
+      {"\x89PNG\r\n\x1a\n", NSVCD_ERROR_FORMAT, 1},
       // lines are counted alike, whatever ends them
       {"v 0 0 0\rv 0 0 1\r\rf 1 2 4\r", NSVCD_ERROR_INDEX, 4},
       {"v 0 0 0\r\nv 0 0 1\r\n\r\nf 1 2 4\r\n", NSVCD_ERROR_INDEX, 4},
@@ -487,6 +497,101 @@ static size_t stl_write(const float *corners, uint32_t triangles, int is_binary,
 }
 
 // Binary and text give the same mesh: each corner where it was, and no place twice.
+#define STL_LOOP "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+
+// What is of another format is told so, and not as an OBJ or STL with a fault in it.
+static void mesh_of_another_format_is_told_so(void) {
+  static const struct {
+    const char *text;
+    nsvcd_result as_obj, as_stl, as_any;
+    size_t line;  // as an OBJ
+  } cases[] = {
+      {"solid a\nfacet normal 0 0 1\n" STL_LOOP "endfacet\nendsolid a\n", NSVCD_ERROR_FORMAT,
+       NSVCD_OK, NSVCD_OK, 1},
+      {"\n# a tetrahedron\n" TETRAHEDRON "f 1 2 3\n", NSVCD_OK, NSVCD_ERROR_FORMAT, NSVCD_OK, 0},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n1 2 3\n", NSVCD_ERROR_FORMAT,
+       NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, 5},
+      {"OFF\n4 4 6\n0 0 0\n", NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, 2},
+      {"\n<!DOCTYPE html>\n", NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, 2},
+      {"{\"asset\": {\"version\": \"2.0\"}}", NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT,
+       NSVCD_ERROR_FORMAT, 1},
+      {"version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 5\n", NSVCD_ERROR_FORMAT,
+       NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, 1},
+      {"ISO-10303-21;\nHEADER;\n", NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, NSVCD_ERROR_FORMAT, 1},
+      {"mtllib a.mtl\no nothing\n", NSVCD_ERROR_EMPTY, NSVCD_ERROR_FORMAT, NSVCD_ERROR_EMPTY, 0},
+      {"# words\n", NSVCD_ERROR_EMPTY, NSVCD_ERROR_FORMAT, NSVCD_ERROR_EMPTY, 0},
+  };
+  for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+    const char *text = cases[n].text;
+    const size_t size = strlen(text);
+    for (int format = NSVCD_MESH_ANY; format <= NSVCD_MESH_STL; format++) {
+      const nsvcd_result wanted[3] = {cases[n].as_any, cases[n].as_obj, cases[n].as_stl};
+      nsvcd_mesh_options options = {(nsvcd_mesh_format)format, {0, 0, 0}, 0};
+      nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+      size_t line = 99;
+      CHECK_EQ(nsvcd_mesh_parse(text, size, &options, NULL, &mesh, &line), wanted[format]);
+      if (format == NSVCD_MESH_OBJ) CHECK_EQ(line, cases[n].line);
+      nsvcd_mesh_free(&mesh, NULL);
+    }
+  }
+  // binary, and begins with "solid" as some do
+  static char binary[400];
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const size_t size = stl_write(corners, 1, 1, binary);
+  memcpy(binary, "solid part", 10);
+  for (size_t k = 0; k < 3; k++) {
+    static const nsvcd_result wanted[3] = {NSVCD_OK, NSVCD_ERROR_FORMAT, NSVCD_OK};
+    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+    CHECK_EQ(nsvcd_stl_parse(binary, size - (k == 1) + (k == 2), NULL, &mesh, NULL), wanted[k]);
+    CHECK_EQ(mesh.triangle_count, k == 1 ? 0 : 1);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+  nsvcd_mesh mesh;
+  CHECK_EQ(nsvcd_obj_parse(binary, size, NULL, &mesh, NULL), NSVCD_ERROR_FORMAT);
+}
+
+// What is held against the limit, and rounded to float, is what becomes of a coordinate in metres.
+static void mesh_coordinates_become_metres_in_double(void) {
+  static const char *const texts[2] = {
+      "v 500000.10 5400000.25 100\nv 500001.10 5400000.25 100\nv 500000.10 5400001.50 100\nf 1 2 3",
+      "solid\nvertex 500000.10 5400000.25 100\nvertex 500001.10 5400000.25 100\n"
+      "vertex 500000.10 5400001.50 100\nendloop\n"};
+  const float wanted[9] = {0.1f, 0.25f, 0, 1.1f, 0.25f, 0, 0.1f, 1.5f, 0};
+  static char binary[400];
+  const float far_off[9] = {2e6f, 0, 0, 2001000, 0, 0, 2e6f, 1000, 0};
+  const size_t size = stl_write(far_off, 1, 1, binary);
+  nsvcd_mesh mesh;
+  for (size_t n = 0; n < 2; n++) {
+    nsvcd_mesh_options options = {NSVCD_MESH_ANY, {500000, 5400000, 100}, 0};
+    const size_t length = strlen(texts[n]);
+    CHECK_EQ(nsvcd_mesh_parse(texts[n], length, NULL, NULL, &mesh, NULL), NSVCD_ERROR_NUMBER);
+    for (int k = 0; k < 3; k++) {
+      const double scales[3] = {1, 0.001, 1e5};
+      options.scale = scales[k];
+      CHECK_EQ(nsvcd_mesh_parse(texts[n], length, &options, NULL, &mesh, NULL), NSVCD_OK);
+      for (size_t i = 0; i < 9; i++)
+        CHECK_LE(fabs((double)mesh.positions[i] - scales[k] * (double)wanted[i]),
+                 1.2e-7 * scales[k]);
+      nsvcd_mesh_free(&mesh, NULL);
+    }
+    options.scale = 1e6;
+    CHECK_EQ(nsvcd_mesh_parse(texts[n], length, &options, NULL, &mesh, NULL), NSVCD_ERROR_NUMBER);
+    options.scale = -1;
+    CHECK_EQ(nsvcd_mesh_parse(texts[n], length, &options, NULL, &mesh, NULL), NSVCD_ERROR_SCALE);
+    options.scale = NAN;
+    CHECK_EQ(nsvcd_mesh_parse(texts[n], length, &options, NULL, &mesh, NULL), NSVCD_ERROR_SCALE);
+    options.scale = 0;
+    options.origin[1] = INFINITY;
+    CHECK_EQ(nsvcd_mesh_parse(texts[n], length, &options, NULL, &mesh, NULL), NSVCD_ERROR_NUMBER);
+  }
+  const nsvcd_mesh_options millimetres = {NSVCD_MESH_STL, {0, 0, 0}, 0.001};
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, NULL), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(nsvcd_mesh_parse(binary, size, &millimetres, NULL, &mesh, NULL), NSVCD_OK);
+  for (size_t i = 0; i < 9; i++)
+    CHECK_LE(fabs((double)mesh.positions[i] - 0.001 * (double)far_off[i]), 2e-4);
+  nsvcd_mesh_free(&mesh, NULL);
+}
+
 static void mesh_stl_is_read(void) {
   static char text[2][200 * 300];
   static float corners[9 * 200];
@@ -521,7 +626,6 @@ static void mesh_stl_is_read(void) {
   CHECK_EQ(nsvcd_stl_load("no/such/file.stl", NULL, &mesh, NULL), NSVCD_ERROR_IO);
 }
 
-#define STL_LOOP "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
 static void mesh_stl_is_refused(void) {
   static const struct {
     const char *text;
@@ -539,8 +643,8 @@ static void mesh_stl_is_refused(void) {
       {"solid\nvertex 0 0 0\nvertex 1 0 nan\nvertex 1 0 1\nendloop", NSVCD_ERROR_NUMBER, 3},
       {"solid\nvertex 0 0 0\nvertex 1 0 9e37\nvertex 1 0 1\nendloop", NSVCD_ERROR_NUMBER, 3},
       {"solid\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 0", NSVCD_ERROR_SYNTAX, 4},
-      {"", NSVCD_ERROR_SYNTAX, 0},
-      {"ply\n", NSVCD_ERROR_SYNTAX, 0},
+      {"", NSVCD_ERROR_FORMAT, 0},
+      {"ply\n", NSVCD_ERROR_FORMAT, 0},
   };
   for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
     nsvcd_mesh mesh = {NULL, NULL, 7, 7};
@@ -568,13 +672,13 @@ static void mesh_stl_is_refused(void) {
   CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_OK);
   nsvcd_mesh_free(&mesh, NULL);
   memcpy(binary, "SOLED", 5);
-  CHECK_EQ(nsvcd_stl_parse(binary, size - 1, NULL, &mesh, &line), NSVCD_ERROR_SYNTAX);
+  CHECK_EQ(nsvcd_stl_parse(binary, size - 1, NULL, &mesh, &line), NSVCD_ERROR_FORMAT);
   CHECK_EQ(line, 0);
   binary[84 + 12 + 3] = 0x7f;
   binary[84 + 12 + 2] = (char)0x80;
   CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_ERROR_NUMBER);
   memset(binary + 80, 0xff, 4);
-  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_ERROR_SYNTAX);
+  CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, &mesh, &line), NSVCD_ERROR_FORMAT);
   CHECK_EQ(nsvcd_stl_parse(NULL, size, NULL, &mesh, &line), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_stl_parse(binary, size, NULL, NULL, &line), NSVCD_ERROR_ARGUMENT);
 }
@@ -926,8 +1030,8 @@ static void mesh_cut_to_a_box(void) {
   CHECK_EQ(part.triangle_count, mesh.triangle_count);
   nsvcd_mesh_free(&part, NULL);
   nsvcd_mesh untouched = {NULL, NULL, 7, 7};
-  CHECK_EQ(nsvcd_mesh_cut(&mesh, high, low, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(nsvcd_mesh_cut(&mesh, low, nan, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, high, low, NULL, &untouched), NSVCD_ERROR_BOX);
+  CHECK_EQ(nsvcd_mesh_cut(&mesh, low, nan, NULL, &untouched), NSVCD_ERROR_BOX);
   CHECK_EQ(nsvcd_mesh_cut(&mesh, NULL, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_mesh_cut(NULL, low, high, NULL, &untouched), NSVCD_ERROR_ARGUMENT);
   for (int fails = 0; fails < 2; fails++) {
@@ -952,6 +1056,8 @@ void test_mesh(void) {
   RUN(mesh_obj_files);
   RUN(mesh_obj_comments);
   RUN(mesh_obj_fuzz);
+  RUN(mesh_of_another_format_is_told_so);
+  RUN(mesh_coordinates_become_metres_in_double);
   RUN(mesh_stl_is_read);
   RUN(mesh_stl_is_refused);
   RUN(mesh_stl_shares_no_hash);

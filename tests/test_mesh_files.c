@@ -3,7 +3,7 @@
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/ground/strings.h"
 #include "../src/mesh/faces.h"
-#include "../src/mesh/stl.h"
+#include "../src/mesh/files.h"
 #include "../src/patches/samples.h"
 
 #include "check.h"
@@ -215,19 +215,19 @@ static void mesh_of_faces_refuses(void) {
   REFUSED((faces.positions = NULL, faces.face_count = faces.corner_count = 0),
           NSVCD_ERROR_ARGUMENT);
   // sizes that are not those of the corners
-  REFUSED(faces.corner_count = 6, NSVCD_ERROR_ARGUMENT);
-  REFUSED(faces.corner_count = 8, NSVCD_ERROR_ARGUMENT);
-  REFUSED(faces.corner_count = 0, NSVCD_ERROR_ARGUMENT);
-  REFUSED(faces.face_count = 0, NSVCD_ERROR_ARGUMENT);
-  REFUSED(faces.face_count = 1, NSVCD_ERROR_ARGUMENT);
-  REFUSED(faces.sizes = NULL, NSVCD_ERROR_ARGUMENT);
-  REFUSED((faces.sizes = NULL, faces.face_count = SIZE_MAX), NSVCD_ERROR_ARGUMENT);
+  REFUSED(faces.corner_count = 6, NSVCD_ERROR_SIZES);
+  REFUSED(faces.corner_count = 8, NSVCD_ERROR_SIZES);
+  REFUSED(faces.corner_count = 0, NSVCD_ERROR_SIZES);
+  REFUSED(faces.face_count = 0, NSVCD_ERROR_SIZES);
+  REFUSED(faces.face_count = 1, NSVCD_ERROR_SIZES);
+  REFUSED(faces.sizes = NULL, NSVCD_ERROR_SIZES);
+  REFUSED((faces.sizes = NULL, faces.face_count = SIZE_MAX), NSVCD_ERROR_SIZES);
   for (uint32_t size = 0; size < 3; size++) {
     sizes[0] = size;
-    REFUSED(faces.corner_count = size + 4, NSVCD_ERROR_ARGUMENT);
+    REFUSED(faces.corner_count = size + 4, NSVCD_ERROR_SIZES);
   }
   sizes[0] = 0xffffffffu;
-  REFUSED(faces = good, NSVCD_ERROR_ARGUMENT);
+  REFUSED(faces = good, NSVCD_ERROR_SIZES);
   sizes[0] = 3;
   REFUSED(faces.vertex_count = 3, NSVCD_ERROR_INDEX);
   REFUSED(faces.vertex_count = 0, NSVCD_ERROR_INDEX);
@@ -385,6 +385,81 @@ static void mesh_ply_is_read(void) {
   }
 }
 
+// Strips of triangles, in every format, are the triangles that they are by definition.
+static void mesh_ply_strips(void) {
+  static const char *const formats[3] = {"ascii", "binary_little_endian", "binary_big_endian"};
+  mesh_rng = 14;
+  for (int n = 0; n < 600; n++) {
+    const int format = n % 3;
+    const int corner =
+        format && n % 7 == 0 ? 5 : 2 * (int)mesh_below(4);  // 5: unsigned, of which -1 is the last
+    const size_t rows = 1 + mesh_below(3);
+    uint32_t wanted[3 * 200];
+    size_t triangles = 0;
+    nsvcd_mesh mesh;
+    mesh_fault fault;
+    file.size = 0;
+    put(&file, "ply\nformat %s 1.0\nelement vertex 9\nproperty short x\n", formats[format]);
+    put(&file, "property short y\nproperty short z\nelement tristrips %d\n", (int)rows);
+    put(&file, "property list uchar %s vertex_%s\nend_header\n", ply_names[corner],
+        n % 2 ? "indices" : "index");
+    for (int i = 0; i < 27; i++) ply_put(&file, format, 2, i * i % 31);
+    for (size_t row = 0; row < rows; row++) {
+      int strip[40];
+      const size_t count = mesh_below(40);
+      ply_put(&file, format, 1, (double)count);
+      for (size_t i = 0, first = 0; i < count; i++) {
+        strip[i] = (int)mesh_below(10) - 1;
+        ply_put(&file, format, corner, strip[i] < 0 && corner == 5 ? 4294967295.0 : strip[i]);
+        if (strip[i] < 0) first = i + 1;
+        if (i < first + 2 || strip[i] < 0) continue;
+        const int odd = (i - first) % 2 == 1;
+        const int a = strip[i - 2 + (size_t)odd];
+        const int b = strip[i - 1 - (size_t)odd];
+        if (a == b || b == strip[i] || a == strip[i]) continue;
+        wanted[3 * triangles] = (uint32_t)a;
+        wanted[3 * triangles + 1] = (uint32_t)b;
+        wanted[3 * triangles++ + 2] = (uint32_t)strip[i];
+      }
+    }
+    if (triangles == 0) {
+      CHECK(!parse("", file.at, file.size, &mesh, &fault));
+    } else if (parse("", file.at, file.size, &mesh, &fault)) {
+      CHECK_EQ(mesh.triangle_count, triangles);
+      CHECK(memcmp(mesh.indices, wanted, 3 * triangles * sizeof *wanted) == 0);
+      nsvcd_mesh_free(&mesh, NULL);
+    } else {
+      printf("  %d: %s\n", n, fault.reason);
+      CHECK(!"refused");
+    }
+  }
+}
+
+// Of every format: a place is taken off, and what is left scaled, in double; the limit is one of
+// metres.
+static void mesh_files_become_metres_in_double(void) {
+  static const char ply[] =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "500000.10 5400000.00 7\n500001.10 5400000.00 7\n500000.10 5400001.00 7\n3 0 1 2\n";
+  static const char obj[] =
+      "v 500000.10 5400000.00 7\nv 500001.10 5400000.00 7\nv 500000.10 5400001.00 7\nf 1 2 3\n";
+  const float wanted[9] = {0.1f, 0, 0, 1.1f, 0, 0, 0.1f, 1, 0};
+  const nsvcd_mesh_options placed = {NSVCD_MESH_ANY, {500000, 5400000, 7}, 0.5};
+  for (int n = 0; n < 2; n++) {
+    const char *text = n ? obj : ply;
+    nsvcd_mesh mesh;
+    mesh_fault fault;
+    CHECK(!parse("", text, strlen(text), &mesh, &fault));
+    CHECK(fault.reason == NULL ||
+          strcmp(fault.reason, nsvcd_result_string(NSVCD_ERROR_NUMBER)) == 0);
+    CHECK(mesh_parse_to("", text, strlen(text), &placed, NULL, &mesh, &fault));
+    for (int i = 0; i < 9 && !fault.reason; i++)
+      CHECK_LE(fabs((double)mesh.positions[i] - 0.5 * (double)wanted[i]), 1e-7);
+    if (!fault.reason) nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
 #define PLY_HEAD                                                                  \
   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" \
   "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -471,8 +546,12 @@ static void mesh_ply_is_refused(void) {
       {PLY_GOOD "3 0 1 2e\n", 13, "a number is wanted"},
       {PLY_BEGIN PLY_VERTICES
        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" PLY_THREE
-       "3 0 1 2\n",
+       "6 0 1 1 -1 2 0\n",
        0, "a cloud of points"},
+      {PLY_BEGIN PLY_VERTICES
+       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" PLY_THREE
+       "3 0 1 -2\n",
+       13, "no number of a vertex"},
       {PLY_GOOD "3 0 1 3\n", 0, "index"},
       {PLY_BEGIN PLY_VERTICES PLY_FACES "0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n", 11,
        "a number is wanted"},
@@ -1105,6 +1184,8 @@ void test_mesh_files(void) {
   RUN(mesh_of_faces_is_that_of_obj);
   RUN(mesh_of_faces_refuses);
   RUN(mesh_ply_is_read);
+  RUN(mesh_ply_strips);
+  RUN(mesh_files_become_metres_in_double);
   RUN(mesh_ply_numbers);
   RUN(mesh_ply_in_any_locale);
   RUN(mesh_ply_is_refused);

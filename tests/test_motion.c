@@ -41,17 +41,19 @@ static void bad_poses(void) {
   memset(&motion, 7, sizeof motion);
   nsvcd__motion before = motion;
   for (int n = 0; n < 5; n++) poses[n] = good;
-  CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_ARGUMENT);
-  CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(motion_init(poses, 0, &good, &motion), NSVCD_ERROR_POSES);
+  CHECK_EQ(motion_init(poses, (size_t)NSVCD_MAX_POSES + 1, &good, &motion), NSVCD_ERROR_POSES);
+  CHECK_EQ(motion_init(NULL, 5, &good, &motion), NSVCD_ERROR_POSES);
   const float bad[6] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 3e38f, 2e6f, 1e30f};
   for (int at = 0; at < 7; at++) {
     for (int n = 0; n < 6; n++) {
       nsvcd_pose evil = good;
       *(at < 3 ? &evil.position[at] : &evil.rotation[at - 3]) = bad[n];
-      CHECK_EQ(motion_init(poses, 5, &evil, &motion), NSVCD_ERROR_POSE);
+      CHECK_EQ(motion_init(poses, 5, &evil, &motion),
+               at < 3 ? NSVCD_ERROR_POSE : NSVCD_ERROR_QUATERNION);
       poses[4] = evil;
-      CHECK_EQ(motion_init(poses, 5, &good, &motion), NSVCD_ERROR_POSE);
+      CHECK_EQ(motion_init(poses, 5, &good, &motion),
+               at < 3 ? NSVCD_ERROR_POSE : NSVCD_ERROR_QUATERNION);
       poses[4] = good;
     }
   }
@@ -60,16 +62,15 @@ static void bad_poses(void) {
     nsvcd_pose q = good;
     q.rotation[3] = lengths[n];
     nsvcd__motion m;
-    CHECK_EQ(motion_init(&q, 1, &good, &m), n < 3 ? NSVCD_ERROR_POSE : NSVCD_OK);
+    CHECK_EQ(motion_init(&q, 1, &good, &m), n < 3 ? NSVCD_ERROR_QUATERNION : NSVCD_OK);
   }
   CHECK(memcmp(&motion, &before, sizeof motion) == 0);  // outputs untouched
 }
 
 static nsvcd_result times_check(const float *times, size_t count) {
-  static const struct nsvcd_body any = {0};
   nsvcd_mover mover;
   memset(&mover, 0, sizeof mover);
-  mover.body = &any;
+  mover.body = &any_body;
   mover.poses = poses;
   mover.times = times;
   mover.count = count;
@@ -91,7 +92,7 @@ static void bad_times(void) {
       memcpy(times, rising, sizeof times);
       times[at] = bad[n];
       const int rises = (at == 3 && n == 8) || (at == 1 && n == 6) || (at == 2 && n == 6);
-      CHECK_EQ(times_check(times, 4), rises ? NSVCD_OK : NSVCD_ERROR_POSE);
+      CHECK_EQ(times_check(times, 4), rises ? NSVCD_OK : NSVCD_ERROR_TIMES);
     }
   }
 }
@@ -100,13 +101,12 @@ static void bad_times(void) {
 static void times_are_at_ticks(void) {
   const nsvcd_pose good = {{0, 0, 0}, {0, 0, 0, 1}};
   static const float times[5] = {0, 1.0f / 65536, 0.375f, 1 - 1.0f / 1024, 1};
-  static const struct nsvcd_body any = {0};
   for (size_t count = 1; count <= NSVCD_MAX_POSES; count += 1 + count / 3) {
     nsvcd_question question;
     nsvcd__motion motion;
     for (size_t n = 0; n < count; n++) poses[n] = good;
     memset(&question, 0, sizeof question);
-    question.a.body = question.b.body = &any;
+    question.a.body = question.b.body = &any_body;
     question.a.poses = question.b.poses = poses;
     question.a.count = 5;
     question.a.times = times;

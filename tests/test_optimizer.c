@@ -958,7 +958,7 @@ static void plan_starts_beside_a_wall(void) {
   s.options.sweep.method = NSVCD_METHOD_PROOF;
   CHECK_EQ(plan_run(&s).answer.status, NSVCD_PLAN_START);
   s.bodies[0] = plan_body(PLAN_BOX);  // no triangles, no proof
-  CHECK_EQ(plan_run(&s).result, NSVCD_ERROR_BODY);
+  CHECK_EQ(plan_run(&s).result, NSVCD_ERROR_TRIANGLES);
 }
 
 static void plan_stages_can_be_left_out(void) {
@@ -1231,7 +1231,11 @@ static void plan_refuses_options_out_of_range(void) {
     for (int n = 0; n < 3; n++) {
       if (n == 2 && (k == 2 || k == 6)) continue;  // NSVCD_NONE
       *sizes[k] = n == 0 ? most[k] + 1 : n == 1 ? SIZE_MAX / 2 : SIZE_MAX;
-      plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+      plan_refuses(&s,
+                   k < 8    ? NSVCD_ERROR_STAGE
+                   : k < 10 ? NSVCD_ERROR_PLAN
+                            : NSVCD_ERROR_PAIRS,
+                   0);
     }
     *o = none;
   }
@@ -1239,18 +1243,19 @@ static void plan_refuses_options_out_of_range(void) {
                            &o->collision,     &o->duration,     &o->margin,
                            &o->explore.noise, &o->refine.noise, &o->sweep.network.recall};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
+    const nsvcd_result code = k < 8 ? NSVCD_ERROR_PLAN : NSVCD_ERROR_RECALL;
     *floats[k] = NAN;
-    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    plan_refuses(&s, code, 0);
     *floats[k] = -INFINITY;
-    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    plan_refuses(&s, code, 0);
     *o = none;
   }
   o->sweep.network.recall = 0.5f;
-  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+  plan_refuses(&s, NSVCD_ERROR_RECALL, 0);
   *o = none, o->sweep.network.model = (nsvcd_model)17;
-  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+  plan_refuses(&s, NSVCD_ERROR_MODEL, 0);
   *o = none, o->sweep.network.precision = (nsvcd_precision)5;
-  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+  plan_refuses(&s, NSVCD_ERROR_PRECISION, 0);
 }
 
 static void plan_works_at_the_ends_of_its_options(void) {
@@ -1283,6 +1288,11 @@ static void plan_refuses_problems(void) {
   const nsvcd_plan_problem good = s.problem;
   nsvcd_plan_problem *p = &s.problem;
   CHECK_EQ(nsvcd_plan_workspace_size(NULL, NULL), 0);
+  static const nsvcd_result wanted[14] = {
+      NSVCD_ERROR_COUNT,    NSVCD_ERROR_COUNT,    NSVCD_ERROR_ARGUMENT, NSVCD_ERROR_ARGUMENT,
+      NSVCD_ERROR_ARGUMENT, NSVCD_ERROR_ARGUMENT, NSVCD_ERROR_ARGUMENT, NSVCD_ERROR_ARGUMENT,
+      NSVCD_ERROR_ARGUMENT, NSVCD_ERROR_PAIR,     NSVCD_ERROR_COUNT,    NSVCD_ERROR_PAIR,
+      NSVCD_ERROR_PAIR,     NSVCD_ERROR_ARGUMENT};
   for (int k = 0; k < 14; k++) {
     *p = good;
     if (k == 0) p->joints = 0;
@@ -1299,12 +1309,17 @@ static void plan_refuses_problems(void) {
     if (k == 11) s.pairs[0].b = 0;  // itself
     if (k == 12) s.pairs[0].b = 0xffffffffu;
     if (k == 13) s.bodies[1] = NULL;
-    plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 0);
+    plan_refuses(&s, wanted[k], 0);
     s.pairs[0].b = 1;
   }
   plan_wall_scene(&s);
+  const uint64_t text[2] = {0x7a7a7a7a7a7a7a7au, 0};
+  const void *no_body = text;
+  s.bodies[0] = (const nsvcd_body *)no_body;
+  plan_refuses(&s, NSVCD_ERROR_BODY, 0);
+  plan_wall_scene(&s);
   s.low[1] = 0.6f;  // above high
-  plan_refuses(&s, NSVCD_ERROR_ARGUMENT, 1);
+  plan_refuses(&s, NSVCD_ERROR_LIMITS, 1);
   const float wrong[4] = {NAN, INFINITY, -INFINITY, 2e6f};
   for (size_t k = 0; k < 16; k++) {
     plan_wall_scene(&s);
@@ -1313,14 +1328,16 @@ static void plan_refuses_problems(void) {
                           : k < 12 ? &s.start[2]
                                    : &s.goal[2];
     *number = wrong[k % 4];
-    plan_refuses(&s, NSVCD_ERROR_NUMBER, 1);
+    plan_refuses(&s, NSVCD_ERROR_VALUE, 1);
   }
   for (int fault = PLAN_NAN; fault <= PLAN_NAN_LATER; fault++) {
     plan_wall_scene(&s);
     s.fault = (plan_fault)fault;
-    plan_refuses(&s, NSVCD_ERROR_POSE, 1);
+    const int is_long = fault == PLAN_LONG_QUATERNION;
+    const nsvcd_result code = is_long ? NSVCD_ERROR_QUATERNION : NSVCD_ERROR_POSE;
+    plan_refuses(&s, code, 1);
     s.problem.collision = plan_bump_collision;
-    plan_refuses(&s, NSVCD_ERROR_POSE, 1);
+    plan_refuses(&s, code, 1);
   }
   // Quaternions as long as nsvcd_sweep lets them be are not too long in pairs either.
   for (int n = 0; n < 2; n++) {
@@ -1548,7 +1565,7 @@ static int plan_trouble_case(plan_trouble trouble, uint64_t seed) {
   if (!out.result) CHECK(plan_same(&out, &again, 3));
   for (int b = 0; b < 2; b++) query_release(&scaled[b]);
   if (trouble == PLAN_SAME_BODY) {
-    CHECK_EQ(out.result, NSVCD_ERROR_ARGUMENT);
+    CHECK_EQ(out.result, NSVCD_ERROR_PAIR);
     return -1;
   }
   // the cost is beyond float's range

@@ -2267,39 +2267,41 @@ static void proof_refuses(void) {
   const float bad[4] = {-1, -1e-30f, NAN, INFINITY};
   for (int k = 0; k < 4; k++) {
     for (int which = 0; which < 5; which++) {
+      static const nsvcd_result codes[5] = {NSVCD_ERROR_TOLERANCE, NSVCD_ERROR_CLEARANCE,
+                                            NSVCD_ERROR_TO, NSVCD_ERROR_SKIN, NSVCD_ERROR_TO_TIME};
       options = proof_options();
       options.ask = which == 2 && k % 2 ? NSVCD_ASK_DISTANCE : NSVCD_ASK_FIRST;
       float *const numbers[5] = {&options.tolerance, &options.clearance, &options.to, &options.skin,
                                  &options.to_time};
       float *number = numbers[which];
       *number = bad[k];
-      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
+      CHECK_EQ(proof_ask_with(&a, &options), codes[which]);
       *number = which == 4 ? 1.01f : 2e6f;
-      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TOLERANCE);
+      CHECK_EQ(proof_ask_with(&a, &options), codes[which]);
     }
   }
   options = proof_options();
   options.to = 0.1f;  // of what is not asked
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TO);
   options.to = 0;
   options.to_time = 0.1f;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TO_TIME);
   options.ask = NSVCD_ASK_DISTANCE;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_TO_TIME);
   options.ask = NSVCD_ASK_FIRST;
   CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
   options.method = NSVCD_METHOD_NETWORK;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_METHOD);
   options = proof_options();
   options.ask = (nsvcd_ask)3;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ASK);
   options.ask = (nsvcd_ask)-1;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ASK);
   options = proof_options();
   options.method = (nsvcd_method)3;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_METHOD);
   options.method = (nsvcd_method)-1;
-  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(proof_ask_with(&a, &options), NSVCD_ERROR_METHOD);
 
   const nsvcd_encode_options bare = {.patches = 8, .no_triangles = 1};
   proof_shape(BOX, 1, &shape);
@@ -2313,10 +2315,10 @@ static void proof_refuses(void) {
   options = proof_options();
   CHECK_EQ(ask(body, a.motion.moving.raw, 1, a.fixed->body, a.motion.fixed.raw, &options,
                proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
-           NSVCD_ERROR_BODY);
+           NSVCD_ERROR_TRIANGLES);
   CHECK_EQ(ask(a.fixed->body, a.motion.moving.raw, 1, body, a.motion.fixed.raw, &options,
                proof_workspace(), nsvcd_sweep_workspace_size(NULL), &a.answer),
-           NSVCD_ERROR_BODY);
+           NSVCD_ERROR_TRIANGLES);
   nsvcd_body_free(body, NULL);
   shapes_free(&shape);
 }

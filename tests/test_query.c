@@ -651,10 +651,9 @@ static void query_refuses(const query_scene *s, const nsvcd_pose *poses, size_t 
 static void query_refuses_bad_arguments(void) {
   query_scene s;
   query_scene_open(&s, 1);
-  query_refuses(&s, NULL, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  query_refuses(&s, s.motion, 0, &s.fixed_pose, NULL, NSVCD_ERROR_ARGUMENT);
-  query_refuses(&s, s.motion, (size_t)NSVCD_MAX_POSES + 1, &s.fixed_pose, NULL,
-                NSVCD_ERROR_ARGUMENT);
+  query_refuses(&s, NULL, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_POSES);
+  query_refuses(&s, s.motion, 0, &s.fixed_pose, NULL, NSVCD_ERROR_POSES);
+  query_refuses(&s, s.motion, (size_t)NSVCD_MAX_POSES + 1, &s.fixed_pose, NULL, NSVCD_ERROR_POSES);
   query_scene no_moving = s;
   query_scene no_fixed = s;
   no_moving.moving = NULL;
@@ -674,8 +673,11 @@ static void query_refuses_bad_arguments(void) {
   bad[5] = query_options(0, NSVCD_MODEL_DEFAULT, NAN);
   bad[6] = query_options(0, NSVCD_MODEL_DEFAULT, 0);
   bad[6].network.precision = (nsvcd_precision)(NSVCD_PRECISION_INT8 + 1);
+  static const nsvcd_result codes[7] = {
+      NSVCD_ERROR_PAIRS,  NSVCD_ERROR_PAIRS,  NSVCD_ERROR_MODEL,    NSVCD_ERROR_RECALL,
+      NSVCD_ERROR_RECALL, NSVCD_ERROR_RECALL, NSVCD_ERROR_PRECISION};
   for (int i = 0; i < 7; i++)
-    query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], NSVCD_ERROR_ARGUMENT);
+    query_refuses(&s, s.motion, QUERY_POSES, &s.fixed_pose, &bad[i], codes[i]);
   query_scene_close(&s);
 }
 
@@ -706,20 +708,21 @@ static void query_refuses_bad_questions(void) {
     }
     bad = good;
     (side ? &bad.b : &bad.a)->poses = NULL;  // with a count
-    query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
+    query_refuses_question(&bad, NSVCD_ERROR_POSES);
     bad = good;
     (side ? &bad.b : &bad.a)->count = 0;  // with poses
-    query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);
+    query_refuses_question(&bad, NSVCD_ERROR_POSES);
   }
   bad = good;
   bad.ask = NSVCD_ASK_DISTANCE;
-  query_refuses_question(&bad, NSVCD_ERROR_BODY);  // the network tells of it where it is named,
+  query_refuses_question(&bad,
+                         NSVCD_ERROR_TRIANGLES);  // the network tells of it where it is named,
   bad.method = NSVCD_METHOD_NETWORK;
   bad.to = 1e-3f;
-  query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);  // but not to a millimetre,
+  query_refuses_question(&bad, NSVCD_ERROR_METHOD);  // but not to a millimetre,
   bad.ask = NSVCD_ASK_FIRST;
   bad.to = 0;
-  query_refuses_question(&bad, NSVCD_ERROR_ARGUMENT);  // and not when
+  query_refuses_question(&bad, NSVCD_ERROR_METHOD);  // and not when
   bad = good;
   bad.b = bad.a;
   query_refuses_question(&bad, NSVCD_ERROR_SAME);
@@ -729,6 +732,105 @@ static void query_refuses_bad_questions(void) {
   bad.b.poses = &elsewhere;  // the same body at another place is a question like any other
   bad.b.count = 1;
   (void)query_answer(&bad);
+  query_scene_close(&s);
+}
+
+// One field at fault, and the code is that field's: nothing else is named.
+static void query_names_the_field_at_fault(void) {
+  query_scene s;
+  query_scene_open(&s, 1);  // of bodies without triangles
+  const nsvcd_question good =
+      question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+  const float falling[QUERY_POSES] = {0, 0.7f, 0.3f, 1};
+  const float late[QUERY_POSES] = {0, 0.3f, 0.7f, 2};
+  CHECK_LE(4, QUERY_POSES);
+#define FAULT(change, code)                        \
+  do {                                             \
+    nsvcd_question bad = good;                     \
+    change;                                        \
+    query_refuses_question(&bad, code);            \
+    CHECK_EQ(nsvcd_sweep_workspace_size(&bad), 0); \
+  } while (0)
+  FAULT((bad.a.times = falling, bad.a.count = 4), NSVCD_ERROR_TIMES);
+  FAULT((bad.b.times = late, bad.b.poses = s.motion, bad.b.count = 4), NSVCD_ERROR_TIMES);
+  FAULT(bad.a.count = (size_t)NSVCD_MAX_POSES + 1, NSVCD_ERROR_POSES);
+  FAULT(bad.to = 0.01f, NSVCD_ERROR_TO);
+  FAULT((bad.ask = NSVCD_ASK_DISTANCE, bad.to = -1), NSVCD_ERROR_TO);
+  FAULT((bad.ask = NSVCD_ASK_FIRST, bad.to = NAN), NSVCD_ERROR_TO);
+  FAULT(bad.to_time = 0.5f, NSVCD_ERROR_TO_TIME);
+  FAULT((bad.ask = NSVCD_ASK_FIRST, bad.to_time = 1.5f), NSVCD_ERROR_TO_TIME);
+  FAULT(bad.clearance = -1, NSVCD_ERROR_CLEARANCE);
+  FAULT(bad.skin = INFINITY, NSVCD_ERROR_SKIN);
+  FAULT(bad.tolerance = -1, NSVCD_ERROR_TOLERANCE);
+  FAULT(bad.manifold = 1, NSVCD_ERROR_MANIFOLD);
+  FAULT(bad.segments = 17, NSVCD_ERROR_SEGMENTS);
+  FAULT(bad.segments = 80, NSVCD_ERROR_SEGMENTS);
+  FAULT(bad.ask = (nsvcd_ask)3, NSVCD_ERROR_ASK);
+  FAULT(bad.method = (nsvcd_method)3, NSVCD_ERROR_METHOD);
+  FAULT((bad.method = NSVCD_METHOD_NETWORK, bad.skin = 0.1f), NSVCD_ERROR_METHOD);
+  FAULT(bad.method = NSVCD_METHOD_PROOF, NSVCD_ERROR_TRIANGLES);
+  FAULT(bad.network.swell = -1, NSVCD_ERROR_SWELL);
+#undef FAULT
+#ifndef NSVCD_NO_GRADIENT
+  float gradient[6 * QUERY_POSES];
+  nsvcd_answer answer;
+  nsvcd_question by_proof = good;
+  by_proof.method = NSVCD_METHOD_PROOF;
+  CHECK_EQ(nsvcd_sweep_gradient(&by_proof, query_workspace(), nsvcd_sweep_workspace_size(NULL),
+                                &answer, gradient, NULL),
+           NSVCD_ERROR_METHOD);
+#endif
+  query_scene_close(&s);
+}
+
+// Whatever takes a body says of a pointer to something else that it is none, and reads no more than
+// its first bytes.
+static void query_knows_what_is_no_body(void) {
+  query_scene s;
+  query_scene_open(&s, 1);
+  uint64_t other[sizeof(struct nsvcd_body) / sizeof(uint64_t)];
+  nsvcd_mesh mesh = {NULL, NULL, 8, 12};
+  uint64_t *short_one = (uint64_t *)malloc(sizeof *short_one);  // a sanitizer knows where it ends
+  for (int kind = 0; kind < 8; kind++) {
+    const void *at = other;
+    nsvcd_result wanted = NSVCD_ERROR_BODY;
+    memcpy(other, s.fixed, sizeof other);
+    if (kind == 0) memset(other, 0, sizeof other);
+    if (kind == 1) memset(other, 'x', sizeof other);
+    if (kind == 2) at = &mesh;
+    if (kind == 3) at = (const char *)(const void *)s.fixed + 4;  // not where it begins
+    if (kind == 4) at = memset(short_one, 'v', sizeof *short_one);
+    if (kind == 5) ((struct nsvcd_body *)(void *)other)->patches = 0;
+    if (kind == 6) ((struct nsvcd_body *)(void *)other)->version++;
+    if (kind == 7) ((struct nsvcd_body *)(void *)other)->magic = 0x4e535642u;  // mirrored
+    if (kind > 5) wanted = NSVCD_ERROR_VERSION;
+    const nsvcd_body *no_body = (const nsvcd_body *)at;
+    nsvcd_question questions[2];
+    questions[0] = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, NULL);
+    nsvcd_answer answers[2];
+    void *w = query_workspace();
+    const size_t size = nsvcd_sweep_workspace_size(NULL);
+    for (int side = 0; side < 2; side++) {
+      questions[1] = questions[0];
+      *(side ? &questions[1].b.body : &questions[1].a.body) = no_body;
+      query_refuses_question(&questions[1], wanted);
+      CHECK_EQ(nsvcd_sweep_workspace_size(&questions[1]), 0);
+      CHECK_EQ(nsvcd_sweep_batch(questions, 2, w, size, answers), wanted);
+#ifndef NSVCD_NO_GRADIENT
+      float gradient[6 * QUERY_POSES];
+      CHECK_EQ(nsvcd_sweep_gradient(&questions[1], w, size, answers, gradient, NULL), wanted);
+#endif
+    }
+    float centre[3], radius;
+    uint64_t room[8];
+    const nsvcd_body *scaled;
+    CHECK_EQ(nsvcd_body_describe(no_body).size, 0);
+    CHECK_EQ(nsvcd_body_patch(no_body, 0, centre, &radius), 0);
+    CHECK_EQ(nsvcd_body_scale(no_body, 2, room, sizeof room, &scaled), wanted);
+    nsvcd_body_free(no_body, NULL);  // which is not the heap's
+  }
+  CHECK_EQ(nsvcd_body_describe(NULL).size, 0);
+  free(short_one);
   query_scene_close(&s);
 }
 
@@ -744,8 +846,9 @@ static void query_refuses_bad_poses(void) {
       *(k < 3 ? &motion[QUERY_POSES - 1].position[k] : &motion[QUERY_POSES - 1].rotation[k - 3]) =
           numbers[i];
       *(k < 3 ? &fixed.position[k] : &fixed.rotation[k - 3]) = numbers[i];
-      query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_POSE);
-      query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
+      const nsvcd_result code = k < 3 ? NSVCD_ERROR_POSE : NSVCD_ERROR_QUATERNION;
+      query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, code);
+      query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, code);
     }
   const float lengths[4] = {0, 0.5f, 1.0005f, -0.999f};
   for (int i = 0; i < 4; i++) {
@@ -756,8 +859,8 @@ static void query_refuses_bad_poses(void) {
       motion[2].rotation[k] *= lengths[i];
       fixed.rotation[k] *= lengths[i];
     }
-    query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_POSE);
-    query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_POSE);
+    query_refuses(&s, motion, QUERY_POSES, &s.fixed_pose, NULL, NSVCD_ERROR_QUATERNION);
+    query_refuses(&s, s.motion, QUERY_POSES, &fixed, NULL, NSVCD_ERROR_QUATERNION);
   }
   nsvcd_pose almost = s.fixed_pose;  // within the tolerance: accepted
   for (size_t k = 0; k < 4; k++) almost.rotation[k] *= 1.00005f;
@@ -1097,7 +1200,7 @@ static void query_few_segments_are_as_right(void) {
     nsvcd_answer none = query_untouched();
     CHECK_EQ(ask(bodies[0], spin, QUERY_POSES, bodies[1], &s.fixed_pose, &options,
                  query_workspace(), nsvcd_sweep_workspace_size(NULL), &none),
-             NSVCD_ERROR_ARGUMENT);
+             NSVCD_ERROR_SEGMENTS);
     if (status_of(&many) != STATUS_UNDECIDED && status_of(&few) != STATUS_UNDECIDED)
       CHECK_EQ(collides_of(&many), collides_of(&few));
     CHECK(status_of(&many) == STATUS_WITNESS || status_of(&many) == STATUS_CERTIFIED_FREE ||
@@ -1202,6 +1305,8 @@ void test_query(void) {
   RUN(query_thresholds_are_interpolated);
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_questions);
+  RUN(query_names_the_field_at_fault);
+  RUN(query_knows_what_is_no_body);
   RUN(query_refuses_bad_poses);
   RUN(query_refuses_a_bad_workspace);
   RUN(accuracy_on_a_labelled_file);

@@ -526,23 +526,27 @@ static void robot_refuses_bad_input(void) {
   } while (0)
   const nsvcd_joint joint = r.joints[3];
   const nsvcd_part part = r.parts[2];
-  REFUSED_SCENE(r.joints[3].parent = 4, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(memset(r.joints[3].axis, 0, 12), r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.joints[3].axis[1] = NAN, r.joints[3] = joint, NSVCD_ERROR_NUMBER);
-  REFUSED_SCENE(r.joints[3].low = 4, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.joints[3].high = NAN, r.joints[3] = joint, NSVCD_ERROR_NUMBER);
-  REFUSED_SCENE(r.joints[3].kind = (nsvcd_joint_kind)7, r.joints[3] = joint, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.joints[3].origin.rotation[3] = 0, r.joints[3] = joint, NSVCD_ERROR_POSE);
+  REFUSED_SCENE(r.joints[3].parent = 4, r.joints[3] = joint, NSVCD_ERROR_JOINT);
+  REFUSED_SCENE(memset(r.joints[3].axis, 0, 12), r.joints[3] = joint, NSVCD_ERROR_AXIS);
+  REFUSED_SCENE(r.joints[3].axis[1] = NAN, r.joints[3] = joint, NSVCD_ERROR_AXIS);
+  REFUSED_SCENE(r.joints[3].low = 4, r.joints[3] = joint, NSVCD_ERROR_LIMITS);
+  REFUSED_SCENE(r.joints[3].high = NAN, r.joints[3] = joint, NSVCD_ERROR_LIMITS);
+  REFUSED_SCENE(r.joints[3].kind = (nsvcd_joint_kind)7, r.joints[3] = joint, NSVCD_ERROR_JOINT);
+  REFUSED_SCENE(r.joints[3].origin.rotation[3] = 0, r.joints[3] = joint, NSVCD_ERROR_QUATERNION);
   REFUSED_SCENE(r.parts[2].pose.position[0] = NAN, r.parts[2] = part, NSVCD_ERROR_POSE);
   REFUSED_SCENE(r.parts[2].scale = -1, r.parts[2] = part, NSVCD_ERROR_SCALE);
   REFUSED_SCENE(r.parts[2].body = NULL, r.parts[2] = part, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.parts[2].link = 7, r.parts[2] = part, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.scene.joint_count = 0, (void)0, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.scene.joint_count = NSVCD_MAX_JOINTS + 1, (void)0, NSVCD_ERROR_ARGUMENT);
+  const uint64_t text[2] = {0x7a7a7a7a7a7a7a7au, 0};
+  const void *no_body = text;
+  REFUSED_SCENE(r.parts[2].body = (const nsvcd_body *)no_body, r.parts[2] = part, NSVCD_ERROR_BODY);
+  REFUSED_SCENE(r.joints[3].speed = -1, r.joints[3] = joint, NSVCD_ERROR_SPEED);
+  REFUSED_SCENE(r.parts[2].link = 7, r.parts[2] = part, NSVCD_ERROR_LINK);
+  REFUSED_SCENE(r.scene.joint_count = 0, (void)0, NSVCD_ERROR_COUNT);
+  REFUSED_SCENE(r.scene.joint_count = NSVCD_MAX_JOINTS + 1, (void)0, NSVCD_ERROR_COUNT);
   REFUSED_SCENE(r.scene.joints = NULL, (void)0, NSVCD_ERROR_ARGUMENT);
   const nsvcd_body_pair pair = r.pairs[0];
-  REFUSED_SCENE(r.pairs[0].b = r.pairs[0].a, r.pairs[0] = pair, NSVCD_ERROR_ARGUMENT);
-  REFUSED_SCENE(r.pairs[0].b = 99, r.pairs[0] = pair, NSVCD_ERROR_ARGUMENT);
+  REFUSED_SCENE(r.pairs[0].b = r.pairs[0].a, r.pairs[0] = pair, NSVCD_ERROR_PAIR);
+  REFUSED_SCENE(r.pairs[0].b = 99, r.pairs[0] = pair, NSVCD_ERROR_PAIR);
   CHECK_EQ(nsvcd_checker_open(&r.scene, r.memory, size - 1, &checker), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_checker_open(&r.scene, NULL, size, &checker), NSVCD_ERROR_WORKSPACE);
   CHECK(checker == NULL);
@@ -554,14 +558,14 @@ static void robot_refuses_bad_input(void) {
     CHECK_EQ(memcmp(&answer, &before, sizeof answer), 0);               \
     back;                                                               \
   } while (0)
-  REFUSED(points[1][5] = NAN, points[1][5] = 0, NSVCD_ERROR_NUMBER);
-  REFUSED(points[0][0] = HUGE_VAL, points[0][0] = 0, NSVCD_ERROR_NUMBER);
-  REFUSED(motion.degree = 0, motion.degree = 1, NSVCD_ERROR_ARGUMENT);
-  REFUSED(motion.degree = NSVCD_MAX_DEGREE + 1, motion.degree = 1, NSVCD_ERROR_ARGUMENT);
+  REFUSED(points[1][5] = NAN, points[1][5] = 0, NSVCD_ERROR_VALUE);
+  REFUSED(points[0][0] = HUGE_VAL, points[0][0] = 0, NSVCD_ERROR_VALUE);
+  REFUSED(motion.degree = 0, motion.degree = 1, NSVCD_ERROR_DEGREE);
+  REFUSED(motion.degree = NSVCD_MAX_DEGREE + 1, motion.degree = 1, NSVCD_ERROR_DEGREE);
   REFUSED(motion.points = NULL, motion.points = &points[0][0], NSVCD_ERROR_ARGUMENT);
-  REFUSED(options.clearance = -1, options.clearance = 0, NSVCD_ERROR_TOLERANCE);
-  REFUSED(options.clearance = NAN, options.clearance = 0, NSVCD_ERROR_TOLERANCE);
-  REFUSED(options.finest = -1, options.finest = 0, NSVCD_ERROR_TOLERANCE);
+  REFUSED(options.clearance = -1, options.clearance = 0, NSVCD_ERROR_CLEARANCE);
+  REFUSED(options.clearance = NAN, options.clearance = 0, NSVCD_ERROR_CLEARANCE);
+  REFUSED(options.finest = -1, options.finest = 0, NSVCD_ERROR_FINEST);
   CHECK_EQ(nsvcd_check(NULL, &motion, &options, &answer), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_check(r.checker, &motion, &options, &answer), NSVCD_OK);
   free(r.memory);
@@ -1045,18 +1049,18 @@ static void robot_routes_refuse(void) {
     CHECK_EQ(memcmp(&answer, &before, sizeof answer), 0);                                      \
     back;                                                                                      \
   } while (0)
-  REFUSED_ROUTE(a.start[2] = NAN, a.start[2] = 0, NSVCD_ERROR_NUMBER);
-  REFUSED_ROUTE(a.goals[0][2] = HUGE_VAL, a.goals[0][2] = 0, NSVCD_ERROR_NUMBER);
+  REFUSED_ROUTE(a.start[2] = NAN, a.start[2] = 0, NSVCD_ERROR_VALUE);
+  REFUSED_ROUTE(a.goals[0][2] = HUGE_VAL, a.goals[0][2] = 0, NSVCD_ERROR_VALUE);
   REFUSED_ROUTE(a.problem.start = NULL, a.problem.start = a.start, NSVCD_ERROR_ARGUMENT);
   REFUSED_ROUTE(a.problem.goals = NULL, a.problem.goals = a.goals[0], NSVCD_ERROR_ARGUMENT);
-  REFUSED_ROUTE(a.problem.goal_count = 0, a.problem.goal_count = 1, NSVCD_ERROR_ARGUMENT);
-  REFUSED_ROUTE(a.problem.guess_count = 1, a.problem.guess_count = 0, NSVCD_ERROR_ARGUMENT);
-  REFUSED_ROUTE(a.options.clearance = -1, a.options.clearance = 0, NSVCD_ERROR_TOLERANCE);
-  REFUSED_ROUTE(a.options.clearance = NAN, a.options.clearance = 0, NSVCD_ERROR_TOLERANCE);
-  REFUSED_ROUTE(a.options.edge = NAN, a.options.edge = 0, NSVCD_ERROR_ARGUMENT);
-  REFUSED_ROUTE(a.options.nodes = NSVCD_MAX_NODES + 1, a.options.nodes = 0, NSVCD_ERROR_ARGUMENT);
+  REFUSED_ROUTE(a.problem.goal_count = 0, a.problem.goal_count = 1, NSVCD_ERROR_COUNT);
+  REFUSED_ROUTE(a.problem.guess_count = 1, a.problem.guess_count = 0, NSVCD_ERROR_COUNT);
+  REFUSED_ROUTE(a.options.clearance = -1, a.options.clearance = 0, NSVCD_ERROR_CLEARANCE);
+  REFUSED_ROUTE(a.options.clearance = NAN, a.options.clearance = 0, NSVCD_ERROR_CLEARANCE);
+  REFUSED_ROUTE(a.options.edge = NAN, a.options.edge = 0, NSVCD_ERROR_ROUTE);
+  REFUSED_ROUTE(a.options.nodes = NSVCD_MAX_NODES + 1, a.options.nodes = 0, NSVCD_ERROR_ROUTE);
   REFUSED_ROUTE(a.options.shortcuts = NSVCD_MAX_NODES + 1, a.options.shortcuts = 0,
-                NSVCD_ERROR_ARGUMENT);
+                NSVCD_ERROR_ROUTE);
   REFUSED_ROUTE(a.size--, a.size++, NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, NULL, a.size, &answer), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_route(r.checker, &a.problem, NULL, a.memory, a.size, NULL), NSVCD_ERROR_ARGUMENT);

@@ -487,16 +487,16 @@ static void round_refuses_bad_input(void) {
   const float radii[4] = {0, -1, NAN, HUGE_VALF};
   const nsvcd_body *body = NULL;
   for (int k = 0; k < 4; k++) {
-    CHECK_EQ(nsvcd_encode_sphere(radii[k], NULL, &body), NSVCD_ERROR_ARGUMENT);
-    CHECK_EQ(nsvcd_encode_capsule(good, good + 3, radii[k], NULL, &body), NSVCD_ERROR_ARGUMENT);
-    CHECK_EQ(nsvcd_encode_cloud(good, 2, radii[k], NULL, &body), NSVCD_ERROR_ARGUMENT);
-    if (k) CHECK_EQ(nsvcd_encode_box(good + 3, radii[k], NULL, &body), NSVCD_ERROR_ARGUMENT);
+    CHECK_EQ(nsvcd_encode_sphere(radii[k], NULL, &body), NSVCD_ERROR_RADIUS);
+    CHECK_EQ(nsvcd_encode_capsule(good, good + 3, radii[k], NULL, &body), NSVCD_ERROR_RADIUS);
+    CHECK_EQ(nsvcd_encode_cloud(good, 2, radii[k], NULL, &body), NSVCD_ERROR_RADIUS);
+    if (k) CHECK_EQ(nsvcd_encode_box(good + 3, radii[k], NULL, &body), NSVCD_ERROR_RADIUS);
   }
   CHECK_EQ(nsvcd_encode_sphere(1, NULL, NULL), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_encode_capsule(NULL, good, 1, NULL, &body), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_encode_capsule(bad, bad + 3, 1, NULL, &body), NSVCD_ERROR_NUMBER);
   CHECK_EQ(nsvcd_encode_capsule(good, far_off, 1, NULL, &body), NSVCD_ERROR_NUMBER);
-  CHECK_EQ(nsvcd_encode_box(flat, 0, NULL, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_encode_box(flat, 0, NULL, &body), NSVCD_ERROR_RADIUS);
   CHECK_EQ(nsvcd_encode_cloud(NULL, 2, 1, NULL, &body), NSVCD_ERROR_ARGUMENT);
   CHECK_EQ(nsvcd_encode_cloud(good, 0, 1, NULL, &body), NSVCD_ERROR_EMPTY);
   CHECK_EQ(nsvcd_encode_cloud(bad, 2, 1, NULL, &body), NSVCD_ERROR_NUMBER);
@@ -506,12 +506,12 @@ static void round_refuses_bad_input(void) {
   memcpy(mesh.positions, good, sizeof good);
   memcpy(mesh.indices, corners, sizeof corners);
   nsvcd_encode_options options = {.round = -1};
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_RADIUS);
   options.round = 0;
   CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_EMPTY);
   options.round = 1;
   options.no_triangles = 1;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &body), NSVCD_ERROR_LATENTS);
   CHECK(body == NULL);
   nsvcd_mesh_free(&mesh, NULL);
   // a capsule of no length is a sphere

@@ -53,14 +53,18 @@ nsvcd_result nsvcd_certify(const nsvcd_question *, const nsvcd_tree *, const nsv
                            const nsvcd_certify_options *, void *, size_t, uint8_t *, size_t,
                            nsvcd_certificate *);
 
-// A mesh from the bytes of a file, of which the name may be "". Returns why there is none, or NULL.
+// A mesh from the bytes of a file, of which the name may be "". placed: its origin, in the file's
+// units, and its scale. Returns why there is none, or NULL.
 extern const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t size,
-                                         nsvcd_mesh *mesh, const char **format, size_t *line);
+                                         const double placed[4], nsvcd_mesh *mesh,
+                                         const char **format, size_t *line);
 
-const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t size, nsvcd_mesh *mesh,
-                                  const char **format, size_t *line) {
+const char *neuralsvcd_mesh_parse(const char *name, const void *data, size_t size,
+                                  const double placed[4], nsvcd_mesh *mesh, const char **format,
+                                  size_t *line) {
+  const nsvcd_mesh_options options = {NSVCD_MESH_ANY, {placed[0], placed[1], placed[2]}, placed[3]};
   mesh_fault fault;
-  (void)mesh_parse(name, data, size, NULL, mesh, &fault);
+  (void)mesh_parse_to(name, data, size, &options, NULL, mesh, &fault);
   *format = fault.format;
   *line = fault.line;
   return fault.reason;
@@ -176,11 +180,22 @@ static const neuralsvcd_layout layouts[] = {
     CONSTANT(JOINT_REVOLUTE), CONSTANT(JOINT_CONTINUOUS), CONSTANT(JOINT_PRISMATIC),
     CONSTANT(ROUTE_FOUND), CONSTANT(ROUTE_LIMIT), CONSTANT(ROUTE_STOPPED), CONSTANT(ROUTE_START),
     CONSTANT(ROUTE_GOAL),
-    CONSTANT(ERROR_ARGUMENT), CONSTANT(ERROR_IO), CONSTANT(ERROR_MEMORY), CONSTANT(ERROR_SYNTAX),
-    CONSTANT(ERROR_INDEX), CONSTANT(ERROR_NUMBER), CONSTANT(ERROR_EMPTY), CONSTANT(ERROR_TOO_LARGE),
-    CONSTANT(ERROR_POSE), CONSTANT(ERROR_SCALE), CONSTANT(ERROR_TOLERANCE), CONSTANT(ERROR_SAME),
-    CONSTANT(ERROR_BODY), CONSTANT(ERROR_WORKSPACE), CONSTANT(ERROR_CANCELLED),
-    CONSTANT(ERROR_BUILD),
+    CONSTANT(ERROR_ARGUMENT), CONSTANT(ERROR_IO), CONSTANT(ERROR_MEMORY),
+    CONSTANT(ERROR_WORKSPACE), CONSTANT(ERROR_CANCELLED), CONSTANT(ERROR_COUNT),
+    CONSTANT(ERROR_FORMAT), CONSTANT(ERROR_SYNTAX), CONSTANT(ERROR_INDEX), CONSTANT(ERROR_NUMBER),
+    CONSTANT(ERROR_EMPTY), CONSTANT(ERROR_TOO_LARGE), CONSTANT(ERROR_SIZES), CONSTANT(ERROR_BOX),
+    CONSTANT(ERROR_PATCHES), CONSTANT(ERROR_RADIUS), CONSTANT(ERROR_BODY), CONSTANT(ERROR_VERSION),
+    CONSTANT(ERROR_TRIANGLES), CONSTANT(ERROR_LATENTS), CONSTANT(ERROR_POSES),
+    CONSTANT(ERROR_TIMES), CONSTANT(ERROR_POSE), CONSTANT(ERROR_QUATERNION), CONSTANT(ERROR_SCALE),
+    CONSTANT(ERROR_SAME), CONSTANT(ERROR_ASK), CONSTANT(ERROR_METHOD), CONSTANT(ERROR_TO),
+    CONSTANT(ERROR_TO_TIME), CONSTANT(ERROR_CLEARANCE), CONSTANT(ERROR_SKIN),
+    CONSTANT(ERROR_TOLERANCE), CONSTANT(ERROR_MANIFOLD), CONSTANT(ERROR_SEGMENTS),
+    CONSTANT(ERROR_PAIRS), CONSTANT(ERROR_MODEL), CONSTANT(ERROR_PRECISION),
+    CONSTANT(ERROR_RECALL), CONSTANT(ERROR_SWELL), CONSTANT(ERROR_JOINT), CONSTANT(ERROR_AXIS),
+    CONSTANT(ERROR_LIMITS), CONSTANT(ERROR_SPEED), CONSTANT(ERROR_LINK), CONSTANT(ERROR_PAIR),
+    CONSTANT(ERROR_VALUE), CONSTANT(ERROR_DEGREE), CONSTANT(ERROR_TURN), CONSTANT(ERROR_FINEST),
+    CONSTANT(ERROR_WITHIN), CONSTANT(ERROR_FARTHEST), CONSTANT(ERROR_ROUTE), CONSTANT(ERROR_STAGE),
+    CONSTANT(ERROR_PLAN), CONSTANT(ERROR_BUILD),
     CONSTANT(ASK_HIT), CONSTANT(ASK_FIRST), CONSTANT(ASK_DISTANCE),
     CONSTANT(UNDECIDED), CONSTANT(FREE), CONSTANT(HIT),
     CONSTANT(BY_PROOF), CONSTANT(BY_NETWORK),

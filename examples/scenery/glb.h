@@ -316,11 +316,12 @@ static inline int glb_chunks(glb *g, const unsigned char *data, size_t size) {
 }
 
 // Returns 1, or 0 with a reason in *fault.
-static inline int glb_parse(const void *data, size_t size, const nsvcd_allocator *allocator,
-                            nsvcd_mesh *mesh, mesh_fault *fault) {
+static inline int glb_parse(const void *data, size_t size, const nsvcd_mesh_options *options,
+                            const nsvcd_allocator *allocator, nsvcd_mesh *mesh, mesh_fault *fault) {
   glb g;
   memset(&g, 0, sizeof g);
   g.fault = fault;
+  g.soup.options = options;
   g.most = ((size_t)1 << 24) + (size > SIZE_MAX / 64 ? SIZE_MAX / 2 : 32 * size);
   const int good = glb_chunks(&g, (const unsigned char *)data, size) && glb_scene(&g) &&
                    mesh_soup_finish(&g.soup, allocator, mesh, fault);

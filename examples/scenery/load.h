@@ -60,15 +60,17 @@ static int look_at_mesh(const char *from, const char *path, const char *bytes, s
 }
 
 // A mesh of the bytes of a file. `from`: what asks for it, for messages ("file:line: "), or "".
-// Returns its format, or NULL after a complaint.
+// given: NULL, or by the options --scale and --recentre. Returns its format, or NULL after a
+// complaint.
 static const char *parse_mesh(const char *from, const char *path, const char *bytes, size_t size,
-                              nsvcd_mesh *mesh) {
+                              const nsvcd_mesh_options *given, nsvcd_mesh *mesh) {
   mesh_fault fault;
   char text[61];
   const char *of = "";
-  if (mesh_parse(path, bytes, size, NULL, mesh, &fault)) return fault.format;
+  if (mesh_parse_to(path, bytes, size, given, NULL, mesh, &fault)) return fault.format;
   if (strcmp(fault.reason, nsvcd_result_string(NSVCD_ERROR_NUMBER)) == 0)
-    of = reason_of(NSVCD_ERROR_NUMBER) + strlen(fault.reason);
+    of = given ? " (NSVCD_MAX_COORDINATE): --scale 0.001 is of millimetres, --recentre of a map"
+               : reason_of(NSVCD_ERROR_NUMBER) + strlen(fault.reason);
   if (!fault.line) {
     complain("%s%s: %s%s (read as %s)", from, path, fault.reason, of, fault.format);
     return NULL;
@@ -82,7 +84,7 @@ static const char *parse_mesh(const char *from, const char *path, const char *by
 static const char *load_mesh(const char *from, const char *path, nsvcd_mesh *mesh) {
   size_t size;
   char *bytes = read_file(from, path, &size, look_at_mesh);
-  const char *format = bytes ? parse_mesh(from, shown_name(path), bytes, size, mesh) : NULL;
+  const char *format = bytes ? parse_mesh(from, shown_name(path), bytes, size, NULL, mesh) : NULL;
   free(bytes);
   return format;
 }
@@ -202,6 +204,8 @@ typedef struct thing {
   int fault_count, grave;  // so many, the first ones, can change an answer
   const nsvcd_body *body;
   double taken;            // seconds, by encoding
+  int recentre;            // a mesh: the middle of its box is to be the origin
+  double origin[3];        // in the file's units: what became the origin
   float scale;             // for the question: 1 where the mesh is in metres already
   double low[3], high[3];  // metres
 } thing;
@@ -231,17 +235,43 @@ static int open_thing(const char *path, thing *t) {
   return 1;
 }
 
+// The middle of the box of a mesh's vertices, in whole units of the file. Returns 0 after a
+// complaint.
+static int find_middle(const thing *t, double *middle) {
+  nsvcd_mesh mesh;
+  nsvcd_mesh_options tiny;
+  memset(&tiny, 0, sizeof tiny);
+  tiny.scale = 1e-30;  // whatever the coordinates, they are within bounds
+  if (!parse_mesh("", t->path, t->bytes, t->size, &tiny, &mesh)) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    float low = mesh.positions[k];
+    float high = low;
+    for (size_t i = 1; i < mesh.vertex_count; i++) {
+      low = fminf(low, mesh.positions[3 * i + k]);
+      high = fmaxf(high, mesh.positions[3 * i + k]);
+    }
+    middle[k] = floor(((double)low + (double)high) / 2 / tiny.scale + 0.5);
+  }
+  nsvcd_mesh_free(&mesh, NULL);
+  return 1;
+}
+
 // Takes a mesh to metres, and says what is wrong with it. Returns 0 after a complaint.
 static int take_mesh(thing *t, float scale) {
-  t->format = parse_mesh("", t->path, t->bytes, t->size, &t->mesh);
+  nsvcd_mesh_options options;
+  memset(&options, 0, sizeof options);
+  options.scale = (double)scale;
+  if (t->recentre && !find_middle(t, t->origin)) return 0;
+  memcpy(options.origin, t->origin, sizeof options.origin);
+  t->format = parse_mesh("", t->path, t->bytes, t->size, &options, &t->mesh);
   free(t->bytes);
   t->bytes = NULL;
   if (!t->format) return 0;
-  if (!mesh_check(&t->mesh, (double)scale, &t->report)) return complain("out of memory");
+  if (!mesh_check(&t->mesh, 1, &t->report)) return complain("out of memory");
+  t->report.scale = (double)scale;
   // drawn in millimetres by most
   if (strcmp(t->format, "STL") == 0) t->report.large = MESH_LARGE_STL;
   t->fault_count = mesh_findings(&t->report, t->faults, &t->grave);
-  for (size_t i = 0; i < 3 * t->mesh.vertex_count; i++) t->mesh.positions[i] *= scale;
   memcpy(t->low, t->report.low, sizeof t->low);
   memcpy(t->high, t->report.high, sizeof t->high);
   return 1;

@@ -209,7 +209,7 @@ MESH_DEF double mesh_extent(const mesh_report *report) {
 
 // ---------------------------------------------------------------------------------------- findings
 
-#define MESH_FINDINGS 7
+#define MESH_FINDINGS 8
 #define MESH_LINE 160  // characters
 // metres: bodies beyond these are hardly meant
 #define MESH_SMALL 0.001
@@ -224,6 +224,17 @@ MESH_DEF int mesh_find_size(const mesh_report *report, char *line) {
     snprintf(line, MESH_LINE, "a body of %.4g m: is it too small by a thousand? try --scale %g",
              extent, report->scale * 1000);
   return large || extent < MESH_SMALL;
+}
+// Where floats are a millimetre apart or more, for the mesh lies so far from its origin.
+MESH_DEF int mesh_find_far(const mesh_report *report, char *line) {
+  double far_off = 0;
+  for (int k = 0; k < 3; k++) far_off = fmax(far_off, fmax(report->high[k], -report->low[k]));
+  const double apart = far_off / 8388608;
+  if (apart < 0.001 || far_off < 4 * mesh_extent(report)) return 0;
+  snprintf(line, MESH_LINE,
+           "%.4g m from its origin, where floats are %.2g m apart: of a map? try --recentre",
+           far_off, apart);
+  return 1;
 }
 MESH_DEF int mesh_find_volume(const mesh_report *report, char *line) {
   const double least = 1e-9 * pow(report->area, 1.5);  // a ball's is 0.09 of that
@@ -269,6 +280,7 @@ MESH_DEF int mesh_find_large(const nsvcd_mesh *mesh, const nsvcd_body_facts *fac
 MESH_DEF int mesh_findings(const mesh_report *report, char lines[MESH_FINDINGS][MESH_LINE],
                            int *grave) {
   int count = mesh_find_size(report, lines[0]);
+  count += mesh_find_far(report, lines[count]);
   count += mesh_find_volume(report, lines[count]);
   count += mesh_find_count(report->open_edges, "open edge", "open edges",
                            "what is not closed encloses nothing", lines[count]);

@@ -44,26 +44,30 @@ static inline const char *mesh_format(const char *name, const unsigned char *dat
 
 // An STL. The library takes what is longer than its count says, and would lose triangles.
 static inline int mesh_take_stl(const unsigned char *data, size_t size,
-                                const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                mesh_fault *fault) {
+                                const nsvcd_mesh_options *options, const nsvcd_allocator *allocator,
+                                nsvcd_mesh *mesh, mesh_fault *fault) {
   const int is_binary = size >= 84 && memchr(data, 0, size);  // no text holds a NUL
   const uint64_t needed = is_binary ? 84 + 50 * mesh_word(data + 80, 4, 0) : 0;
   if (is_binary && size >= needed + 50)
     return mesh_refuse(fault, "it is longer than its count of triangles says");
-  const nsvcd_result result = nsvcd_stl_parse(data, size, allocator, mesh, &fault->line);
-  if ((result == NSVCD_ERROR_SYNTAX && !fault->line) || (result && size < needed)) {
+  const nsvcd_result result = nsvcd_mesh_parse(data, size, options, allocator, mesh, &fault->line);
+  if (result == NSVCD_ERROR_FORMAT || (result && size < needed)) {
     fault->line = 0;
-    return mesh_refuse(fault,
-                       "it is shorter than its count of triangles says; text begins with 'solid'");
+    return mesh_refuse(fault, is_binary ? "it is shorter than its count of triangles says"
+                                        : "it is no STL, of which text begins with 'solid'");
   }
   return !result || mesh_refuse(fault, nsvcd_result_string(result));
 }
 
-// Returns 1, or 0 with a reason in *fault. data: (size), not NULL. name: of the file, or "".
-static inline int mesh_parse(const char *name, const void *data, size_t size,
-                             const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                             mesh_fault *fault) {
+// Returns 1, or 0 with a reason in *fault. data: (size), not NULL. name: of the file, or "". given:
+// NULL: the numbers are metres; its format is not asked for.
+static inline int mesh_parse_to(const char *name, const void *data, size_t size,
+                                const nsvcd_mesh_options *given, const nsvcd_allocator *allocator,
+                                nsvcd_mesh *mesh, mesh_fault *fault) {
   const char *bytes = (const char *)data;
+  nsvcd_mesh_options options;
+  memset(&options, 0, sizeof options);
+  if (given) options = *given;
   memset(fault, 0, sizeof *fault);
   fault->format = mesh_format(name, (const unsigned char *)data, size);
   if (!fault->format) {
@@ -72,18 +76,24 @@ static inline int mesh_parse(const char *name, const void *data, size_t size,
   }
   if (fault->format[0] == 'G') {
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0)
-      return glb_parse(data, size, allocator, mesh, fault);
+      return glb_parse(data, size, &options, allocator, mesh, fault);
     return mesh_refuse(fault, "it does not begin with 'glTF', as a GLB does");
   }
   if (fault->format[0] == 'P') {
     if (size >= 4 && memcmp(bytes, "ply", 3) == 0)
-      return ply_parse(bytes, size, allocator, mesh, fault);
+      return ply_parse(bytes, size, &options, allocator, mesh, fault);
     return mesh_refuse(fault, "it does not begin with 'ply', as a PLY does");
   }
-  if (fault->format[0] == 'S')
-    return mesh_take_stl((const unsigned char *)data, size, allocator, mesh, fault);
-  const nsvcd_result result = nsvcd_obj_parse(bytes, size, allocator, mesh, &fault->line);
+  options.format = fault->format[0] == 'S' ? NSVCD_MESH_STL : NSVCD_MESH_OBJ;
+  if (options.format == NSVCD_MESH_STL)
+    return mesh_take_stl((const unsigned char *)data, size, &options, allocator, mesh, fault);
+  const nsvcd_result result = nsvcd_mesh_parse(data, size, &options, allocator, mesh, &fault->line);
   return !result || mesh_refuse(fault, nsvcd_result_string(result));
+}
+static inline int mesh_parse(const char *name, const void *data, size_t size,
+                             const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                             mesh_fault *fault) {
+  return mesh_parse_to(name, data, size, NULL, allocator, mesh, fault);
 }
 
 #endif

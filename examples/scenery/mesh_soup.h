@@ -69,7 +69,8 @@ typedef struct mesh_soup {
   float *positions;           // (vertices, 3)
   uint32_t *corners, *sizes;  // of faces
   size_t vertices, corner_count, faces;
-  size_t room[3];  // of these
+  size_t room[3];                     // of these
+  const nsvcd_mesh_options *options;  // NULL: the numbers are metres
 } mesh_soup;
 
 static inline void mesh_soup_free(mesh_soup *soup) {
@@ -95,9 +96,13 @@ static inline int mesh_soup_vertex(mesh_soup *soup, const double *position) {
   if (!mesh_soup_grow(&soup->positions, soup->vertices, &soup->room[0], 3 * sizeof(float)))
     return 0;
   float *row = soup->positions + 3 * soup->vertices++;
-  // what no float can hold is not finite there, which the library refuses
-  for (int k = 0; k < 3; k++)
-    row[k] = fabs(position[k]) <= 3.4028234e38 ? (float)position[k] : HUGE_VALF;
+  const nsvcd_mesh_options *o = soup->options;
+  for (int k = 0; k < 3; k++) {
+    const double own = o ? position[k] - o->origin[k] : position[k];
+    const double metres = o && o->scale > 0 ? own * o->scale : own;
+    // what no float can hold is not finite there, which the library refuses
+    row[k] = fabs(metres) <= 3.4028234e38 ? (float)metres : HUGE_VALF;
+  }
   return 1;
 }
 static inline int mesh_soup_corner(mesh_soup *soup, uint32_t vertex) {

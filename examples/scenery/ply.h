@@ -1,5 +1,5 @@
-// ply.h - a mesh from a PLY file (Turk 1994), text or binary: the vertices' x, y, z and the faces;
-// all else is skipped. Include neuralsvcd.h first.
+// ply.h - a mesh from a PLY file (Turk 1994), text or binary: the vertices' x, y, z, the faces and the
+// strips of triangles; all else is skipped. Include neuralsvcd.h first.
 #ifndef NSVCD_SCENERY_PLY_H
 #define NSVCD_SCENERY_PLY_H
 
@@ -18,7 +18,7 @@ typedef struct ply_type {
 typedef struct ply_property {
   ply_type type;
   ply_type length;  // of a list
-  int part;         // 0 to 2: x, y, z of a vertex; 3: the corners of a face; -1: skipped
+  int part;         // 0 to 2: x, y, z of a vertex; 3: corners of a face, 4: of a strip; -1: skipped
 } ply_property;
 
 typedef struct ply_reader {
@@ -123,10 +123,40 @@ static inline int ply_whole(ply_reader *r, ply_type type, uint32_t *out, const c
   return 1;
 }
 
+// The vertices of strips, `count` numbers: each makes a triangle with the two before it, every other
+// one turned round, and -1 begins the next strip. Where two of the three are the same there is none:
+// so a strip is led to another place.
+static inline int ply_strips(ply_reader *r, ply_type type, uint32_t count) {
+  uint32_t last[2] = {0, 0};
+  size_t length = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    double value;
+    if (!ply_value(r, type, &value)) return 0;
+    if (value == -1 || value == 4294967295.0) {  // -1 as unsigned
+      length = 0;
+      continue;
+    }
+    if (!(value >= 0 && value < 4294967295.0) || value != floor(value))
+      return mesh_refuse(r->fault, "a corner is no number of a vertex");
+    const uint32_t vertex = (uint32_t)value;
+    const int is_turned = length % 2 != 0;
+    if (length++ >= 2 && last[0] != last[1] && last[0] != vertex && last[1] != vertex) {
+      if (!mesh_soup_corner(r->soup, last[is_turned]) ||
+          !mesh_soup_corner(r->soup, last[!is_turned]) || !mesh_soup_corner(r->soup, vertex) ||
+          !mesh_soup_face(r->soup, 3))
+        return mesh_refuse(r->fault, PLY_NO_MEMORY);
+    }
+    last[0] = last[1];
+    last[1] = vertex;
+  }
+  return 1;
+}
+
 // The corners of a face, or any list.
 static inline int ply_list(ply_reader *r, const ply_property *property) {
   uint32_t count;
   if (!ply_whole(r, property->length, &count, "a list of less than no length")) return 0;
+  if (property->part == 4) return ply_strips(r, property->type, count);
   if (property->part != 3) {
     for (uint32_t i = 0; i < count; i++) {
       if (!ply_value(r, property->type, NULL)) return 0;
@@ -145,7 +175,7 @@ static inline int ply_list(ply_reader *r, const ply_property *property) {
 typedef struct ply_element {
   ply_property properties[PLY_PROPERTIES];
   size_t property_count, count;
-  int is_vertex, is_face;
+  int is_vertex, is_face, is_strips;
 } ply_element;
 
 static inline int ply_rows(ply_reader *r, const ply_element *element) {
@@ -177,6 +207,7 @@ static inline int ply_take_element(ply_reader *r, const ply_word *words, int cou
   if (count != 3) return mesh_refuse(r->fault, "expected: element NAME COUNT");
   element->is_vertex = ply_is(words[1], "vertex");
   element->is_face = ply_is(words[1], "face");
+  element->is_strips = ply_is(words[1], "tristrips");
   for (size_t i = 0; i < words[2].length; i++) {
     const char c = words[2].at[i];
     if (c < '0' || c > '9' || element->count > 0x7fffffff / 10)
@@ -202,9 +233,8 @@ static inline int ply_take_property(ply_reader *r, const ply_word *words, int co
   for (int k = 0; k < 3 && element->is_vertex && !is_list; k++) {
     if (name.length == 1 && name.at[0] == "xyz"[k]) property->part = k;
   }
-  if (is_list && element->is_face &&
-      (ply_is(name, "vertex_indices") || ply_is(name, "vertex_index")))
-    property->part = 3;
+  if (is_list && (ply_is(name, "vertex_indices") || ply_is(name, "vertex_index")))
+    property->part = element->is_face ? 3 : element->is_strips ? 4 : -1;
   element->property_count++;
   return 1;
 }
@@ -246,8 +276,8 @@ static inline int ply_has_places(const ply_element *element) {
 }
 
 // Returns 1, or 0 with a reason in *fault.
-static inline int ply_parse(const char *data, size_t size, const nsvcd_allocator *allocator,
-                            nsvcd_mesh *mesh, mesh_fault *fault) {
+static inline int ply_parse(const char *data, size_t size, const nsvcd_mesh_options *options,
+                            const nsvcd_allocator *allocator, nsvcd_mesh *mesh, mesh_fault *fault) {
   mesh_soup soup;
   ply_reader r;
   memset(&soup, 0, sizeof soup);
@@ -255,6 +285,7 @@ static inline int ply_parse(const char *data, size_t size, const nsvcd_allocator
   r.at = data;
   r.end = data + size;
   r.soup = &soup;
+  soup.options = options;
   r.fault = fault;
   ply_element *elements = (ply_element *)malloc(PLY_ELEMENTS * sizeof *elements);
   size_t count = elements ? ply_header(&r, elements) : 0;

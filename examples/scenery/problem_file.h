@@ -138,7 +138,8 @@ static int read_pose(const reader *r, char *const *fields, nsvcd_pose *pose) {
     length += q[k] * q[k];
   }
   length = sqrt(length);
-  if (fabs(length - 1) > 1e-4) return refuse(r, "the quaternion is not of unit length (to 1e-4)");
+  if (fabs(length - 1) > (double)NSVCD_UNIT_TOLERANCE)
+    return refuse(r, "the quaternion is not of unit length (to 1e-4)");
   for (size_t k = 0; k < 4; k++) pose->rotation[k] = (float)(q[k] / length);
   return 1;
 }

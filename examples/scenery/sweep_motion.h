@@ -20,13 +20,14 @@ typedef struct motion {
   double degrees;
 } motion;
 
-// The numbers of a list, separated by commas or blanks; 0 if it is none, or if there are more.
-static size_t take_numbers(const char *text, double *out, size_t most) {
+// The numbers of a list, separated by commas or blanks; 0 if it is none, or if there are more. most_of:
+// none is larger.
+static size_t take_numbers(const char *text, double *out, size_t most, double most_of) {
   size_t count = 0;
   while (*text) {
     char *end;
     const double x = strtod(text, &end);
-    if (end == text || count == most || !(fabs(x) <= (double)NSVCD_MAX_COORDINATE)) return 0;
+    if (end == text || count == most || !(fabs(x) <= most_of)) return 0;
     out[count++] = x;
     text = end + strspn(end, " ");
     if (*text == ',' && text[1])
@@ -37,10 +38,15 @@ static size_t take_numbers(const char *text, double *out, size_t most) {
   return count;
 }
 
-// "x,y,z" leaves the rotation as it is; "x,y,z,qx,qy,qz,qw" not. Returns 0 after a complaint.
-static int take_pose(const char *name, const char *text, oracle_pose *pose) {
+// "x,y,z" leaves the rotation as it is; "x,y,z,qx,qy,qz,qw" not. shift: added to the position, which
+// then must be within bounds. Returns 0 after a complaint.
+static int take_pose(const char *name, const char *text, const double *shift, oracle_pose *pose) {
   double n[7];
-  const size_t count = take_numbers(text, n, 7);
+  size_t count = take_numbers(text, n, 7, 1e30);
+  for (size_t k = 0; k < 3 && k < count; k++) {
+    n[k] += shift[k];
+    if (!(fabs(n[k]) <= (double)NSVCD_MAX_COORDINATE)) count = 0;
+  }
   if (count != 3 && count != 7)
     return complain("%s %s: not x,y,z nor x,y,z,qx,qy,qz,qw, each up to %g (NSVCD_MAX_COORDINATE)",
                     name, text, (double)NSVCD_MAX_COORDINATE);
@@ -48,9 +54,9 @@ static int take_pose(const char *name, const char *text, oracle_pose *pose) {
   if (count == 3) return 1;
   memcpy(pose->rotation, n + 3, sizeof pose->rotation);
   const double length = sqrt(oracle_dot(n + 3, n + 3) + n[6] * n[6]);
-  if (fabs(length - 1) > 0.01)
-    return complain("%s %s: the quaternion qx,qy,qz,qw has the length %.4g, not 1", name, text,
-                    length);
+  if (fabs(length - 1) > (double)NSVCD_UNIT_TOLERANCE)
+    return complain("%s %s: the quaternion qx,qy,qz,qw has the length %.6g, not 1 to %g", name,
+                    text, length, (double)NSVCD_UNIT_TOLERANCE);
   oracle_quat_normalize(pose->rotation);
   return 1;
 }
@@ -85,17 +91,18 @@ static int pass_through(const thing *a, const thing *b, oracle_pose *from, oracl
 
 typedef struct motion_told {
   const char *from, *to, *rotate;  // NULL: not
+  double shift[3];                 // metres, to what is told of A's place
 } motion_told;
 
 // Returns 0 after a complaint.
 static int take_motion(const motion_told *told, const thing *a, const thing *b, motion *m) {
-  oracle_pose from = {{0, 0, 0}, {0, 0, 0, 1}};
+  oracle_pose from = {{told->shift[0], told->shift[1], told->shift[2]}, {0, 0, 0, 1}};
   oracle_pose to = from;
   m->through = told->from || told->to ? -1 : pass_through(a, b, &from, &to);
   m->degrees = 0;
-  if (told->from && !take_pose("--from", told->from, &from)) return 0;
+  if (told->from && !take_pose("--from", told->from, told->shift, &from)) return 0;
   if (told->to) memcpy(to.rotation, from.rotation, sizeof to.rotation);
-  if (told->to && !take_pose("--to", told->to, &to)) return 0;
+  if (told->to && !take_pose("--to", told->to, told->shift, &to)) return 0;
   m->count = 2;
   m->poses[0] = from;
   m->poses[1] = to;

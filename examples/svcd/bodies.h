@@ -109,6 +109,19 @@ static void json_faults(json_out *j, const thing *t) {
   json_close(j, ']');
 }
 
+// With --recentre: what became the origin.
+static void print_origin(const thing *t) {
+  if (t->recentre)
+    printf("origin: %.0f %.0f %.0f, in the file's units\n", t->origin[0], t->origin[1],
+           t->origin[2]);
+}
+static void json_origin(json_out *j, const thing *t) {
+  if (!t->recentre) return;
+  json_open(j, "origin", '[');
+  for (int k = 0; k < 3; k++) json_digits(j, NULL, t->origin[k], 17);
+  json_close(j, ']');
+}
+
 static int encode_options(const settings *options) {
   const nsvcd_encode_options *encode = &options->encode;
   if (options->path_count != 2)
@@ -129,18 +142,21 @@ static int encode(settings *options) {
   if (!may_write_body(out)) return REFUSED;
   int good = open_thing(options->paths[0], &t);
   if (good && t.is_body) good = complain("%s: a body already", t.path);
+  t.recentre = options->recentre;
   good = good && take_mesh(&t, scales[0]) && encode_thing(&t, &options->encode) &&
          write_body(t.path, out, t.body);
   if (good && options->json) {
     json_out j = {stdout, 0};
     json_open(&j, NULL, '{');
     json_text(&j, "path", out);
+    json_origin(&j, &t);
     json_faults(&j, &t);
     json_facts(&j, t.body);
     json_digits(&j, "milliseconds", 1e3 * t.taken, 4);
     json_end_line(&j);
   } else if (good) {
     warn_of(&t, t.fault_count);
+    print_origin(&t);
     print_facts(out, t.body);
     printf("encoded in %.1f ms\n", 1e3 * t.taken);
   }
@@ -153,6 +169,7 @@ static void print_mesh(const thing *t) {
   printf("%s: %s %s: %zu triangle%s, %zu vertices\n", t->path,
          strchr("OS", t->format[0]) ? "an" : "a", t->format, r->triangles,
          r->triangles == 1 ? "" : "s", r->vertices);
+  print_origin(t);
   printf("box: %.4g x %.4g x %.4g m, from %.4g %.4g %.4g to %.4g %.4g %.4g\n",
          r->high[0] - r->low[0], r->high[1] - r->low[1], r->high[2] - r->low[2], r->low[0],
          r->low[1], r->low[2], r->high[0], r->high[1], r->high[2]);
@@ -166,6 +183,7 @@ static void print_mesh(const thing *t) {
 static void json_mesh(json_out *j, const thing *t) {
   const mesh_report *r = &t->report;
   json_text(j, "format", t->format);
+  json_origin(j, t);
   json_count(j, "triangles", r->triangles);
   json_count(j, "vertices", r->vertices);
   for (int side = 0; side < 2; side++) {
@@ -189,6 +207,7 @@ static int info_of(const char *path, float scale, const settings *options) {
   int good = open_thing(path, &t);
   if (good && t.is_body && options->scale)
     good = complain("--scale: of a mesh; %s is a body, in metres", t.path);
+  t.recentre = options->recentre && !t.is_body;
   if (good) good = t.is_body ? take_body(&t, 1) : take_mesh(&t, scale);
   if (good && !t.is_body && !options->json) {
     print_mesh(&t);

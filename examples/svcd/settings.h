@@ -29,7 +29,7 @@ struct settings {
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
   const char *certificate, *certificates;
   size_t seed, samples;
-  int int8, help, json, is_first_given;
+  int int8, help, json, is_first_given, recentre;
   int exit_code;  // 1: the exit status is to be
   int answer;     // ... this: 0 free, 1 hit, 3 undecided
   const char **paths;

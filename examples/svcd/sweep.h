@@ -167,6 +167,12 @@ static void print_answer(const sweep_job *job, const settings *options) {
     printf("clearance  %.4g to %.4g m, at t = %.4f\n", (double)job->nearest.distance.low,
            (double)job->nearest.distance.high, (double)job->nearest.nearest.time);
   print_motion(&job->motion);
+  for (int i = 0; i < 2; i++) {
+    const thing *t = i ? &job->b : &job->a;
+    if (t->recentre)
+      printf("origin     of %c: %.0f %.0f %.0f, in its file's units\n", "AB"[i], t -> origin[0],
+             t -> origin[1], t -> origin[2]);
+  }
   printf("time       %.1f us", job->microseconds);
   if (job->microseconds_first > 0)
     printf(", and %.1f us for the first contact", job->microseconds_first);
@@ -216,6 +222,13 @@ static void print_json(const sweep_job *job, const settings *options) {
     json_floats(&j, NULL, pose, 7);
   }
   json_close(&j, ']');
+  for (int i = 0; i < 2; i++) {
+    const thing *t = i ? &job->b : &job->a;
+    if (!t->recentre) continue;
+    json_open(&j, i ? "origin_b" : "origin_a", '[');
+    for (int k = 0; k < 3; k++) json_digits(&j, NULL, t->origin[k], 17);
+    json_close(&j, ']');
+  }
   json_digits(&j, "microseconds", job->microseconds, 4);
   if (job->microseconds_first > 0)
     json_digits(&j, "microseconds_first", job->microseconds_first, 4);
@@ -301,11 +314,13 @@ static void warn_of_sizes(const sweep_job *job, const float *scales) {
 }
 
 static int sweep_run(sweep_job *job, settings *options, const float *scales) {
-  const motion_told told = {options->from, options->to, options->rotate};
+  motion_told told = {options->from, options->to, options->rotate, {0, 0, 0}};
   if (!open_thing(options->paths[0], &job->a) || !open_thing(options->paths[1], &job->b))
     return REFUSED;
   if (options->certificate && (job->a.is_body || job->b.is_body))
     return usage_error("--certificate", "of meshes alone");
+  job->a.recentre = options->recentre && !job->a.is_body;
+  job->b.recentre = options->recentre && !job->b.is_body;
   if (options->sweep.method == NSVCD_METHOD_NETWORK) options->encode.no_triangles = 1;
   // a body may hold no triangles: then the network answers
   options->encode.latents = job->a.is_body || job->b.is_body;
@@ -313,6 +328,8 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
       !take_thing(&job->b, scales[1], &options->encode))
     return REFUSED;
   warn_of_sizes(job, scales);
+  for (int k = 0; k < 3; k++)
+    told.shift[k] = (double)scales[0] * job->a.origin[k] - (double)scales[1] * job->b.origin[k];
   if (!take_motion(&told, &job->a, &job->b, &job->motion)) return USAGE;
   const int status = sweep_method(job, options);
   if (status != DONE) return status;
@@ -339,9 +356,10 @@ static int sweep(settings *options) {
   if (!options->is_first_given) options->first[0] = 0.001f;
   if (options->picture && !ends_with(options->picture, ".svg"))
     return complain("--picture: %s does not end in .svg", options->picture), USAGE;
-  if (options->certificate &&
-      (!ends_with(options->certificate, ".cert") || options->sweep.skin > 0 || piped))
-    return usage_error("--certificate", "a file that ends in .cert; without --skin, of files");
+  if (options->certificate && (!ends_with(options->certificate, ".cert") ||
+                               options->sweep.skin > 0 || piped || options->recentre))
+    return usage_error("--certificate",
+                       "a file that ends in .cert; without --skin and --recentre, of files");
   for (int i = 0; i < 2 && options->certificate; i++)
     if (strpbrk(options->paths[i], " \t#"))
       return usage_error("--certificate", "its problem file holds no blank and no # in names");

@@ -3,7 +3,7 @@
 #pragma once
 #include "../surface/surface.h"
 #include "../encoder/encoder.h"
-#include "facets.h"
+#include "trust.h"
 
 #ifndef NSVCD_NO_ENCODER
 // What a body is built of.
@@ -257,13 +257,13 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #endif
   if (o->no_triangles) o->latents = 1;
 #ifdef NSVCD_NO_NETWORK
-  if (o->latents) return NSVCD_ERROR_ARGUMENT;
+  if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (o->round > 0 && o->latents) return NSVCD_ERROR_ARGUMENT;
-  if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_RADIUS;
+  if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;
+  if (o->patches > NSVCD_MAX_PATCHES) return NSVCD_ERROR_PATCHES;
   const nsvcd_result checked = mesh->indices ? nsvcd__mesh_check(mesh) : NSVCD_OK;
   if (checked) return checked;
 #ifndef NSVCD_NO_PROOF
@@ -320,6 +320,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
   void *memory;
+  if (nsvcd__body_check(body, SIZE_MAX)) return;
   // a cast would take away a const
   memcpy(&memory, &body, sizeof memory);
   nsvcd__free(allocator, memory);

@@ -18,7 +18,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *a
   float centre[3] = {0, 0, 0};
   uint32_t point[3] = {0, 0, 0};
   const nsvcd_mesh mesh = {centre, point, 1, 1};
-  if (!(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   return nsvcd__encode_round(&mesh, radius, allocator, body);
 }
 
@@ -28,7 +28,8 @@ NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3
   float ends[6];
   uint32_t segment[3] = {0, 1, 1};
   const nsvcd_mesh mesh = {ends, segment, 2, 1};
-  if (!from || !to || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!from || !to) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   memcpy(ends, from, 3 * sizeof *from);
   memcpy(ends + 3, to, 3 * sizeof *to);
   return nsvcd__encode_round(&mesh, radius, allocator, body);
@@ -42,9 +43,10 @@ NSVCDDEF nsvcd_result nsvcd_encode_box(const float half[3], float round,
                         2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
   float corners[24];
   const nsvcd_mesh mesh = {corners, faces, 8, 12};
-  if (!half || !(round >= 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!half) return NSVCD_ERROR_ARGUMENT;
+  if (!(round >= 0)) return NSVCD_ERROR_RADIUS;
   for (size_t k = 0; k < 3; k++) {
-    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_ARGUMENT;
+    if (!(half[k] > 0) || !(half[k] >= round)) return NSVCD_ERROR_RADIUS;
     for (size_t n = 0; n < 8; n++)
       corners[3 * n + k] = n >> k & 1 ? half[k] - round : round - half[k];
   }
@@ -55,7 +57,8 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_allocator *allocator,
                                          const nsvcd_body **body) {
   nsvcd_mesh mesh = {NULL, NULL, count, count};
-  if (!points || !(radius > 0)) return NSVCD_ERROR_ARGUMENT;
+  if (!points) return NSVCD_ERROR_ARGUMENT;
+  if (!(radius > 0)) return NSVCD_ERROR_RADIUS;
   if (count == 0) return NSVCD_ERROR_EMPTY;
   if (count > NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
   if (!nsvcd__within(points, 3 * count, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;

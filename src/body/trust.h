@@ -130,7 +130,7 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 
 // ---- whole bodies
 
-// Is this the beginning of a blob of ours, of `size` bytes or fewer?
+// Are the sizes that a blob of ours begins with right, of `size` bytes or fewer?
 static int nsvcd__header_is_sound(const nsvcd_body *b, size_t size) {
   if (size < sizeof *b) return 0;
   if (b->magic != NSVCD__BODY_MAGIC || b->version != NSVCD__BODY_VERSION) return 0;
@@ -236,16 +236,29 @@ static int nsvcd__body_is_sound(const nsvcd_body *b) {
   return nsvcd__triangles_are_sound(within, left);
 }
 
+// Is this a body, as far as its header tells? Of what does not begin as one, such as a text or a
+// nsvcd_mesh, no more than its first eight bytes are read.
+static nsvcd_result nsvcd__body_check(const nsvcd_body *b, size_t size) {
+  if (!b) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__is_aligned(b) || size < sizeof b->magic + sizeof b->version)
+    return NSVCD_ERROR_BODY;
+  if (b->magic == NSVCD__OTHER_MAGIC) return NSVCD_ERROR_VERSION;
+  if (b->magic != NSVCD__BODY_MAGIC) return NSVCD_ERROR_BODY;
+  if (b->version != NSVCD__BODY_VERSION) return NSVCD_ERROR_VERSION;
+  if (!nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
+#ifndef NSVCD_NO_NETWORK
+  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_VERSION;
+#endif
+  return NSVCD_OK;
+}
+
 NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
                                        const nsvcd_body **body) {
-  if (!memory || !body) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_body *b = (const nsvcd_body *)memory;
-  if (!nsvcd__is_aligned(memory) || !nsvcd__header_is_sound(b, size)) return NSVCD_ERROR_BODY;
-#ifndef NSVCD_NO_NETWORK
-  if (b->weights_id && b->weights_id != NSVCD_WEIGHTS_ID) return NSVCD_ERROR_BODY;
-#endif
-  *body = b;
-  return NSVCD_OK;
+  if (!body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(b, size);
+  if (!result) *body = b;
+  return result;
 }
 
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
@@ -305,24 +318,26 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
 
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled) {
-  if (!body || !memory || !scaled || !nsvcd__is_finite(scale) || scale <= 0)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !scaled) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(body, SIZE_MAX);
+  if (result) return result;
+  if (!nsvcd__is_finite(scale) || scale <= 0) return NSVCD_ERROR_SCALE;
   if (capacity < body->size || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
 #ifdef NSVCD_NO_PROOF
   // The triangles would keep their size; nor were they looked at when the body was loaded.
-  if (body->triangles) return NSVCD_ERROR_BODY;
+  if (body->triangles) return NSVCD_ERROR_TRIANGLES;
 #endif
   // Would it still be within the limits of nsvcd_body_load?
   const float radius = nsvcd__whole_radius(body);
-  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd__spheres_fit(body, radius, scale)) return NSVCD_ERROR_SCALE;
   const double most = (double)NSVCD__MAX_LENGTH / (double)scale;
   const size_t numbers = body->weights_id ? 3 * nsvcd__area_slots(body->padded) : 0;
   for (size_t i = 0; i < numbers; i++) {
-    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_ARGUMENT;
+    if (fabs((double)nsvcd__body_areas(body)[i]) > most * most) return NSVCD_ERROR_SCALE;
   }
 #ifndef NSVCD_NO_PROOF
   const nsvcd_body *triangles = nsvcd__triangles_of(body);
-  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_ARGUMENT;
+  if (triangles && !nsvcd__spheres_fit(triangles, radius, scale)) return NSVCD_ERROR_SCALE;
 #endif
   // in place is allowed
   memmove(memory, body, body->size);
@@ -338,6 +353,7 @@ NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   nsvcd_body_facts facts;
   memset(&facts, 0, sizeof facts);
+  if (nsvcd__body_check(body, SIZE_MAX)) return facts;
   facts.size = body->size;
   facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
@@ -360,7 +376,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
 
 NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float centre[3],
                               float *radius) {
-  if (!body || patch >= body->patches) return 0;
+  if (nsvcd__body_check(body, SIZE_MAX) || patch >= body->patches) return 0;
   const nsvcd__sphere sphere = nsvcd__sphere_of(nsvcd__body_patches(body), patch);
   nsvcd__f3_store(sphere.centre, centre);
   *radius = sphere.radius + nsvcd__whole_radius(body) - body->radius;

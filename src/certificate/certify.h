@@ -388,7 +388,7 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   nsvcd_certificate out;
   memset(&out, 0, sizeof out);
   if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   const uint64_t needed =
       nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
   if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
@@ -418,8 +418,8 @@ static size_t nsvcd__knots_of(const nsvcd_question *question) {
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b) {
   nsvcd__certifier counted;
-  if (!question || !a || !b || nsvcd__poses_check(&question->a) ||
-      nsvcd__poses_check(&question->b))
+  if (!question || !a || !b || nsvcd__track_check(&question->a) ||
+      nsvcd__track_check(&question->b))
     return 0;
   const uint64_t size =
       nsvcd__certifier_layout(nsvcd__knots_of(question), a, b, NULL, &counted);
@@ -437,7 +437,7 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
   nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
   if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
   if (result) return result;
-  if (question->skin < 0 || question->skin > 0) return NSVCD_ERROR_ARGUMENT;
+  if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
   return nsvcd__certify(&c, nsvcd__knots_of(question), question->clearance, options, workspace,
                         workspace_size, bytes, capacity, made);
 }

@@ -135,7 +135,7 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
   *meant = *mover;
   if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
   if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
-  const nsvcd_result result = nsvcd__poses_check(mover);
+  const nsvcd_result result = nsvcd__track_check(mover);
   if (result) return result;
   if (!mover->poses) {
     meant->poses = &nsvcd__at_origin;

@@ -203,7 +203,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
                                           size_t workspace_size, nsvcd_answer *answer,
                                           float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
-  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_ARGUMENT;
+  if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
   const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);

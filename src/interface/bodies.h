@@ -6,7 +6,8 @@
 // memcpy, write it with fwrite, map it, or bake it into flash as a const array. IEEE 754, in the
 // byte order of the machine that encoded it, and refused by one of the other order: it begins with
 // "NSVB" where that is little-endian, with "BVSN" where it is big-endian. nsvcd_body_facts.size is
-// its size. Threads may share it.
+// its size. Threads may share it. Whatever takes one looks at its first bytes, and says BODY or
+// VERSION of what is none; it trusts the rest.
 typedef struct nsvcd_body nsvcd_body;
 
 #define NSVCD_ALIGNMENT 8
@@ -84,7 +85,8 @@ NSVCDDEF size_t nsvcd_body_size(size_t patches);
 //              from the allocator, and nsvcd_body_free gives it back
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  working memory, which is given back, and the body where memory is NULL
-//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, MEMORY, WORKSPACE, CANCELLED
+//   errors     ARGUMENT, PATCHES, RADIUS (`round`), LATENTS, INDEX, NUMBER, EMPTY, TOO_LARGE,
+//              MEMORY, WORKSPACE, CANCELLED
 //   source     the latents: NeuralSVCD, appendix F; the triangles: this library
 NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                    const nsvcd_allocator *allocator, void *memory,
@@ -106,7 +108,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 //   body            not NULL; set to the body, about the origin or where its ends and points are;
 //                   left as it was on failure; nsvcd_body_free gives it back
 //   allocates       the body, and working memory, which is given back
-//   errors          ARGUMENT, NUMBER, EMPTY, TOO_LARGE, MEMORY
+//   errors          ARGUMENT, RADIUS, NUMBER, EMPTY, TOO_LARGE, MEMORY
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
                                           const nsvcd_body **body);
 NSVCDDEF nsvcd_result nsvcd_encode_capsule(const float from[3], const float to[3],
@@ -120,7 +122,7 @@ NSVCDDEF nsvcd_result nsvcd_encode_cloud(const float *points, size_t count, floa
                                          const nsvcd_body **body);
 #endif
 // Gives back a body that nsvcd_encode allocated.
-//   body       may be NULL
+//   body       may be NULL; what does not begin as a body does is left alone
 //   allocator  the one that it came from
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator);
 #endif
@@ -129,7 +131,8 @@ NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *all
 //   memory     (size) bytes, not NULL, aligned to NSVCD_ALIGNMENT; the body stays in it
 //   body       not NULL; set to the body; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL), BODY (anything is wrong with it)
+//   errors     ARGUMENT (NULL), VERSION (it is a body, but of another version, other weights or the
+//              other byte order), BODY (anything else is wrong with it)
 NSVCDDEF nsvcd_result nsvcd_body_load(const void *memory, size_t size,
                                       const nsvcd_body **body);
 
@@ -149,8 +152,9 @@ NSVCDDEF nsvcd_result nsvcd_body_trust(const void *memory, size_t size,
 //   memory     (capacity) bytes, not NULL, aligned to NSVCD_ALIGNMENT; may be where the body is
 //   scaled     not NULL; set to the copy; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (also if the copy were smaller or larger than a body may be), WORKSPACE;
-//              with NSVCD_NO_PROOF also BODY: it has triangles, which that cannot scale
+//   errors     ARGUMENT, BODY, VERSION, SCALE (also if the copy were smaller or larger than a body
+//              may be), WORKSPACE; with NSVCD_NO_PROOF also TRIANGLES: it has some, which that
+//              cannot scale
 NSVCDDEF nsvcd_result nsvcd_body_scale(const nsvcd_body *body, float scale, void *memory,
                                        size_t capacity, const nsvcd_body **scaled);
 
@@ -176,8 +180,8 @@ typedef struct nsvcd_body_facts {
   int latents;
 } nsvcd_body_facts;
 
-// What a body is.
-//   body       not NULL
+// What a body is; all 0 where it is none.
+//   body       may be NULL
 NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body);
 
 // The sphere of one patch. Returns 1, or, if there is no such patch or no body, 0: then nothing is

@@ -68,7 +68,8 @@ NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
 //              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
 //   made       not NULL
 //   allocates  nothing
-//   errors     ARGUMENT (also if there is a skin), SCALE, POSE, TOLERANCE, WORKSPACE
+//   errors     ARGUMENT, SKIN (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
+//              WORKSPACE
 //   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
 //              Gilbert 1966
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,

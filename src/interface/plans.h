@@ -188,9 +188,10 @@ NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with its own workspace; they may share bodies
-//   errors     ARGUMENT (NULL, sizes, options, a lower limit above the upper one), NUMBER (limits,
-//              start or goal not finite or beyond NSVCD_MAX_COORDINATE; a cost beyond the range of
-//              float), POSE (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
+//   errors     ARGUMENT (NULL), COUNT, PAIR, BODY, VERSION, STAGE, PLAN (of the options), LIMITS
+//              (low above high), VALUE (limits, start or goal not finite or beyond
+//              NSVCD_MAX_COORDINATE), NUMBER (a cost beyond the range of float), POSE and
+//              QUATERNION (from `place`), WORKSPACE, TOO_LARGE, and those of the queries
 //   source     MPPI (Williams et al. 2017), then L-BFGS with bundled gradients (Suh et al. 2022);
 //              NeuralSVCD, appendix D
 //

@@ -51,7 +51,7 @@ typedef struct nsvcd_gap_options {
 //              written
 //   allocates  nothing
 //   threads    each with a checker of its own, as all of this page
-//   errors     ARGUMENT, NUMBER (joints not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE;
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
 //   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
@@ -82,7 +82,7 @@ typedef struct nsvcd_escape_options {
 //              is found
 //   is_found   not NULL
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER, TOLERANCE; POSE, SCALE, as nsvcd_gaps
+//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_gaps
 //   source     this library
 NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
                                    const nsvcd_escape_options *options, double *out,
@@ -124,7 +124,8 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //   link       the new one; 0: the world
 //   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
 //              off: 1e-7 of its distance from the link
-//   errors     ARGUMENT, NUMBER, POSE (farther than NSVCD_MAX_COORDINATE from the link)
+//   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
+//              from the link)
 NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
                                       size_t part, uint32_t link, nsvcd_part *out);
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -5,9 +5,11 @@
 // Takes a point x of the body's frame to the world: rotation x + position.
 typedef struct nsvcd_pose {
   float position[3];  // metres
-  // unit quaternion x y z w
+  // unit quaternion x y z w, its length 1 to NSVCD_UNIT_TOLERANCE
   float rotation[4];
 } nsvcd_pose;
+
+#define NSVCD_UNIT_TOLERANCE 1e-4f
 
 // What is asked of two bodies that move.
 typedef enum nsvcd_ask {
@@ -269,8 +271,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with its own workspace; they may share bodies
-//   errors     ARGUMENT, POSE, SCALE, TOLERANCE, SAME, WORKSPACE, and BODY where a body lacks what
-//              the method needs
+//   errors     ARGUMENT, WORKSPACE, BODY and VERSION (by a body's first bytes), SAME, TRIANGLES or
+//              LATENTS where a body lacks what the method needs, and of the question the code of
+//              the field at fault: POSES, TIMES, POSE, QUATERNION, SCALE; ASK, METHOD, TO,
+//              TO_TIME, CLEARANCE, SKIN, TOLERANCE, MANIFOLD, SEGMENTS; PAIRS, MODEL, PRECISION,
+//              RECALL, SWELL
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.

@@ -130,9 +130,9 @@ NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
 //   checker    not NULL; left as it was on failure
 //   allocates  nothing
 //   threads    each with a checker of its own
-//   errors     ARGUMENT (NULL, counts, an axis of no length, limits that cross, a joint on a link
-//              that comes after it, a pair of what never moves apart), NUMBER (not finite), POSE,
-//              SCALE, BODY (without triangles), WORKSPACE
+//   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
+//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (or of what never
+//              moves apart), WORKSPACE
 NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
                                          nsvcd_checker **checker);
 
@@ -149,7 +149,8 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   options    NULL: the defaults
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT, NUMBER (points not finite or beyond NSVCD_MAX_COORDINATE), TOLERANCE
+//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
+//              CLEARANCE, FINEST
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
@@ -174,8 +175,8 @@ NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *moti
 //   pair       of the scene's pairs
 //   clearance  metres
 //   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, and ARGUMENT for a motion whose joints turn
-//              by more than 1,000 or, in the whole motion's time, 100,000
+//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
+//              turn by more than 1,000 or, in the whole motion's time, 100,000
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_joint_motion *motion, size_t pair,
                                          float clearance, const nsvcd_tree *a,

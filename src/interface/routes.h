@@ -93,8 +93,9 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 //              to NSVCD_ALIGNMENT; the motion is in it
 //   answer     not NULL; left as it was on failure
 //   allocates  nothing
-//   errors     ARGUMENT (NULL, counts), NUMBER (a configuration not finite or beyond
-//              NSVCD_MAX_COORDINATE), TOLERANCE, WORKSPACE
+//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
+//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
+//              WORKSPACE
 //   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
 //              Ng-Thow-Hing 2010); with proofs in place of samples: this library
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,

@@ -13,12 +13,12 @@ static nsvcd_result nsvcd__faces_check(const nsvcd_faces *faces, size_t *triangl
   *most = 0;
   for (size_t f = 0; f < faces->face_count; f++) {
     const uint32_t size = faces->sizes ? faces->sizes[f] : 3;
-    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_ARGUMENT;
+    if (size < 3 || size > faces->corner_count - corners) return NSVCD_ERROR_SIZES;
     corners += size;
     *triangles += size - 2;
     if (size > *most) *most = size;
   }
-  if (corners != faces->corner_count) return NSVCD_ERROR_ARGUMENT;
+  if (corners != faces->corner_count) return NSVCD_ERROR_SIZES;
   if (faces->vertex_count > NSVCD__MAX_COUNT || *triangles > NSVCD__MAX_COUNT)
     return NSVCD_ERROR_TOO_LARGE;
   for (size_t i = 0; i < corners; i++) {

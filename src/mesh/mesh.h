@@ -87,7 +87,7 @@ NSVCDDEF nsvcd_result nsvcd_mesh_cut(const nsvcd_mesh *mesh, const float low[3],
   if (!low || !high || !part) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < 3; k++) {
     const int finite = nsvcd__is_finite(low[k]) && nsvcd__is_finite(high[k]);
-    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_ARGUMENT;
+    if (!finite || !(low[k] < high[k])) return NSVCD_ERROR_BOX;
   }
   const nsvcd_result result = nsvcd__mesh_check(mesh);
   if (result) return result;

@@ -10,8 +10,33 @@
 #include "polygons.h"
 
 #ifndef NSVCD_NO_OBJ
+// Options with their defaults filled in; what a file's reader is given.
+static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
+                                           nsvcd_mesh_options *out) {
+  memset(out, 0, sizeof *out);
+  if (given) *out = *given;
+  for (size_t k = 0; k < 3; k++) {
+    if (!(fabs(out->origin[k]) < HUGE_VAL)) return NSVCD_ERROR_NUMBER;
+  }
+  if (!(out->scale >= 0 && out->scale < HUGE_VAL)) return NSVCD_ERROR_SCALE;
+  if (!(out->scale > 0)) out->scale = 1;
+  return NSVCD_OK;
+}
+
+// A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
+static nsvcd_result nsvcd__mesh_coordinate(const nsvcd_mesh_options *options, size_t axis,
+                                           double value, float *out) {
+  const double metres = (value - options->origin[axis]) * options->scale;
+  if (!(fabs(metres) <= (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+  *out = (float)metres;
+  return NSVCD_OK;
+}
+
 typedef struct nsvcd__obj {
   const char *at, *end;
+  // the first token of the statement; NULL: there is none
+  const char *word;
+  nsvcd_mesh_options options;
   size_t line;  // of `at`, from 1; 0: before the first
   // v statements so far
   uint32_t vertices;
@@ -87,8 +112,10 @@ static int nsvcd__obj_next(nsvcd__obj *obj) {
     obj->at += nsvcd__obj_newline(obj->at, obj->end);
   }
   obj->line++;
+  obj->word = NULL;
   if (!nsvcd__obj_has_token(obj)) return obj->at == obj->end ? 0 : '#';
   const char *start = obj->at;
+  obj->word = start;
   nsvcd__obj_skip_token(obj);
   if (obj->at - start == 1 && (*start == 'v' || *start == 'f')) return *start;
   for (const char *p = start; p < obj->at; p++) {
@@ -119,13 +146,10 @@ static int nsvcd__obj_minus(nsvcd__obj *obj) {
 }
 
 // A decimal number, as a double: within 2^-52 of it, or a few of these where its exponent is beyond
-// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER if float cannot
-// hold it.
+// +-22. Rounded to float it is the nearest, unless two floats are as near. NUMBER where it is an
+// infinity or not a number, as printf has them (nan, -nan(ind), inf, 1.#QNAN).
 static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
-  // FLT_MAX
-  const double greatest = 3.4028234663852886e38;
   const int negative = nsvcd__obj_minus(obj);
-  // nan, inf
   if (obj->at < obj->end && strchr("nNiI", *obj->at) && *obj->at) return NSVCD_ERROR_NUMBER;
   // digits and a point: mantissa * 10^exponent
   uint64_t mantissa = 0;
@@ -141,6 +165,7 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
     exponent += !fits - point;
   }
   if (!digits) return NSVCD_ERROR_SYNTAX;
+  if (obj->at[-1] == '.' && nsvcd__obj_accept(obj, '#')) return NSVCD_ERROR_NUMBER;
   if (nsvcd__obj_accept(obj, 'e') || nsvcd__obj_accept(obj, 'E')) {
     const int minus = nsvcd__obj_minus(obj);
     int64_t written;
@@ -152,13 +177,13 @@ static nsvcd_result nsvcd__obj_number(nsvcd__obj *obj, double *value) {
   if (exponent > 400) return NSVCD_ERROR_NUMBER;
   const int power = exponent < -400 ? -400 : (int)exponent;
   const double magnitude = nsvcd__obj_scale(mantissa, power);
-  if (magnitude > greatest) return NSVCD_ERROR_NUMBER;
   *value = negative ? -magnitude : magnitude;
   return NSVCD_OK;
 }
 
 // One corner: v, v/vt, v//vn or v/vt/vn. The numbers after a slash are not used, nor checked
-// against a range. vertex_count: of the file.
+// against a range, and may be missing: some write v// where there are neither. vertex_count: of the
+// file.
 static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
                                       uint32_t *vertex) {
   const int negative = nsvcd__obj_accept(obj, '-');
@@ -167,8 +192,7 @@ static nsvcd_result nsvcd__obj_corner(nsvcd__obj *obj, uint32_t vertex_count,
   int64_t unused;
   if (!nsvcd__obj_integer(obj, &number)) return NSVCD_ERROR_SYNTAX;
   for (int i = 0; i < 2 && nsvcd__obj_accept(obj, '/'); i++) {
-    // v//vn
-    if (i == 0 && obj->at < obj->end && *obj->at == '/') continue;
+    if (nsvcd__obj_token_ends(obj) || (i == 0 && *obj->at == '/')) continue;
     nsvcd__obj_accept(obj, '-');
     if (!nsvcd__obj_integer(obj, &unused)) return NSVCD_ERROR_SYNTAX;
   }
@@ -186,10 +210,36 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
   if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) obj->at += 3;
 }
 
+// Is the statement's keyword one of OBJ's?
+static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
+  static const char words[] =
+      " v f vt vn vp p l g o s mg usemtl mtllib usemap maplib cstype deg bmat step curv curv2 "
+      "surf "
+      "parm trim hole scrv sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech "
+      "stech ";
+  const size_t length = (size_t)(obj->at - obj->word);
+  for (const char *word = words; *++word; word += strcspn(word, " ")) {
+    if (strcspn(word, " ") == length && memcmp(word, obj->word, length) == 0) return 1;
+  }
+  return 0;
+}
+
+// Is what is left of a text no OBJ: statements of others, and none of its own? Then the first of
+// them is told of. line: of one that was found before, or 0.
+static nsvcd_result nsvcd__obj_other(nsvcd__obj *obj, size_t line, nsvcd_result otherwise) {
+  int is_obj = obj->vertices > 0 || obj->triangles > 0;
+  while (!is_obj && nsvcd__obj_next(obj)) {
+    is_obj = obj->word && nsvcd__obj_is_own(obj);
+    if (obj->word && !line) line = obj->line;
+  }
+  obj->line = line;
+  return is_obj || !line ? otherwise : NSVCD_ERROR_FORMAT;
+}
+
 // First pass: counts vertices and triangles.
 static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
-    if (keyword == '?') return NSVCD_ERROR_SYNTAX;
+    if (keyword == '?') return nsvcd__obj_other(obj, obj->line, NSVCD_ERROR_SYNTAX);
     if (keyword == 'v' && obj->vertices++ == NSVCD__MAX_COUNT) return NSVCD_ERROR_TOO_LARGE;
     if (keyword != 'f') continue;
     size_t corners = 0;
@@ -203,19 +253,22 @@ static nsvcd_result nsvcd__obj_count(nsvcd__obj *obj) {
 }
 
 // Second pass: positions (vertices, 3), of v x y z, then up to five more: a weight, a colour. These
-// are skipped, but must be numbers.
+// are skipped, but must be numbers, if not finite ones.
 static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
   for (int keyword = nsvcd__obj_next(obj); keyword; keyword = nsvcd__obj_next(obj)) {
     if (keyword != 'v') continue;
     int count = 0;
     for (; nsvcd__obj_has_token(obj); count++) {
-      double value;
-      const nsvcd_result result = nsvcd__obj_number(obj, &value);
+      double value = 0;
+      nsvcd_result result = nsvcd__obj_number(obj, &value);
+      if (count >= 3 && result == NSVCD_ERROR_NUMBER) {
+        nsvcd__obj_skip_token(obj);
+        result = NSVCD_OK;
+      }
+      if (count == 8) result = NSVCD_ERROR_SYNTAX;
+      if (!result && count < 3)
+        result = nsvcd__mesh_coordinate(&obj->options, (size_t)count, value, positions++);
       if (result) return result;
-      if (count == 8) return NSVCD_ERROR_SYNTAX;
-      if (count >= 3) continue;
-      if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-      *positions++ = (float)value;
     }
     if (count < 3) return NSVCD_ERROR_SYNTAX;
   }
@@ -241,23 +294,30 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
   return NSVCD_OK;
 }
 
-NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
+// As nsvcd_obj_parse. options: NULL, or what the caller gave.
+static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
+                                     const nsvcd_mesh_options *options,
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                     size_t *error_line) {
   if (error_line) *error_line = 0;
   if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
   nsvcd_mesh parsed;
   nsvcd__obj obj;
   nsvcd__polygon polygon;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd_mesh_options o;
+  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  if (result) return result;
   memset(&parsed, 0, sizeof parsed);
   nsvcd__obj_begin(&obj, text, size);
-  nsvcd_result result = nsvcd__obj_count(&obj);
+  result = nsvcd__obj_count(&obj);
   if (!result) {
     // what follows is not tied to a line
     obj.line = 0;
     if (obj.triangles == 0) {
-      result = NSVCD_ERROR_EMPTY;
+      if (obj.vertices == 0) nsvcd__obj_begin(&obj, text, size);
+      result = nsvcd__obj_other(&obj, 0, NSVCD_ERROR_EMPTY);
+      if (result == NSVCD_ERROR_EMPTY) obj.line = 0;
     } else if (!nsvcd__mesh_alloc(&parsed, obj.vertices, obj.triangles, allocator) ||
                !nsvcd__polygon_alloc(&polygon, obj.max_corners, &arena)) {
       result = NSVCD_ERROR_MEMORY;
@@ -265,6 +325,7 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
   }
   if (!result) {
     nsvcd__obj_begin(&obj, text, size);
+    obj.options = o;
     result = nsvcd__obj_vertices(&obj, parsed.positions);
   }
   if (!result) {
@@ -279,6 +340,12 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
   }
   *mesh = parsed;
   return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO

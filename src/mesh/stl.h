@@ -1,7 +1,8 @@
 // In: an STL file, binary or text. Out: nsvcd_mesh.
 //
-// Binary is what has the size that its count of triangles says, or does not begin with "solid". Of
-// text only the words vertex and endloop count: three vertices a loop.
+// Binary is what has the size that its count of triangles says, does not begin with "solid", or
+// holds a NUL, as no text does. Of text only the words vertex and endloop count: three vertices a
+// loop.
 #pragma once
 #include "obj.h"
 
@@ -14,14 +15,16 @@ static uint32_t nsvcd__stl_word(const unsigned char *p) {
 }
 
 // Three floats of a file that is binary.
-static nsvcd_result nsvcd__stl_corner(const unsigned char *at, float *out) {
-  for (size_t k = 0; k < 3; k++) {
+static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
+                                      const nsvcd_mesh_options *options, float *out) {
+  nsvcd_result result = NSVCD_OK;
+  for (size_t k = 0; k < 3 && !result; k++) {
     const uint32_t bits = nsvcd__stl_word(at + 4 * k);
-    memcpy(&out[k], &bits, sizeof bits);
-    if (!nsvcd__is_finite(out[k]) || fabsf(out[k]) > NSVCD_MAX_COORDINATE)
-      return NSVCD_ERROR_NUMBER;
+    float value;
+    memcpy(&value, &bits, sizeof bits);
+    result = nsvcd__mesh_coordinate(options, k, (double)value, &out[k]);
   }
-  return NSVCD_OK;
+  return result;
 }
 
 // Goes to the next token, past the ends of lines; 0 at the end of the text.
@@ -61,12 +64,12 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
       in_loop = 0;
     } else if (nsvcd__stl_accept(text, "vertex")) {
       for (size_t k = 0; k < 3 && corners; k++) {
-        double value;
+        double value = 0;
         if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
-        const nsvcd_result result = nsvcd__obj_number(text, &value);
+        nsvcd_result result = nsvcd__obj_number(text, &value);
+        float *corner = corners + 3 * *count + k;
+        if (!result) result = nsvcd__mesh_coordinate(&text->options, k, value, corner);
         if (result) return result;
-        if (fabs(value) > (double)NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-        corners[3 * *count + k] = (float)value;
       }
       in_loop++;
       ++*count;
@@ -133,21 +136,25 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
   mesh->vertex_count = count;
 }
 
-NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
-                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                      size_t *error_line) {
+// As nsvcd_stl_parse. options: NULL, or what the caller gave.
+static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
+                                     const nsvcd_mesh_options *options,
+                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                     size_t *error_line) {
   const unsigned char *bytes = (const unsigned char *)data;
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
   nsvcd__obj text;
-  nsvcd_result result = NSVCD_OK;
+  nsvcd_mesh_options o;
+  nsvcd_result result = nsvcd__mesh_options_of(options, &o);
+  if (result) return result;
   size_t corners = 0;
   nsvcd__obj_begin(&text, (const char *)data, size);
   const int is_solid = nsvcd__stl_token(&text) && nsvcd__stl_accept(&text, "solid");
   const uint64_t told = size < NSVCD__STL_HEADER ? 0 : nsvcd__stl_word(bytes + 80);
   const uint64_t needed = NSVCD__STL_HEADER + NSVCD__STL_FACET * told;
-  const int is_binary = size == needed || !is_solid;
-  if (is_binary && size < needed) return NSVCD_ERROR_SYNTAX;
+  const int is_binary = size == needed || !is_solid || memchr(data, 0, size);
+  if (is_binary && size < needed) return NSVCD_ERROR_FORMAT;
   nsvcd__obj_begin(&text, (const char *)data, size);
   text.line = 1;
   if (is_binary) {
@@ -173,11 +180,12 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
   if (!result && !is_binary) {
     nsvcd__obj_begin(&text, (const char *)data, size);
     text.line = 1;
+    text.options = o;
     result = nsvcd__stl_text(&text, out.positions, &corners);
   }
   for (size_t i = 0; i < corners && is_binary && !result; i++) {
     const size_t facet = NSVCD__STL_HEADER + NSVCD__STL_FACET * (i / 3);
-    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), out.positions + 3 * i);
+    result = nsvcd__stl_corner(bytes + facet + 12 * (1 + i % 3), &o, out.positions + 3 * i);
   }
   if (!result) nsvcd__stl_weld(&out, &places);
   nsvcd__arena_free(&arena);
@@ -188,6 +196,12 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
   }
   *mesh = out;
   return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
+                                      const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                      size_t *error_line) {
+  return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO

@@ -11,7 +11,7 @@
 // knots both motions are smooth.
 #pragma once
 #include "../interface/queries.h"
-#include "../body/facets.h"
+#include "../body/trust.h"
 #include "../lanes/turns.h"
 
 // The poses of one body.
@@ -74,8 +74,13 @@ typedef struct nsvcd__motion {
   nsvcd__f3 lift;
 } nsvcd__motion;
 
-// Are all numbers in range and all quaternions of unit length, to 1e-4?
-static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
+// Is it a length that may be told, or 0?
+static int nsvcd__is_length(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
+}
+
+// Are all numbers in range and all quaternions of unit length?
+static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
   // 7 to a pose
   const float *numbers = poses->position;
   uint32_t most = 0;
@@ -85,14 +90,20 @@ static int nsvcd__poses_are_valid(const nsvcd_pose *poses, size_t count) {
     const uint32_t bits = nsvcd__magnitude(numbers[k]);
     most = bits > most ? bits : most;
   }
-  if (most > nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return 0;
   for (size_t k = 0; k < count; k++) {
     const float *q = poses[k].rotation;
     const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
     shortest = square < shortest ? square : shortest;
     longest = square > longest ? square : longest;
   }
-  return shortest >= 0.9998f && longest <= 1.0002f;
+  const int is_unit =
+      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
+  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
+  // which of both?
+  for (size_t k = 0; k < count; k++) {
+    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+  }
+  return NSVCD_ERROR_QUATERNION;
 }
 
 // Do they rise from 0 to 1, or are there none?
@@ -118,15 +129,16 @@ static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
   return mover->poses ? mover->count : 1;
 }
 
-static nsvcd_result nsvcd__poses_check(const nsvcd_mover *mover) {
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_POSE;
-  return nsvcd__poses_are_valid(mover->poses, mover->count) ? NSVCD_OK : NSVCD_ERROR_POSE;
+static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
+  return nsvcd__poses_check(mover->poses, mover->count);
 }
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
-  if (!mover->body) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__body_check(mover->body, SIZE_MAX);
+  if (result) return result;
   const float scale = mover->scale;
   if (!nsvcd__is_finite(scale) || scale < 0) return NSVCD_ERROR_SCALE;
   if (scale > 0) {
@@ -135,7 +147,7 @@ static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
     if (scale * radius < NSVCD_MIN_RADIUS) return NSVCD_ERROR_SCALE;
     if (scale * mover->body->extent > 2 * NSVCD_MAX_COORDINATE) return NSVCD_ERROR_SCALE;
   }
-  return nsvcd__poses_check(mover);
+  return nsvcd__track_check(mover);
 }
 
 static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {

@@ -39,8 +39,9 @@ static void nsvcd__place(nsvcd__planner *p, const float *joints, size_t moments,
   const size_t count = moments * bodies;
   for (size_t s = 0; s < moments; s++)
     problem->place(problem->user, joints + s * problem->joints, poses + s * bodies);
-  if (count > 0 && !nsvcd__poses_are_valid(poses, count)) {
-    p->error = NSVCD_ERROR_POSE;
+  const nsvcd_result placed = count > 0 ? nsvcd__poses_check(poses, count) : NSVCD_OK;
+  if (placed) {
+    p->error = placed;
     return;
   }
   for (size_t k = 0; k < count; k++) {

@@ -46,7 +46,7 @@ static int nsvcd__is_good(nsvcd__planner *p, const float *joints, nsvcd_plan_ans
 NSVCDDEF size_t nsvcd_plan_workspace_size(const nsvcd_plan_problem *problem,
                                           const nsvcd_plan_options *options) {
   nsvcd__planner planner;
-  if (!nsvcd__planner_settings(problem, options, &planner)) return 0;
+  if (nsvcd__planner_settings(problem, options, &planner)) return 0;
   return nsvcd__planner_memory(&planner, NULL);
 }
 
@@ -175,7 +175,8 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
   const uint32_t most = nsvcd__magnitude(NSVCD_MAX_COORDINATE);
   nsvcd__planner p;
   nsvcd_plan_answer found;
-  if (!nsvcd__planner_settings(problem, options, &p)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__planner_settings(problem, options, &p);
+  if (result) return result;
   if (!control || !answer) return NSVCD_ERROR_ARGUMENT;
   const size_t needed = nsvcd__planner_memory(&p, NULL);
   if (needed == 0) return NSVCD_ERROR_TOO_LARGE;
@@ -185,9 +186,9 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
     const float ends[4] = {problem->low[j], problem->high[j], problem->start[j],
                            problem->goal[j]};
     for (size_t k = 0; k < 4; k++) {
-      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_NUMBER;
+      if (nsvcd__magnitude(ends[k]) > most) return NSVCD_ERROR_VALUE;
     }
-    if (ends[0] > ends[1]) return NSVCD_ERROR_ARGUMENT;
+    if (ends[0] > ends[1]) return NSVCD_ERROR_LIMITS;
   }
 
   (void)nsvcd__planner_memory(&p, (char *)workspace);

@@ -10,7 +10,7 @@
 //   plan        start and goal, several seeds, and the last check
 //
 // The planner asks as any program does, by the public functions. Of what is private to the floors
-// above entry it uses nsvcd__settings_of, nsvcd__poses_are_valid and nsvcd__is_aligned, to refuse
+// above entry it uses nsvcd__settings_of, nsvcd__poses_check and nsvcd__is_aligned, to refuse
 // what a query would, and NSVCD__ROUNDING.
 //
 // A trajectory is looked at in *moments*, uniform in t, both ends among them; a *segment* lies
@@ -196,43 +196,55 @@ static int nsvcd__stage_of(const nsvcd_plan_stage *given, nsvcd_plan_stage defau
 }
 
 // Is the problem one that can be stated?
-static int nsvcd__problem_is_whole(const nsvcd_plan_problem *problem) {
-  if (!problem || !problem->place) return 0;
-  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return 0;
-  if (problem->body_count > 65536) return 0;
-  if (!problem->low || !problem->high || !problem->start || !problem->goal) return 0;
+static nsvcd_result nsvcd__problem_check(const nsvcd_plan_problem *problem) {
+  if (!problem || !problem->place) return NSVCD_ERROR_ARGUMENT;
+  if (problem->joints < 1 || problem->joints > NSVCD_MAX_JOINTS) return NSVCD_ERROR_COUNT;
+  if (problem->body_count > 65536) return NSVCD_ERROR_COUNT;
+  if (!problem->low || !problem->high || !problem->start || !problem->goal)
+    return NSVCD_ERROR_ARGUMENT;
   const int by_network = !problem->collision;
   if (problem->pair_count > 0 && (!problem->pairs || (by_network && !problem->bodies)))
-    return 0;
+    return NSVCD_ERROR_ARGUMENT;
+  // those that are NULL have no shape
+  for (size_t b = 0; problem->bodies && b < problem->body_count; b++) {
+    const nsvcd_body *body = problem->bodies[b];
+    const nsvcd_result result = body ? nsvcd__body_check(body, SIZE_MAX) : NSVCD_OK;
+    if (result) return result;
+  }
   for (size_t k = 0; k < problem->pair_count; k++) {
     const size_t a = problem->pairs[k].a;
     const size_t b = problem->pairs[k].b;
-    if (a >= problem->body_count || b >= problem->body_count || a == b) return 0;
-    if (by_network && (!problem->bodies[a] || !problem->bodies[b])) return 0;
+    if (a >= problem->body_count || b >= problem->body_count || a == b)
+      return NSVCD_ERROR_PAIR;
+    if (by_network && (!problem->bodies[a] || !problem->bodies[b]))
+      return NSVCD_ERROR_ARGUMENT;
   }
-  return 1;
+  return NSVCD_OK;
 }
 
-// Fills in the defaults. Returns 0 for what cannot be.
-static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
-                                   const nsvcd_plan_options *options, nsvcd__planner *p) {
+// Fills in the defaults.
+static nsvcd_result nsvcd__planner_settings(const nsvcd_plan_problem *problem,
+                                            const nsvcd_plan_options *options,
+                                            nsvcd__planner *p) {
   // via points, segments, iterations, draws, noise
   static const nsvcd_plan_stage explore = {5, 24, 40, 100, 0.3f};
   static const nsvcd_plan_stage refine = {10, 22, 10, 10, 0.01f};
   nsvcd__settings unused;
   memset(p, 0, sizeof *p);
-  if (!nsvcd__problem_is_whole(problem)) return 0;
+  nsvcd_result result = nsvcd__problem_check(problem);
+  if (result) return result;
   p->problem = problem;
   if (options) p->options = *options;
   nsvcd_plan_options *o = &p->options;
   const float floats[] = {o->velocity, o->acceleration, o->jerk,          o->collision,
                           o->duration, o->margin,       o->explore.noise, o->refine.noise};
   for (size_t k = 0; k < sizeof floats / sizeof *floats; k++) {
-    if (!nsvcd__is_finite(floats[k])) return 0;
+    if (!nsvcd__is_finite(floats[k])) return NSVCD_ERROR_PLAN;
   }
-  if (nsvcd__settings_of(&o->sweep.network, 1, 1, &unused)) return 0;
-  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return 0;
-  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return 0;
+  result = nsvcd__settings_of(&o->sweep.network, 1, 1, &unused);
+  if (result) return result;
+  if (!nsvcd__stage_of(&o->explore, explore, &p->explore)) return NSVCD_ERROR_STAGE;
+  if (!nsvcd__stage_of(&o->refine, refine, &p->refine)) return NSVCD_ERROR_STAGE;
   if (o->refine.iterations == NSVCD_NONE) p->refine.via = p->explore.via;
 
   o->seeds = o->seeds ? o->seeds : 6;
@@ -251,7 +263,7 @@ static int nsvcd__planner_settings(const nsvcd_plan_problem *problem,
   const size_t dense = NSVCD__CHECKS * (finest - 1);
   o->check = o->check ? o->check : dense < most ? dense : most;
   p->check.moments = o->check + 1;
-  return o->check <= most && o->seeds <= 1000;
+  return o->check <= most && o->seeds <= 1000 ? NSVCD_OK : NSVCD_ERROR_PLAN;
 }
 
 // The next rows of so many floats of a workspace: nsvcd__take.

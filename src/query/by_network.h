@@ -12,15 +12,15 @@
 // of log2 N.
 static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t points1,
                                        size_t points2, nsvcd__settings *settings) {
-  if (o->pairs > NSVCD_MAX_PAIRS || (unsigned)o->model > (unsigned)NSVCD_MODEL_BASE)
-    return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_ARGUMENT;
+  if (o->pairs > NSVCD_MAX_PAIRS) return NSVCD_ERROR_PAIRS;
+  if ((unsigned)o->model > (unsigned)NSVCD_MODEL_BASE) return NSVCD_ERROR_MODEL;
+  if (!nsvcd__is_finite(o->swell) || o->swell < 0) return NSVCD_ERROR_SWELL;
   if (o->precision != NSVCD_PRECISION_FLOAT && o->precision != NSVCD_PRECISION_INT8)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_PRECISION;
   const nsvcd_model model = o->model ? o->model : NSVCD__LARGEST_MODEL;
   const size_t decoder = (size_t)model - (size_t)NSVCD_MODEL_TINY;
   // compiled out
-  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_ARGUMENT;
+  if (!nsvcd_w_decoders[decoder].layers) return NSVCD_ERROR_MODEL;
   settings->pairs = o->pairs ? o->pairs : NSVCD_DEFAULT_PAIRS;
   settings->shortlist = decoder == 0 ? settings->pairs : NSVCD__SHORTLIST * settings->pairs;
   settings->decoder = &nsvcd_w_decoders[decoder];
@@ -31,7 +31,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
   settings->int8 = o->precision == NSVCD_PRECISION_INT8;
 #endif
 #ifdef NSVCD_NO_INT8
-  if (settings->int8) return NSVCD_ERROR_ARGUMENT;
+  if (settings->int8) return NSVCD_ERROR_PRECISION;
 #endif
   for (size_t k = 0; k < NSVCD_W_RECALLS && nsvcd__is_finite(o->recall); k++) {
     if (o->recall < nsvcd_w_recall[k] || o->recall > nsvcd_w_recall[k]) continue;
@@ -49,7 +49,7 @@ static nsvcd_result nsvcd__settings_of(const nsvcd_network_options *o, size_t po
     settings->swell = fmaxf(o->swell, least);
     return NSVCD_OK;
   }
-  return NSVCD_ERROR_ARGUMENT;
+  return NSVCD_ERROR_RECALL;
 }
 
 // Scores `count` candidates, 1 to 16, by a decoder.

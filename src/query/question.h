@@ -37,28 +37,28 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
   // Are the options' numbers in their ranges, and do they go together?
   const nsvcd_question *q = question;
-  const float lengths[5] = {q->tolerance, q->clearance, q->to, q->skin, q->to_time};
-  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_ARGUMENT;
-  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ARGUMENT;
+  if ((unsigned)q->method > (unsigned)NSVCD_METHOD_NETWORK) return NSVCD_ERROR_METHOD;
+  if ((unsigned)q->ask > (unsigned)NSVCD_ASK_DISTANCE) return NSVCD_ERROR_ASK;
   if (q->segments > NSVCD__MAX_SEGMENTS || q->segments % NSVCD__LANES)
-    return NSVCD_ERROR_ARGUMENT;
-  for (size_t k = 0; k < 5; k++) {
-    const float most = k < 4 ? NSVCD_MAX_COORDINATE : 1;
-    if (!nsvcd__is_finite(lengths[k])) return NSVCD_ERROR_TOLERANCE;
-    if (lengths[k] < 0 || lengths[k] > most) return NSVCD_ERROR_TOLERANCE;
-  }
-  if (q->to > 0 && q->ask == NSVCD_ASK_HIT) return NSVCD_ERROR_ARGUMENT;
-  if (q->to_time > 0 && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
-  if (q->manifold && q->ask != NSVCD_ASK_FIRST) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_SEGMENTS;
+  if (!nsvcd__is_length(q->tolerance)) return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_length(q->clearance)) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_length(q->skin)) return NSVCD_ERROR_SKIN;
+  const int is_first = q->ask == NSVCD_ASK_FIRST;
+  if (!nsvcd__is_length(q->to) || (q->to > 0 && q->ask == NSVCD_ASK_HIT))
+    return NSVCD_ERROR_TO;
+  if (!nsvcd__is_length(q->to_time) || q->to_time > (is_first ? 1.0f : 0.0f))
+    return NSVCD_ERROR_TO_TIME;
+  if (q->manifold && !is_first) return NSVCD_ERROR_MANIFOLD;
   // of these the network knows nothing
   const int by_network = q->method == NSVCD_METHOD_NETWORK;
   int needs_proof = q->clearance > 0 || q->skin > 0;
-  needs_proof |= q->ask == NSVCD_ASK_FIRST || q->to > 0;
+  needs_proof |= is_first || q->to > 0;
   needs_proof |= q->ask == NSVCD_ASK_DISTANCE && !by_network;
-  if (needs_proof && by_network) return NSVCD_ERROR_ARGUMENT;
+  if (needs_proof && by_network) return NSVCD_ERROR_METHOD;
   const nsvcd_method wanted = needs_proof ? NSVCD_METHOD_PROOF : q->method;
   if (nsvcd__method_of(a->body, b->body, wanted) == NSVCD_METHOD_DEFAULT)
-    return NSVCD_ERROR_BODY;
+    return wanted == NSVCD_METHOD_NETWORK ? NSVCD_ERROR_LATENTS : NSVCD_ERROR_TRIANGLES;
 #ifndef NSVCD_NO_NETWORK
   nsvcd__settings unused;
   return nsvcd__settings_of(&q->network, a->body->patches, b->body->patches, &unused);

@@ -16,37 +16,42 @@ static int nsvcd__is_number(double x, double most) {
 static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
   double axis = 0;
   if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_JOINT;
   for (size_t k = 0; k < 3; k++) {
-    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_AXIS;
     axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
   }
-  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__poses_are_valid(&joint->origin, 1)) return NSVCD_ERROR_POSE;
+  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
+  const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
+  if (result) return result;
   const double most = (double)NSVCD_MAX_COORDINATE;
   if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
-    return NSVCD_ERROR_NUMBER;
-  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_SPEED;
+  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_SPEED;
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
   if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
-    return NSVCD_ERROR_NUMBER;
-  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_LIMITS;
+  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_LIMITS;
 }
 
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
-  if (!part->body || part->link > scene->joint_count) return NSVCD_ERROR_ARGUMENT;
-  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_BODY;
+  const nsvcd_result result = nsvcd__body_check(part->body, SIZE_MAX);
+  if (result) return result;
+  if (part->link > scene->joint_count) return NSVCD_ERROR_LINK;
+  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_TRIANGLES;
   const float scale = part->scale;
   const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
   if (!(fits || (scale <= 0 && scale >= 0))) return NSVCD_ERROR_SCALE;
-  return nsvcd__poses_are_valid(&part->pose, 1) ? NSVCD_OK : NSVCD_ERROR_POSE;
+  return nsvcd__poses_check(&part->pose, 1);
 }
 
 static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
   nsvcd_result result = NSVCD_OK;
-  if (!scene || scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
-    return NSVCD_ERROR_ARGUMENT;
-  if (!scene->joints || scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_ARGUMENT;
+  if (!scene) return NSVCD_ERROR_ARGUMENT;
+  if (scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
+    return NSVCD_ERROR_COUNT;
+  if (scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_COUNT;
+  if (!scene->joints) return NSVCD_ERROR_ARGUMENT;
   if ((scene->part_count > 0 && !scene->parts) || (scene->pair_count > 0 && !scene->pairs))
     return NSVCD_ERROR_ARGUMENT;
   for (size_t i = 0; i < scene->joint_count && !result; i++)
@@ -55,9 +60,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
     const nsvcd_body_pair *pair = &scene->pairs[k];
-    if (pair->a >= scene->part_count || pair->b >= scene->part_count)
-      return NSVCD_ERROR_ARGUMENT;
-    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_ARGUMENT;
+    if (pair->a >= scene->part_count || pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
   }
   return result;
 }
@@ -580,16 +584,15 @@ static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_m
 // Is a motion, as it is meant, in order?
 static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
   const double most = (double)NSVCD_MAX_COORDINATE;
-  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE))
-    return NSVCD_ERROR_ARGUMENT;
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
   if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_DEGREE;
   for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
-    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_VALUE;
   }
   for (size_t p = 0; p <= m->pieces && m->times; p++) {
-    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_NUMBER;
-    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_ARGUMENT;
+    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_TIMES;
+    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_TIMES;
   }
   return NSVCD_OK;
 }
@@ -607,9 +610,8 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_finite(o.clearance) || !nsvcd__is_finite(o.finest) || o.clearance < 0 ||
-      o.finest < 0)
-    return NSVCD_ERROR_TOLERANCE;
+  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
   o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
   memset(&found, 0, sizeof found);
   found.joint = found.pair = found.piece = NSVCD_NONE;

@@ -29,7 +29,7 @@
 static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
   if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
   for (size_t j = 0; j < checker->scene->joint_count; j++) {
-    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
+    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
   }
   return NSVCD_OK;
 }
@@ -207,11 +207,8 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  const float *lengths[3] = {&o.within, &o.to, &o.deepest};
-  for (size_t n = 0; n < 3; n++) {
-    if (!nsvcd__within(lengths[n], 1, NSVCD_MAX_COORDINATE) || *lengths[n] < 0)
-      return NSVCD_ERROR_TOLERANCE;
-  }
+  if (!nsvcd__is_length(o.within) || !nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
   o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
@@ -313,9 +310,9 @@ NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   if (!nsvcd__within(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
-    return NSVCD_ERROR_NUMBER;
+    return NSVCD_ERROR_FARTHEST;
   o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
   memcpy(from, joints, bytes);
   nsvcd__take_into_limits(checker->scene, from);
@@ -418,8 +415,8 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   const nsvcd_result result = nsvcd__check_joints(checker, joints);
   if (result) return result;
   const nsvcd_scene *scene = checker->scene;
-  if (!out || part >= scene->part_count || link > scene->joint_count)
-    return NSVCD_ERROR_ARGUMENT;
+  if (!out) return NSVCD_ERROR_ARGUMENT;
+  if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
   memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
   nsvcd__place_links(checker, &c);
   const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
@@ -427,8 +424,8 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   nsvcd_part moved = scene->parts[part];
   moved.link = link;
   moved.pose = nsvcd__pose_in(&inner);
-  if (!nsvcd__poses_are_valid(&moved.pose, 1)) return NSVCD_ERROR_POSE;
-  *out = moved;
-  return NSVCD_OK;
+  const nsvcd_result placed = nsvcd__poses_check(&moved.pose, 1);
+  if (!placed) *out = moved;
+  return placed;
 }
 #endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -228,8 +228,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
   if (!motion->points) return NSVCD_ERROR_ARGUMENT;
   const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
   if (result) return result;
-  if (pair >= scene->pair_count || !nsvcd__is_provable(checker, motion))
-    return NSVCD_ERROR_ARGUMENT;
+  if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;
   memset(&c, 0, sizeof c);
   const nsvcd_body_pair *parts = &scene->pairs[pair];
   const size_t base =

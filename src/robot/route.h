@@ -22,18 +22,18 @@ static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
                                        const nsvcd_route_options *options) {
   if (!checker || !problem || !problem->start || !problem->goals) return NSVCD_ERROR_ARGUMENT;
   const size_t most = NSVCD_MAX_NODES;
-  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_ARGUMENT;
+  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_COUNT;
   if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
-    return NSVCD_ERROR_ARGUMENT;
-  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_COUNT;
+  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ROUTE;
   if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
-    return NSVCD_ERROR_ARGUMENT;
+    return NSVCD_ERROR_ROUTE;
   const double *rows[3] = {problem->start, problem->goals, problem->guess};
   const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
   for (size_t n = 0; n < 3; n++) {
     for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
       if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
-        return NSVCD_ERROR_NUMBER;
+        return NSVCD_ERROR_VALUE;
     }
   }
   return NSVCD_OK;
@@ -441,7 +441,7 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   if (result) return result;
   if (!answer) return NSVCD_ERROR_ARGUMENT;
   if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
-    return NSVCD_ERROR_TOLERANCE;
+    return NSVCD_ERROR_CLEARANCE;
   const size_t needed = nsvcd__router_layout(checker, problem, options, NULL, &r);
   if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
     return NSVCD_ERROR_WORKSPACE;

@@ -57,19 +57,59 @@ class Code(enum.IntEnum):
     ARGUMENT = 1
     IO = 2
     MEMORY = 3
-    SYNTAX = 4
-    INDEX = 5
-    NUMBER = 6
-    EMPTY = 7
-    TOO_LARGE = 8
-    POSE = 9
-    SCALE = 10
-    TOLERANCE = 11
-    SAME = 12
-    BODY = 13
-    WORKSPACE = 14
-    CANCELLED = 15
-    BUILD = 16
+    WORKSPACE = 4
+    CANCELLED = 5
+    COUNT = 6
+    FORMAT = 7
+    SYNTAX = 8
+    INDEX = 9
+    NUMBER = 10
+    EMPTY = 11
+    TOO_LARGE = 12
+    SIZES = 13
+    BOX = 14
+    PATCHES = 15
+    RADIUS = 16
+    BODY = 17
+    VERSION = 18
+    TRIANGLES = 19
+    LATENTS = 20
+    POSES = 21
+    TIMES = 22
+    POSE = 23
+    QUATERNION = 24
+    SCALE = 25
+    SAME = 26
+    ASK = 27
+    METHOD = 28
+    TO = 29
+    TO_TIME = 30
+    CLEARANCE = 31
+    SKIN = 32
+    TOLERANCE = 33
+    MANIFOLD = 34
+    SEGMENTS = 35
+    PAIRS = 36
+    MODEL = 37
+    PRECISION = 38
+    RECALL = 39
+    SWELL = 40
+    JOINT = 41
+    AXIS = 42
+    LIMITS = 43
+    SPEED = 44
+    LINK = 45
+    PAIR = 46
+    VALUE = 47
+    DEGREE = 48
+    TURN = 49
+    FINEST = 50
+    WITHIN = 51
+    FARTHEST = 52
+    ROUTE = 53
+    STAGE = 54
+    PLAN = 55
+    BUILD = 56
 
 
 class _Word(str, enum.Enum):
@@ -289,7 +329,7 @@ _PROTOTYPES = {
     "nsvcd_tree_build": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
     "nsvcd_certify_workspace_size": (c_size_t, c_void_p, c_void_p, c_void_p),
     "nsvcd_certify": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
-    "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "neuralsvcd_mesh_parse": (c_char_p, c_char_p, c_char_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p),
     "neuralsvcd_layouts": (c_void_p, c_void_p),
 }
 
@@ -368,6 +408,25 @@ class Error(Exception):
 def _check(code: int) -> None:
     if code:
         raise Error(code)
+
+
+def _check_radius(radius: float) -> None:
+    if not radius > 0:
+        raise Error(Code.RADIUS, "radius")
+
+
+_OF_MOVERS = {Code.POSES: "poses", Code.POSE: "poses", Code.QUATERNION: "poses", Code.TIMES: "times", Code.SCALE: "scale"}
+
+
+def _check_question(code: int, question: Any, index: Optional[int] = None) -> None:
+    """As _check. Of what a and b both have it names the one at fault: a, if the question is refused with b at rest."""
+    if code in _OF_MOVERS:
+        resting = _Question.from_buffer_copy(question)
+        resting.b = resting.b.body, None, 0, None, 2 if resting.a.scale == 1 else 1  # or it is the same twice
+        side = "b" if _library.nsvcd_sweep_workspace_size(byref(resting)) else "a"
+        raise Error(code, f"{_OF_MOVERS[Code(code)]}_{side}", index=index)
+    if code:
+        raise Error(code, index=index)
 
 
 # -------------------------------------------------------------------------------------------- from Python to C, checked
@@ -502,12 +561,21 @@ def parse_stl(data: Union[str, bytes], where: str = "") -> Mesh:
 _CODES = {_library.nsvcd_result_string(code).decode(): code for code in Code}
 
 
-def parse_mesh(data: Any, where: str = "") -> Mesh:
-    """The mesh in the bytes of an OBJ, STL, PLY or GLB file, as svcd reads it: by what they are, and by the name."""
+def parse_mesh(data: Any, where: str = "", scale: float = 1, origin: ArrayLike = (0, 0, 0)) -> Mesh:
+    """The mesh in the bytes of an OBJ, STL, PLY or GLB file, as svcd reads it: by what they are, and by the name.
+
+    scale, origin  as load_mesh has them
+    """
+    placed = np.array([*_numeric(origin, (3,), "origin"), scale], np.float64)
+    if not np.isfinite(placed).all():
+        raise ValueError(f"origin: {origin}" if math.isfinite(scale) else f"scale: {scale}")
+    if not scale > 0:
+        raise ValueError(f"scale: {scale}")
     given = memoryview(data).tobytes()
     mesh, form, line = _Mesh(), c_char_p(), c_size_t()
     name = os.fsencode(where).replace(b"\0", b"")
-    why = _library.neuralsvcd_mesh_parse(name, given, len(given), byref(mesh), byref(form), byref(line))
+    why = _library.neuralsvcd_mesh_parse(name, given, len(given), _address(placed), byref(mesh), byref(form),
+                                         byref(line))
     if why is None:
         return _taken(mesh)
     reason, taken_for = why.decode(), (form.value or b"").decode()
@@ -516,25 +584,27 @@ def parse_mesh(data: Any, where: str = "") -> Mesh:
                 reason=reason if is_plain else f"{reason} (read as {taken_for})")
 
 
-def load_mesh(path: FilePath, scale: float = 1) -> Mesh:
-    """The mesh in an OBJ, STL, PLY or GLB file, to metres: scale=0.001 of millimetres. OSError if it cannot be read."""
-    return _scaled(parse_mesh(Path(path).read_bytes(), os.fspath(path)), scale, os.fspath(path))
+def load_mesh(path: FilePath, scale: float = 1, origin: ArrayLike = (0, 0, 0)) -> Mesh:
+    """The mesh in an OBJ, STL, PLY or GLB file. OSError if it cannot be read.
+
+    scale   to metres: 0.001 of millimetres
+    origin  (3) in the file's units: the place that becomes the mesh's origin, taken off in double; of a map
+    """
+    where = os.fspath(path)
+    mesh = parse_mesh(Path(path).read_bytes(), where, scale, origin)
+    _warn_of_size(mesh, scale, where)
+    return mesh
 
 
-def _scaled(mesh: Mesh, scale: float, where: str) -> Mesh:
-    """In metres. What is larger than 30 m or smaller than 1 mm is hardly meant: warned of as by `svcd info`."""
-    if not 0 < scale < math.inf:
-        raise ValueError(f"scale: {scale}")
-    with np.errstate(over="ignore"):  # the library refuses infinity
-        vertices = mesh.vertices if scale == 1 else mesh.vertices * np.float32(scale)
-    extent = float(np.ptp(vertices, axis=0).max())
+def _warn_of_size(mesh: Mesh, scale: float, where: str) -> None:
+    """What is larger than 30 m or smaller than 1 mm is hardly meant: warned of as by `svcd info`."""
+    extent = float(np.ptp(mesh.vertices, axis=0).max())
     if extent > 30:
         warnings.warn(f"{where}: a body of {extent:.4g} m: are these millimetres? try scale={scale / 1000:g}",
                       stacklevel=3)
     elif extent < 0.001:
         warnings.warn(f"{where}: a body of {extent:.4g} m: is it too small by a thousand? try scale={scale * 1000:g}",
                       stacklevel=3)
-    return Mesh(vertices, mesh.triangles)
 
 
 def load_stl(path: FilePath) -> Mesh:
@@ -588,7 +658,7 @@ class Body:
 
     vertices      (n, 3) metres; or a path, without triangles, of an OBJ, STL, PLY or GLB file: see load_mesh
     triangles     (m, 3) integers
-    scale         of a file, to metres: 0.001 of millimetres
+    scale, origin of a file: see load_mesh
     patches       1 to 65536; 0: by the number of triangles
     patch_radius  metres; with patches = 0: as many as have about this radius; 0: unasked
     round         the body is all that is within so many metres of the mesh. If > 0, triangles may be points (one
@@ -605,16 +675,18 @@ class Body:
     _address: int
 
     def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
-                 scale: float = 1, patches: int = 0, patch_radius: float = 0, round: float = 0, open: bool = False,
+                 scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, round: float = 0, open: bool = False,
                  latents: bool = False, no_triangles: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         if isinstance(vertices, (str, os.PathLike)):
             if triangles is not None:
                 raise TypeError("triangles: a file has its own")
             path = os.fspath(vertices)
-            mesh = _c_mesh(*_scaled(parse_mesh(Path(path).read_bytes(), path), scale, path))
-        elif triangles is None or scale != 1:
-            raise TypeError("triangles are missing" if triangles is None else "scale: only of a file")
+            read = parse_mesh(Path(path).read_bytes(), path, scale, (0, 0, 0) if origin is None else origin)
+            _warn_of_size(read, scale, path)
+            mesh = _c_mesh(*read)
+        elif triangles is None or scale != 1 or origin is not None:
+            raise TypeError("triangles are missing" if triangles is None else "scale, origin: only of a file")
         else:
             mesh = _c_mesh(vertices, triangles)
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
@@ -637,15 +709,18 @@ class Body:
 
     @classmethod
     def sphere(cls, radius: float) -> Body:
+        _check_radius(radius)
         return cls([[0, 0, 0]], [[0, 0, 0]], round=radius)
 
     @classmethod
     def capsule(cls, start: ArrayLike, end: ArrayLike, radius: float) -> Body:
+        _check_radius(radius)
         return cls(np.array([start, end]), [[0, 1, 1]], round=radius)
 
     @classmethod
     def cloud(cls, points: ArrayLike, radius: float) -> Body:
         """All that is within a radius of (n, 3) points, metres."""
+        _check_radius(radius)
         return cls(points, np.repeat(np.arange(len(np.asarray(points))), 3).reshape(-1, 3), round=radius)
 
     def _keep(self, memory: NDArray[np.uint8]) -> None:
@@ -778,7 +853,10 @@ class Options(_Options):
 
     def __post_init__(self) -> None:
         for name, kind in (("ask", Ask), ("method", Method), ("model", Model), ("precision", Precision)):
-            object.__setattr__(self, name, kind(getattr(self, name)))
+            given = getattr(self, name)
+            if given not in set(kind):
+                raise ValueError(f"{name}: {given!r} is none of {', '.join(kind)}")
+            object.__setattr__(self, name, kind(given))
         super().__post_init__()
         self._c.network = _filled(_NetworkOptions, **vars(self))
 
@@ -932,10 +1010,10 @@ def _posed(poses: Any, name: str) -> Any:
     r = m[..., :3, :3]
     metric = np.swapaxes(r, -1, -2) @ r
     square = np.trace(metric, axis1=-2, axis2=-1) / 3  # of the scale
-    even = np.abs(metric - square[..., None, None] * np.eye(3)).max((-2, -1)) <= 1e-4 * square
+    even = np.abs(metric - square[..., None, None] * np.eye(3)).max((-2, -1)) <= 2e-4 * square
     if not even.all() or (np.linalg.det(r) <= 0).any():
         raise ValueError(f"{name}: a matrix that shears, mirrors or stretches: it must be rigid")
-    if (np.abs(square - 1) > 1e-4).any():
+    if (np.abs(square - 1) > 2e-4).any():  # of lengths, to 1e-4
         worst = math.sqrt(square.flat[np.abs(square - 1).argmax()])
         raise ValueError(f"{name}: a matrix that scales, by {worst:.6g}: give the scale as scale_a, scale_b or to the body")
     # The products of a quaternion's numbers, times 4: its row with the largest square is that quaternion, scaled.
@@ -1012,7 +1090,8 @@ def sweep(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_b: Option
     """
     question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
     answer = _Answer()
-    _check(_library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer)))
+    code = _library.nsvcd_sweep(byref(question), _workspace.address, _workspace.size, byref(answer))
+    _check_question(code, question)
     return _answer_of(answer)
 
 
@@ -1035,8 +1114,9 @@ def sweep_gradient(a: Body, b: Body, poses_a: Optional[ArrayLike] = None, poses_
     question = _question(a, b, poses_a, poses_b, times_a, times_b, scale_a, scale_b, options)
     answer = _Answer()
     by_a, by_b = (np.zeros((1 if poses is None else len(poses), 6), np.float32) for poses, _ in question.kept)
-    _check(_library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
-                                         _address(by_a), _address(by_b)))
+    code = _library.nsvcd_sweep_gradient(byref(question), _workspace.address, _workspace.size, byref(answer),
+                                         _address(by_a), _address(by_b))
+    _check_question(code, question)
     return Gradient(_answer_of(answer), by_a, by_b)
 
 
@@ -1241,7 +1321,8 @@ def sweep_batch(a: Bodies, b: Bodies, poses_a: Optional[ArrayLike] = None, poses
     code = _library.nsvcd_sweep_batch(_address(questions), len(questions), _workspace.address, _workspace.size,
                                       _address(answers))
     if code:
-        raise Error(code, index=_first_fault(questions))
+        index = _first_fault(questions)
+        _check_question(code, questions[index:index + 1], index)
     return _worded(answers)
 
 
