@@ -378,6 +378,17 @@ static void mesh_obj_files(void) {
     CHECK_EQ(nsvcd_obj_load(path, NULL, &mesh, NULL), NSVCD_OK);
     nsvcd_mesh_free(&mesh, NULL);
   }
+  file = fopen(path, "wb");  // whatever its name is
+  fprintf(file, "solid\nvertex 3000000 0 0\nvertex 3001000 0 0\nvertex 3000000 1000 0\nendloop\n");
+  fclose(file);
+  const nsvcd_mesh_options options = {NSVCD_MESH_ANY, {3000000, 0, 0}, 0.001};
+  CHECK_EQ(nsvcd_mesh_load(path, NULL, NULL, &mesh, &line), NSVCD_ERROR_NUMBER);
+  CHECK_EQ(line, 2);
+  CHECK_EQ(nsvcd_mesh_load(path, &options, NULL, &mesh, &line), NSVCD_OK);
+  CHECK_EQ(mesh.positions[3], 1);
+  nsvcd_mesh_free(&mesh, NULL);
+  CHECK_EQ(nsvcd_mesh_load(NULL, NULL, NULL, &mesh, NULL), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_mesh_load("/nowhere/at all.stl", NULL, NULL, &mesh, NULL), NSVCD_ERROR_IO);
   remove(path);
 }
 
