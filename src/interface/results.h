@@ -10,7 +10,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, too small, or not aligned to NSVCD_ALIGNMENT bytes
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT bytes, or too small: size, capacity
   NSVCD_ERROR_WORKSPACE,
   // by the caller's progress function
   NSVCD_ERROR_CANCELLED,
@@ -103,7 +103,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_LIMITS,
   // a joint's speed or acceleration is negative, not finite or too large
   NSVCD_ERROR_SPEED,
-  // a part's link is no joint of the scene
+  // a link is no joint of the scene, or a part none of its parts
   NSVCD_ERROR_LINK,
   // a pair that is not there, or that names a part that is not there, or two that never move apart
   NSVCD_ERROR_PAIR,
