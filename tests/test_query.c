@@ -628,6 +628,56 @@ static void query_thresholds_are_interpolated(void) {
   }
 }
 
+// Triangles are named as the file has them: two of each quad, also behind a quad that is a sliver, has
+// no area, or is one vertex four times.
+static void query_names_triangles_behind_slivers(void) {
+  const double widths[5] = {0, 1e-9, 1e-7, 1e-5, 1};
+  for (int kind = 0; kind < 5; kind++) {
+    char text[4000];
+    size_t size = 0;
+    double left[13] = {0};
+    for (int i = 0; i < 12; i++) {
+      left[i + 1] = left[i] + (i == 4 ? widths[kind] : 1);
+      size += (size_t)snprintf(text + size, sizeof text - size, "v %.12g 0 0\nv %.12g 1 0\n",
+                               left[i], left[i]);
+    }
+    for (int i = 1; i < 23; i += 2) {
+      const int across = kind == 4 && i == 9 ? 0 : 2;
+      size += (size_t)snprintf(text + size, sizeof text - size, "f %d %d %d %d\n", i, i + across,
+                               i + 3 * (across > 0), i + (across > 0));
+    }
+    nsvcd_mesh mesh;
+    const nsvcd_body *floor_body, *probe;
+    const nsvcd_encode_options options = {.open = 1};
+    CHECK_EQ(nsvcd_obj_parse(text, size, NULL, &mesh, NULL), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &floor_body), NSVCD_OK);
+    nsvcd_mesh_free(&mesh, NULL);
+    static const char tip[] =
+        "v 0 0 0\nv 0.01 0 1\nv 0 0.01 1\nv 0 0 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4";
+    CHECK_EQ(nsvcd_obj_parse(tip, sizeof tip - 1, NULL, &mesh, NULL), NSVCD_OK);
+    CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &probe), NSVCD_OK);
+    nsvcd_mesh_free(&mesh, NULL);
+    for (int i = 0; i < 11; i++) {
+      if (i == 4) continue;
+      nsvcd_pose path[2] = {query_pose(left[i] + 0.4, 0.3, 1),
+                            query_pose(left[i] + 0.4, 0.3, -0.5)};
+      nsvcd_question question;
+      memset(&question, 0, sizeof question);
+      question.a.body = probe;
+      question.a.poses = path;
+      question.a.count = 2;
+      question.b.body = floor_body;
+      question.ask = i % 2 ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+      const nsvcd_answer answer = query_answer(&question);
+      CHECK_EQ(answer.verdict, NSVCD_HIT);
+      for (size_t k = 0; k < answer.contact_count; k++)
+        CHECK_EQ(answer.contacts[k].triangle_b / 2, i);
+    }
+    nsvcd_body_free(floor_body, NULL);
+    nsvcd_body_free(probe, NULL);
+  }
+}
+
 // ------------------------------------------------------------------------------------------ errors
 
 static nsvcd_answer query_untouched(void) {
@@ -1303,6 +1353,7 @@ void test_query(void) {
   RUN(query_the_distance_follows_the_gap);
   RUN(query_recall_raises_the_logit);
   RUN(query_thresholds_are_interpolated);
+  RUN(query_names_triangles_behind_slivers);
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_questions);
   RUN(query_names_the_field_at_fault);
