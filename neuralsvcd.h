@@ -358,7 +358,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_IO,
   // the allocator returned NULL
   NSVCD_ERROR_MEMORY,
-  // the memory given is NULL, too small, or not aligned to NSVCD_ALIGNMENT bytes
+  // the memory given is NULL, not aligned to NSVCD_ALIGNMENT bytes, or too small: size, capacity
   NSVCD_ERROR_WORKSPACE,
   // by the caller's progress function
   NSVCD_ERROR_CANCELLED,
@@ -451,7 +451,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_LIMITS,
   // a joint's speed or acceleration is negative, not finite or too large
   NSVCD_ERROR_SPEED,
-  // a part's link is no joint of the scene
+  // a link is no joint of the scene, or a part none of its parts
   NSVCD_ERROR_LINK,
   // a pair that is not there, or that names a part that is not there, or two that never move apart
   NSVCD_ERROR_PAIR,
@@ -1993,10 +1993,10 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
       "the file is missing or cannot be read\0"
       "out of memory\0"
-      "the memory given is NULL, too small or misaligned\0"
+      "the memory given is NULL, misaligned, or too small: its size or capacity\0"
       "cancelled\0"
-      "joint_count, part_count, body_count, goal_count or guess_count is 0, or larger "
-      "than the library takes\0"
+      "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
+      "body_count, goal_count or guess_count\0"
       "the file is of another format than is read here, or is cut short\0"
       "a line cannot be understood, or a face has fewer than three corners\0"
       "an index is zero or refers to no vertex\0"
@@ -2042,8 +2042,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a joint's axis has no length, or is not finite\0"
       "a joint's limits are not finite or too large, or low is above high\0"
       "a joint's speed or acceleration is negative, not finite or too large\0"
-      "a link is no joint of the scene\0"
-      "a pair is not there, or names a part that is not there, or two of one link\0"
+      "a link is no joint of the scene, or a part none of its parts\0"
+      "a pair is not there, or names a part that is not there, one twice, or two of one link\0"
       "a joint's value (start, goal, guess, points) is not finite or too large\0"
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
