@@ -479,6 +479,143 @@ static void round_bodies_are_saved_and_scaled(void) {
   }
 }
 
+// What encloses does so whatever else is in the mesh: a face that names a vertex twice, as exports
+// have them, a capsule beside it, a ball within. A ball of 2 cm flies inside of a box, or of a cut
+// one, which encloses nothing.
+static void round_boxes_enclose(void) {
+  // corner n is on the far side of axis k if bit 2 - k of n is set; then what is added
+  static const uint32_t faces[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                     2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  static const uint32_t added[6][3] = {{0, 0, 0}, {0, 1, 1}, {5, 7, 5},
+                                       {8, 9, 9}, {9, 8, 8}, {10, 10, 10}};
+  const nsvcd_pose path[2] = {{{0.2f, 0.1f, -0.1f}, {0, 0, 0, 1}},
+                              {{-0.2f, 0.1f, -0.1f}, {0, 0, 0, 1}}};
+  const nsvcd_body *ball = NULL;
+  CHECK_EQ(nsvcd_encode_sphere(0.02f, NULL, &ball), NSVCD_OK);
+  for (int n = 0; n < 6 * 2 * 3; n++) {
+    const int extra = n % 6;
+    const int is_cut = n / 6 % 2;
+    const size_t patches[3] = {0, 3, 64};
+    float positions[33];
+    uint32_t corners[39];
+    nsvcd_mesh mesh = {positions, corners, 11, extra ? 13 : 12};
+    nsvcd_encode_options options;
+    memset(&options, 0, sizeof options);
+    options.round = 1e-3f;
+    options.patches = patches[n / 12];
+    for (int k = 0; k < 24; k++) positions[k] = k / 3 >> (2 - k % 3) & 1 ? 0.5f : -0.5f;
+    // far from it, but for the last one
+    for (int k = 24; k < 33; k++) positions[k] = k < 30 ? 3 + 0.1f * (float)k : 0.45f;
+    memcpy(corners, faces, sizeof faces);
+    memcpy(corners + 36, added[extra], sizeof added[extra]);
+    // a face is gone: of one that names a vertex twice no more than that is left
+    if (is_cut) corners[35] = corners[34];
+    const nsvcd_body *box = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, NULL, 0, &box), NSVCD_OK);
+    nsvcd_question q = question_of(ball, path, 2, box, NULL, NULL);
+    const nsvcd_answer answer = round_ask(&q);
+    CHECK_EQ(answer.verdict, is_cut ? NSVCD_FREE : NSVCD_HIT);
+    CHECK_EQ(answer.inside, !is_cut);
+    nsvcd_body_free(box, NULL);
+  }
+  nsvcd_body_free(ball, NULL);
+}
+
+// Two balls as large as their scales make them, in double, or nearer to each other than that by
+// less than what float resolves, with a clearance as well: those that overlap are never free, nor
+// hit those that are as much apart. One of them may be scaled before.
+static void round_scales_are_exact(void) {
+  static NSVCD_MEMORY(room, 4096);
+  shapes_rng rng = {34};
+  const float radii[2] = {0.7f, 0.0123f};
+  const nsvcd_body *balls[2] = {NULL, NULL};
+  size_t free_ones = 0;
+  for (int k = 0; k < 2; k++) CHECK_EQ(nsvcd_encode_sphere(radii[k], NULL, &balls[k]), NSVCD_OK);
+  for (int n = 0; n < 1200; n++) {
+    const int kind = n % 3;
+    float scales[2];
+    double sum = 0;
+    for (int k = 0; k < 2; k++) {
+      scales[k] = (float)shapes_uniform(&rng, 0.1, 3);
+      sum += (double)radii[k] * (double)scales[k];
+    }
+    nsvcd_question q = question_of(balls[0], NULL, 1, balls[1], NULL, NULL);
+    q.clearance = kind == 1 ? (float)shapes_uniform(&rng, 0, 9) : 0;
+    q.a.scale = scales[0];
+    q.b.scale = scales[1];
+    sum += (double)q.clearance;
+    double quantum = 0;
+    if (kind == 2) {
+      CHECK_EQ(nsvcd_body_scale(balls[0], scales[0], room, sizeof room, &q.a.body), NSVCD_OK);
+      q.a.scale = 0;
+      quantum = (double)nsvcd_body_describe(q.a.body).quantum;
+    }
+    double way[3];
+    for (int k = 0; k < 3; k++) way[k] = shapes_uniform(&rng, -1, 1);
+    const double apart = sum * (1 + shapes_uniform(&rng, -3e-7, 3e-7)) / oracle_length(way);
+    double square = 0;
+    nsvcd_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
+    for (int k = 0; k < 3; k++) {
+      pose.position[k] = (float)(apart * way[k]);
+      square += (double)pose.position[k] * (double)pose.position[k];
+    }
+    const double gap = sqrt(square) - sum;
+    q.a.poses = &pose;
+    const nsvcd_answer answer = round_ask(&q);
+    if (gap < 0) CHECK(answer.verdict != NSVCD_FREE);
+    if (gap > 1e-12 * sum + 2 * quantum) CHECK_EQ(answer.verdict, NSVCD_FREE);
+    free_ones += answer.verdict == NSVCD_FREE;
+  }
+  CHECK_GE(free_ones, 300);
+  for (int k = 0; k < 2; k++) nsvcd_body_free(balls[k], NULL);
+}
+
+// Boxes whose meshes lie far from their own origin, scaled: how large they are about it counts, to
+// the last digit.
+static void round_scales_about_far_origins(void) {
+  shapes_rng rng = {35};
+  size_t free_ones = 0;
+  for (int n = 0; n < 12; n++) {
+    const double far_off = pow(10, 3 + n % 3) * shapes_uniform(&rng, 0.3, 1);
+    const nsvcd_body *bodies[2] = {NULL, NULL};
+    double ends[2] = {0, 0};  // of the first the near side, of the other one its far side
+    for (int k = 0; k < 2; k++) {
+      shapes_mesh shape;
+      memset(&shape, 0, sizeof shape);
+      shapes_box(&shape, 0.7, 0.6, 0.5, 1);
+      float positions[72];
+      nsvcd_mesh mesh = {positions, shape.indices, shape.vertices, shape.triangles};
+      CHECK_EQ(shape.vertices, 24);
+      for (int i = 0; i < 72; i++) {
+        positions[i] = (float)(shape.positions[i] + (k == 0 && i % 3 == 0 ? far_off : 0));
+        const double x = (double)positions[i];
+        if (i % 3 == 0 && (i == 0 || (k == 0 ? x < ends[0] : x > ends[1]))) ends[k] = x;
+      }
+      CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &bodies[k]), NSVCD_OK);
+      shapes_free(&shape);
+    }
+    for (int trial = 0; trial < 100; trial++) {
+      const float scale = (float)shapes_uniform(&rng, 0.1, 3);
+      const float other = (float)shapes_uniform(&rng, 0.1, 3);
+      const double near_side = (double)scale * ends[0];
+      const double far_side = (double)other * ends[1];
+      nsvcd_pose path[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{0, 0, 0}, {0, 0, 0, 1}}};
+      path[0].position[0] =
+          (float)(far_side - near_side - shapes_uniform(&rng, -1.2e-7, 1.2e-7) * near_side);
+      path[1].position[0] = path[0].position[0] + 0.3f;
+      nsvcd_question q = question_of(bodies[0], path, 2, bodies[1], NULL, NULL);
+      q.a.scale = scale;
+      q.b.scale = other;
+      const nsvcd_answer answer = round_ask(&q);
+      const double gap = (double)path[0].position[0] + near_side - far_side;
+      if (gap < 0) CHECK(answer.verdict != NSVCD_FREE);
+      free_ones += answer.verdict == NSVCD_FREE;
+    }
+    for (int k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
+  }
+  CHECK_GE(free_ones, 100);
+}
+
 static void round_refuses_bad_input(void) {
   const float good[6] = {0, 0, 0, 1, 0, 0};
   const float bad[6] = {0, 0, 0, NAN, 0, 0};
@@ -523,6 +660,9 @@ static void round_refuses_bad_input(void) {
 void test_round(void) {
   RUN(round_refuses_bad_input);
   RUN(round_bodies_are_saved_and_scaled);
+  RUN(round_boxes_enclose);
+  RUN(round_scales_are_exact);
+  RUN(round_scales_about_far_origins);
   RUN(round_spheres_in_clouds);
   RUN(round_bodies_lie_on_a_table);
   RUN(round_bodies_are_exact);

@@ -289,9 +289,13 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex goes to the slacks and quanta.
+  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta.
   const nsvcd__facets f = nsvcd__facets_of(b);
   const double by = (double)scale;
+  float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
+  const double exact = (double)*round * by;
+  *round *= scale;
+  const double off = fabs(exact - (double)*round);
   float *discs = (float *)nsvcd__writable(b, f.discs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
@@ -301,7 +305,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
+    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
     slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
     quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
     disc.low = (float)((double)disc.low * by - rounding);
@@ -310,8 +314,6 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  void *counts = nsvcd__writable(b, nsvcd__counts_of(b));
-  ((nsvcd__facet_counts *)counts)->round *= scale;
   nsvcd__facets_finish(b);
 #endif
 }

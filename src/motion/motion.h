@@ -60,8 +60,10 @@ typedef struct nsvcd__motion {
   double begin, duration;
   // else it has one pose
   int fixed_moves;
-  float scale;      // of the moving body, over that of the fixed one,
-  float per_scale;  // and the other way round
+  // of the moving body, over that of the fixed one: as triangles are placed, and rounded, for what
+  // allows for the roundings of float; and the other way round
+  double ratio;
+  float scale, per_scale;
   // of the fixed body's frame: its scale, metres
   float unit;
   nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
@@ -245,7 +247,8 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
 static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
                                nsvcd__motion *motion) {
   motion->unit = nsvcd__scale_of(fixed);
-  motion->scale = nsvcd__scale_of(moving) / motion->unit;
+  motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
+  motion->scale = (float)motion->ratio;
   motion->per_scale = 1 / motion->scale;
   motion->lift = nsvcd__f3_of(0, 0, 0);
   motion->begin = 0;

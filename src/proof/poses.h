@@ -85,7 +85,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->first = first;
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
-  arc->scale = (double)motion->scale;
+  arc->scale = motion->ratio;
   arc->lift = nsvcd__d3_widen(motion->lift);
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);

@@ -37,7 +37,7 @@ static double nsvcd__to_of(const nsvcd__task *task) {
   const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
   const float fixed = nsvcd__whole_radius(task->fixed);
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
-  return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
+  return q->to > 0 ? (double)q->to / (double)task->motion.unit : (double)usual;
 }
 
 // How far points of the moving body go in an arc, at most.
@@ -68,21 +68,21 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
 static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
-  const float unit = task->motion.unit;
+  const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
   p->ask.motion = &query->task.motion;
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->given.tolerance = (double)(q->tolerance / unit);
-  const double moving_round = (double)p->moving.round * (double)task->motion.scale;
+  p->given.tolerance = (double)q->tolerance / unit;
+  const double moving_round = (double)p->moving.round * task->motion.ratio;
   p->given.round = moving_round + (double)p->fixed.round;
-  p->given.clearance = (double)(q->clearance / unit) + p->given.round;
+  p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
-  p->given.skin = (double)(q->skin / unit);
+  p->given.skin = (double)q->skin / unit;
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
-  p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
+  p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->normal_count = 0;
   p->high = HUGE_VAL;
