@@ -317,7 +317,11 @@ static void asks_measure_loses_nothing(void) {
           const double wide = fmax((double)question.to, 2 * quanta) + quanta;
           const double allowed = wide + 3e-6 * distances[k];
           const double high = (double)answer.distance.high;
-          if (answer.work < question.work) CHECK_LE(high - (double)answer.distance.low, allowed);
+          const double width = high - (double)answer.distance.low;
+          if (answer.work < question.work) CHECK_LE(width, allowed);
+          // what was not enough is said, and nothing else
+          if (answer.why == NSVCD_WHY_NOTHING) CHECK_LE(width, allowed);
+          if (width <= (double)question.to) CHECK_EQ(answer.why, NSVCD_WHY_NOTHING);
           CHECK_GE(answer.distance.low, fmin(0.99 * (double)low, high - allowed));
           low = answer.distance.low;
         }

@@ -379,6 +379,65 @@ static void round_spheres_in_clouds(void) {
   nsvcd_body_free(cloud, NULL);
 }
 
+// Two clouds pass each other, and hardly any work is allowed: what is said of their distance is so,
+// and clouds that are known to touch are hit.
+static void round_distances_of_little_work(void) {
+  enum { POINTS = 40 };
+  shapes_rng rng = {36};
+  const float radius = 0.04f;
+  float points[2][3 * POINTS];
+  const nsvcd_body *clouds[2] = {NULL, NULL};
+  size_t hits = 0;
+  size_t others = 0;
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < 3 * POINTS; i++) points[k][i] = (float)shapes_uniform(&rng, -0.15, 0.15);
+    CHECK_EQ(nsvcd_encode_cloud(points[k], POINTS, radius, NULL, &clouds[k]), NSVCD_OK);
+  }
+  for (int n = 0; n < 600; n++) {
+    nsvcd_pose path[2] = {{{0, 0, 0.6f}, {0, 0, 0, 1}}, {{0, 0, -0.6f}, {0, 0, 0, 1}}};
+    for (int k = 0; k < 4; k++)
+      path[k / 2].position[k % 2] = (float)shapes_uniform(&rng, -0.6, 0.6);
+    double from[3], way[3];
+    double least = DBL_MAX;
+    for (int k = 0; k < 3; k++) {
+      from[k] = (double)path[0].position[k];
+      way[k] = (double)path[1].position[k] - from[k];
+    }
+    for (int i = 0; i < POINTS * POINTS; i++) {
+      double d[3];
+      for (int k = 0; k < 3; k++)
+        d[k] = (double)points[1][3 * (i / POINTS) + k] - (double)points[0][3 * (i % POINTS) + k] -
+               from[k];
+      const double t = fmin(fmax(oracle_dot(d, way) / oracle_dot(way, way), 0), 1);
+      for (int k = 0; k < 3; k++) d[k] -= t * way[k];
+      least = fmin(least, oracle_length(d));
+    }
+    nsvcd_question q = question_of(clouds[0], path, 2, clouds[1], NULL, NULL);
+    q.ask = NSVCD_ASK_DISTANCE;
+    q.clearance = n % 3 ? 0 : 0.02f;
+    q.work = 1 + (size_t)(n % 7);
+    const double gap = fmax(least - 2 * (double)radius, 0);
+    const double clearance = (double)q.clearance;
+    const nsvcd_answer answer = round_ask(&q);
+    CHECK_GE(answer.distance.low, 0);
+    CHECK_LE((double)answer.distance.low, gap + 1e-5);
+    CHECK_GE((double)answer.distance.high, gap - 1e-5);
+    if (gap > clearance + 1e-5) CHECK(answer.verdict != NSVCD_HIT);
+    if (gap < clearance - 1e-5) CHECK(answer.verdict != NSVCD_FREE);
+    if ((double)answer.distance.high <= clearance) CHECK_EQ(answer.verdict, NSVCD_HIT);
+    if (answer.verdict == NSVCD_HIT) {
+      CHECK_EQ(answer.contact_count, 1);
+      CHECK(answer.nearest.triangle_a < POINTS && answer.nearest.triangle_b < POINTS);
+      CHECK_LE((double)answer.nearest.gap, clearance + 1e-5);
+    }
+    hits += answer.verdict == NSVCD_HIT;
+    others += answer.verdict != NSVCD_HIT;
+  }
+  printf("  of little work: %zu hits, %zu others\n", hits, others);
+  CHECK(hits > 50 && others > 50);
+  for (int k = 0; k < 2; k++) nsvcd_body_free(clouds[k], NULL);
+}
+
 // What lies on a table or in it, by less than a skin: lifted by the skin, deep by what it is, on its
 // two ends, its four corners, its one point.
 static void round_bodies_lie_on_a_table(void) {
@@ -661,6 +720,7 @@ void test_round(void) {
   RUN(round_refuses_bad_input);
   RUN(round_bodies_are_saved_and_scaled);
   RUN(round_boxes_enclose);
+  RUN(round_distances_of_little_work);
   RUN(round_scales_are_exact);
   RUN(round_scales_about_far_origins);
   RUN(round_spheres_in_clouds);

@@ -295,7 +295,8 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 
 // How near the bodies come for certain, and a little more: the least distance between the vertices
 // of two patches, when and where these are nearest to each other. They are found in turns: which
-// are the nearest at a time, and when they are nearest. Where `measure` begins.
+// are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
+// the clearance, triangles of these patches are a contact, which is looked for there.
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
@@ -303,6 +304,9 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
+  double share = 0;
+  uint32_t from = 0;
+  size_t nearest[2] = {0, 0};
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     double u;
     if (turn > 0) {
@@ -327,9 +331,18 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
-    least = nsvcd__min(least, apart);
+    if (!(apart < least)) continue;
+    least = apart;
+    share = u;
+    from = first;
+    nearest[0] = i;
+    nearest[1] = j;
   }
-  return least;
+  if (!(least <= p->given.clearance)) return least;
+  p->ask.clearance = p->given.clearance;
+  p->ask.limit = p->work + NSVCD__LOOK;
+  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, share);
+  return p->known.has_contact ? p->known.found.distance : least;
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
@@ -353,20 +366,25 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 // brackets that get narrower and narrower: the last one that there was work enough for stays.
 static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
                                         nsvcd__verdict verdict, double finest) {
-  const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(p->ask.motion->lift);
   const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
   p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
   nsvcd__choose_segments(p->ask.motion, search);
   p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
   p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
-  for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
+  p->ask.measure = p->high - p->low;
+  int is_enough = p->wide;
+  while (is_enough && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = nsvcd__measure_once(p, search);
+    is_enough = nsvcd__measure_once(p, search);
   }
+  // what was found may have made it narrow enough
+  p->wide = p->wide && !is_enough && p->high - p->low > finest;
 }
 #endif  // NSVCD_NO_PROOF

@@ -356,7 +356,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     high = fmax(found->distance, p->given.round) + (double)quanta;
   }
   low = fmax(low - p->given.round, 0);
-  high -= p->given.round;
+  high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
