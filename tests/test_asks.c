@@ -801,6 +801,73 @@ static void asks_first_is_to_metres(void) {
   nsvcd_body_free(table, NULL);
 }
 
+// Ways so long, or so far from the world's origin, that a float of time or of a place is more than
+// triangles are stored to: where they are sent they are free all the same, also set down.
+static void asks_safe_of_long_ways(void) {
+  shapes_rng rng = {54};
+  const nsvcd_body *table = asks_table(0, 1);
+  const nsvcd_body *box = asks_standing(9, &rng);
+  for (int n = 0; n < 300; n++) {
+    const int is_far = n % 2;
+    const double way = pow(10, shapes_uniform(&rng, 0, 3.7));
+    const double beyond = shapes_uniform(&rng, 0.005, 0.04);
+    const double off = is_far ? shapes_uniform(&rng, -2000, 2000) : 0;
+    const double turn = n % 3 ? 0.3 * n : 0;
+    const nsvcd_pose rests = asks_pose(off, 0.3 * off, -0.7 * off, turn);
+    const double up = (double)rests.position[2];
+    const nsvcd_pose path[2] = {asks_pose(off, 0.3 * off, up + way, turn),
+                                asks_pose(off, 0.3 * off, up - beyond, turn)};
+    nsvcd_question question = question_of(box, path, 2, table, &rests, NULL);
+    question.ask = NSVCD_ASK_FIRST;
+    if (n % 5 == 0) question.to = 1e-6f;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK(answer.safe.time <= answer.time.low);
+    if (answer.safe.time > 0) asks_check_safe(&question, &answer);
+    // down to the table, pressed in, with a skin
+    nsvcd_pose slides[2] = {path[0], path[0]};
+    slides[0].position[2] = slides[1].position[2] = (float)(up - 5e-4);
+    slides[1].position[0] += 0.1f;
+    question.a.poses = slides;
+    question.to = 0;
+    question.skin = 5e-3f;
+    const nsvcd_answer down = asks(&question);
+    CHECK_EQ(down.verdict, NSVCD_FREE);
+    asks_check_safe(&question, &down);
+  }
+  nsvcd_body_free(table, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
+// A box in a solid one, at its wall or not, with a skin or without: no lift off the wall takes it
+// out, so it stays, and that is said.
+static void asks_safe_inside(void) {
+  shapes_mesh shapes[2];
+  memset(shapes, 0, sizeof shapes);
+  shapes_box(&shapes[0], 1, 1, 1, 1);
+  shapes_box(&shapes[1], 0.1, 0.1, 0.1, 1);
+  const nsvcd_body *solid = asks_body(&shapes[0], 0);
+  const nsvcd_body *box = asks_body(&shapes[1], 0);
+  size_t lifted = 0;
+  for (int n = 0; n < 24; n++) {
+    const double z = n % 2 ? 0 : -0.45 + 3e-5 * (n % 3);
+    const nsvcd_pose path[2] = {asks_pose(0.1, 0, z, 0), asks_pose(0.2, 0, z, 0.1)};
+    nsvcd_question question = question_of(box, path, 2, solid, NULL, NULL);
+    question.ask = n / 8 == 0 ? NSVCD_ASK_HIT : n / 8 == 1 ? NSVCD_ASK_FIRST : NSVCD_ASK_DISTANCE;
+    question.skin = n % 4 < 2 ? 2e-3f : 0;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    if (n % 2) CHECK_EQ(answer.inside, 1);
+    lifted += answer.inside && asks_length(answer.lift) > 0;
+    CHECK_EQ(answer.safe.time, 0);
+    CHECK_EQ(answer.depth, HUGE_VALF);
+    CHECK_EQ(memcmp(&answer.safe.a, &path[0], sizeof path[0]), 0);
+  }
+  CHECK_GE(lifted, 1);
+  nsvcd_body_free(solid, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
 // A way that is hardly longer than `to`, or shorter: some of what is free of it is known all the
 // same, and that its start is.
 static void asks_first_of_short_ways(void) {
@@ -835,6 +902,8 @@ static void asks_first_of_short_ways(void) {
 void test_asks(void) {
   RUN(asks_first_is_to_metres);
   RUN(asks_first_of_short_ways);
+  RUN(asks_safe_of_long_ways);
+  RUN(asks_safe_inside);
   RUN(asks_manifold_holds);
   RUN(asks_manifold_of_what_is_slim);
   RUN(asks_manifold_has_no_ghosts);

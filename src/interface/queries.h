@@ -185,11 +185,15 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
-// lifted off what they touch.
+// lifted off what they touch. There is no such place where they are in contact at the start and no
+// lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
+// where they are at the start, as the caller has them.
 typedef struct nsvcd_safe_place {
-  // time.low, or, where they are about to touch then, a hair before
+  // time.low, or, where they are about to touch then, a hair before: by as much as stored triangles
+  // and poses in float are off. Never later than time.low
   float time;
-  // of both, world. The lift is in the pose of a; where only b moves, in that of b
+  // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
+  // less than what floats resolve so far from the origin is too little for them
   nsvcd_pose a, b;
 } nsvcd_safe_place;
 

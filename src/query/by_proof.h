@@ -158,6 +158,17 @@ static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvc
   }
 }
 
+// How far the told poses at time t are from the bodies' own, at most: floats of positions and
+// quaternions are off by 6e-8. In the fixed body's units.
+static double nsvcd__told_within(const nsvcd__proof *p, double t) {
+  const nsvcd__motion *motion = p->ask.motion;
+  nsvcd__d3 moving, fixed;
+  (void)nsvcd__turn_at(motion, &motion->moving, t, &moving);
+  (void)nsvcd__turn_at(motion, &motion->fixed, t, &fixed);
+  const double places = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
+  return 1.3e-7 * (2 * places / (double)motion->unit + (double)p->given.lengths);
+}
+
 // Sets the bodies down at time t, where they are free of each other when lifted as the motion is:
 // to a little more than what they are pressed in by at the start, or to a little before they are in
 // contact. Returns how far they are lifted then, which is proven to be free, and all the way down
@@ -173,7 +184,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
+  const double hairs = 4 * nsvcd__hair(p) + nsvcd__told_within(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, hairs);
   const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
   const double way = nsvcd__d3_length(by);
@@ -276,22 +288,23 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
-// contact at the start.
+// contact at the start. Where one may be inside of the other no lift helps, and they stay.
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
   nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
   const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
-  if (is_lifted) {
+  const int may_go = is_lifted && !p->within && !p->unclear;
+  if (is_lifted && !p->within) {
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-    if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (answer->time.low > 0 || p->starts_free) {
+  } else if (!is_lifted && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
   }
+  if (may_go) lift = nsvcd__set_down(query, t);
   // at the ends they are as the caller has them: nsvcd__answer_begin
-  if (is_lifted || (t > 0 && t < 1))
+  if (may_go || (t > 0 && t < 1))
     nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
@@ -344,9 +357,9 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = NSVCD__HAIRS * nsvcd__hair(p);
+    const double hairs = NSVCD__HAIRS * nsvcd__hair(p) + nsvcd__told_within(p, until);
     const double back = way > hairs ? hairs / way : p->given.share;
-    answer->safe.time = (float)fmax(0, until - back);
+    answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
   double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
