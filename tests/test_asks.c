@@ -9,6 +9,7 @@
 #include "../neuralsvcd.h"
 
 #include "../examples/scenery/shapes.h"
+#include "../examples/scenery/oracle.h"
 #include "ask.h"
 #include "check.h"
 #include "../examples/scenery/status_of.h"
@@ -151,6 +152,35 @@ static void asks_skin_lifts_what_stands(void) {
   nsvcd_body_free(tables[1], NULL);
 }
 
+// A box over a table, nearer than `to`, that then goes into it by less than the skin: a hit; but by
+// FIRST it is lifted off, for it may have been stopped there, and that it did not touch is said.
+static void asks_skin_of_what_is_near(void) {
+  const float skin = 2e-3f;
+  const nsvcd_body *table = asks_table(0, 1);
+  shapes_rng rng = {56};
+  const nsvcd_body *box = asks_standing(9, &rng);
+  for (int n = 0; n < 40; n++) {
+    const double gap =
+        (double)skin * (n % 2 ? shapes_uniform(&rng, 0.1, 0.38) : shapes_uniform(&rng, 0.45, 0.9));
+    const double into = shapes_uniform(&rng, 0.1, 0.9) * (double)skin;
+    const nsvcd_pose path[2] = {asks_pose(0, 0, gap, 0.1 * n), asks_pose(0.1, 0, -into, 0.1 * n)};
+    nsvcd_question question = question_of(box, path, 2, table, NULL, NULL);
+    question.skin = skin;
+    const nsvcd_answer plain = asks(&question);
+    CHECK_EQ(plain.verdict, NSVCD_HIT);
+    CHECK_EQ(asks_length(plain.lift), 0);
+    question.ask = NSVCD_ASK_FIRST;
+    question.to = 0.4f * skin;
+    const nsvcd_answer first = asks(&question);
+    CHECK_EQ(first.verdict, n % 2 ? NSVCD_FREE : NSVCD_HIT);
+    CHECK_NEAR(first.lift[2], n % 2 ? skin : 0, 1e-6);
+    CHECK_EQ(first.depth, 0);
+    asks_check_safe(&question, &first);
+  }
+  nsvcd_body_free(table, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
 // A box in the corner of a floor and two walls, of triangles larger and smaller than the skin: it
 // is lifted off all three. Between two walls nothing lifts it.
 static void asks_skin_in_a_corner(void) {
@@ -277,6 +307,153 @@ static void asks_faces_without_area(void) {
     }
     CHECK_EQ(nsvcd__d3_length(nsvcd__face_direction(t)), 0);
   }
+}
+
+// A convex mesh: how far it reaches along a direction; and its directions, of faces and of edges.
+typedef struct asks_convex {
+  double corners[64][3], faces[128][3], edges[384][3];
+  size_t corner_count, face_count, edge_count;
+} asks_convex;
+
+// Adds a direction, made unit, if it is new; the other way round is the same.
+static void asks_add_way(const double *way, double (*ways)[3], size_t *count) {
+  double unit[3];
+  const double length = oracle_length(way);
+  if (!(length > 1e-9)) return;
+  for (int k = 0; k < 3; k++) unit[k] = way[k] / length;
+  for (size_t i = 0; i < *count; i++)
+    if (fabs(oracle_dot(ways[i], unit)) > 1 - 1e-9) return;
+  memcpy(ways[(*count)++], unit, sizeof unit);
+}
+
+// One of a shape, turned.
+static void asks_convex_of(const shapes_mesh *shape, const double *rotation, asks_convex *out) {
+  double m[9];
+  memset(out, 0, sizeof *out);
+  oracle_matrix(rotation, m);
+  for (size_t i = 0; i < 3 * shape->triangles; i += 3) {
+    double at[3][3], edges[3][3], normal[3];
+    for (size_t k = 0; k < 3; k++) {
+      double corner[3];
+      for (int c = 0; c < 3; c++)
+        corner[c] = (double)(float)shape->positions[3 * shape->indices[i + k] + (size_t)c];
+      oracle_rotate(m, corner, at[k]);
+      int is_new = 1;
+      for (size_t n = 0; n < out->corner_count; n++)
+        is_new = is_new && memcmp(out->corners[n], at[k], sizeof at[k]) != 0;
+      if (is_new) memcpy(out->corners[out->corner_count++], at[k], sizeof at[k]);
+    }
+    for (int k = 0; k < 3; k++) oracle_sub(at[(k + 1) % 3], at[k], edges[k]);
+    oracle_cross(edges[0], edges[1], normal);
+    for (int k = 0; k < 3; k++) asks_add_way(edges[k], out->edges, &out->edge_count);
+    if (oracle_length(normal) > 1e-9) asks_add_way(normal, out->faces, &out->face_count);
+  }
+}
+
+// How far a, at this place, must go along n, unit, until a plane normal to it has b on its other
+// side.
+static double asks_way_along(const asks_convex *a, const double *place, const asks_convex *b,
+                             const double *n) {
+  double lowest = DBL_MAX;
+  double highest = -DBL_MAX;
+  for (size_t i = 0; i < a->corner_count; i++) lowest = fmin(lowest, oracle_dot(n, a->corners[i]));
+  for (size_t i = 0; i < b->corner_count; i++)
+    highest = fmax(highest, oracle_dot(n, b->corners[i]));
+  return highest - lowest - oracle_dot(n, place);
+}
+
+// The same, the least of all directions that there are to try: negative if they are apart.
+static double asks_least_way(const asks_convex *a, const double *place, const asks_convex *b) {
+  double least = DBL_MAX;
+  for (int kind = 0; kind < 3; kind++) {
+    const size_t outer = kind == 1 ? b->face_count : kind == 0 ? a->face_count : a->edge_count;
+    const size_t inner = kind < 2 ? 1 : b->edge_count;
+    for (size_t i = 0; i < outer * inner; i++) {
+      double n[3];
+      if (kind < 2) memcpy(n, kind ? b->faces[i] : a->faces[i], sizeof n);
+      if (kind == 2) oracle_cross(a->edges[i / inner], b->edges[i % inner], n);
+      const double length = oracle_length(n);
+      if (!(length > 1e-6)) continue;
+      for (int side = 0; side < 2; side++) {
+        for (int k = 0; k < 3; k++) n[k] /= side ? -1 : length;
+        least = fmin(least, asks_way_along(a, place, b, n));
+      }
+    }
+  }
+  return least;
+}
+
+// Convex bodies in each other, turned any way: their depth is the smallest lift that there is, to a
+// few per cent and what triangles are stored to, whatever the skin is, also where they are scaled.
+static void asks_depth_is_the_least(void) {
+  shapes_rng rng = {55};
+  size_t asked = 0;
+  for (int n = 0; n < 120; n++) {
+    const nsvcd_body *bodies[2];
+    static asks_convex convex[2];
+    double rotations[2][4];
+    double size = DBL_MAX;
+    const float scale = n % 4 == 3 ? 2.5f : 1;
+    for (int k = 0; k < 2; k++) {
+      shapes_mesh shape;
+      memset(&shape, 0, sizeof shape);
+      const double width = shapes_uniform(&rng, 0.1, 0.5);
+      if ((n + k) % 3 == 0)
+        shapes_cone(&shape, width, k ? 0 : 0.5 * width, 0.4, 6);
+      else
+        shapes_box(&shape, width, shapes_uniform(&rng, 0.1, 0.5), shapes_uniform(&rng, 0.1, 0.5),
+                   1);
+      shapes_quaternion(&rng, rotations[k]);
+      nsvcd_pose rounded;
+      for (int c = 0; c < 4; c++)
+        rotations[k][c] = (double)(rounded.rotation[c] = (float)rotations[k][c]);
+      asks_convex_of(&shape, rotations[k], &convex[k]);
+      bodies[k] = asks_body(&shape, 0);
+      size = fmin(size, width);
+    }
+    const double quanta = (double)nsvcd_body_describe(bodies[0]).quantum +
+                          (double)nsvcd_body_describe(bodies[1]).quantum;
+    // pressed in so deep along some way
+    const double depth = size * pow(10, shapes_uniform(&rng, -2.5, -0.8));
+    double way[3], place[3];
+    double low = 0;
+    double high = 4;
+    for (int k = 0; k < 3; k++) way[k] = shapes_uniform(&rng, -1, 1);
+    const double length = oracle_length(way);
+    for (int step = 0; step < 60; step++) {
+      const double middle = 0.5 * (low + high);
+      for (int k = 0; k < 3; k++) place[k] = middle * way[k] / length;
+      if (asks_least_way(&convex[0], place, &convex[1]) > depth)
+        low = middle;
+      else
+        high = middle;
+    }
+    nsvcd_pose poses[2];
+    for (int k = 0; k < 2; k++) {
+      for (int c = 0; c < 4; c++) poses[k].rotation[c] = (float)rotations[k][c];
+      for (int c = 0; c < 3; c++) {
+        poses[k].position[c] = k ? 0 : scale * (float)place[c];
+        if (k == 0) place[c] = (double)poses[k].position[c] / (double)scale;
+      }
+    }
+    const double least = asks_least_way(&convex[0], place, &convex[1]);
+    if (fabs(least - depth) > 1e-5 * depth) continue;
+    const double skins[4] = {1.5 * depth, 10 * depth, 1, 20};
+    for (int k = 0; k < 4; k++) {
+      nsvcd_question question = question_of(bodies[0], &poses[0], 1, bodies[1], &poses[1], NULL);
+      question.a.scale = question.b.scale = scale;
+      question.skin = scale * (float)skins[k];
+      if (n % 2) question.ask = NSVCD_ASK_FIRST;
+      const nsvcd_answer answer = asks(&question);
+      const double told = (double)answer.depth / (double)scale;
+      CHECK_LE(told, 1.03 * least + 4 * quanta);
+      CHECK_GE(told, 0.99 * least - 4 * quanta);
+      asked++;
+      if (told < HUGE_VAL) asks_check_safe(&question, &answer);
+    }
+    for (int k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
+  }
+  CHECK_GE(asked, 300);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -915,6 +1092,8 @@ void test_asks(void) {
   RUN(asks_skin_under_a_ceiling);
   RUN(asks_skin_of_edge_on_edge);
   RUN(asks_faces_without_area);
+  RUN(asks_depth_is_the_least);
+  RUN(asks_skin_of_what_is_near);
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);
   RUN(asks_contacts_at_the_ends);

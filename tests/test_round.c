@@ -509,6 +509,42 @@ static void round_bodies_lie_on_a_table(void) {
   for (int k = 0; k < 3; k++) nsvcd_body_free(bodies[k], NULL);
 }
 
+// A box lies on a ball, and the ball turns by half a turn: the lift turns with the larger of the two,
+// roundness and all. If that is the ball, the box is under the lift in the end, and hit; if it is
+// the box, both go apart.
+static void round_lifts_turn_with_the_larger(void) {
+  const float half[3] = {0.005f, 0.005f, 0.005f};
+  const nsvcd_body *ball = NULL;
+  const nsvcd_body *box = NULL;
+  CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &box), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode_sphere(0.1f, NULL, &ball), NSVCD_OK);
+  const float side = 0.70710678f;
+  const nsvcd_pose turns[3] = {
+      {{0, 0, 0}, {0, 0, 0, 1}}, {{0, 0, 0}, {side, 0, 0, side}}, {{0, 0, 0}, {1, 0, 0, 0}}};
+  for (int n = 0; n < 8; n++) {
+    const int ball_is_a = n & 1;
+    const int box_is_larger = n & 2;
+    const float scale = box_is_larger ? 40 : n & 4 ? 2 : 1;
+    const float height = 0.1f + 0.005f * scale;
+    const nsvcd_pose lies[2] = {{{0, 0, height}, {0, 0, 0, 1}}, {{0, 0, height}, {0, 0, 0, 1}}};
+    nsvcd_question q = question_of(box, lies, 2, ball, NULL, NULL);
+    q.a.scale = scale;
+    q.b.poses = turns;
+    q.b.count = 3;
+    q.skin = 2e-3f;
+    if (ball_is_a) {
+      const nsvcd_mover mover = q.a;
+      q.a = q.b;
+      q.b = mover;
+    }
+    const nsvcd_answer answer = round_ask(&q);
+    CHECK_NEAR(answer.lift[2], ball_is_a ? -2e-3 : 2e-3, 2e-5);
+    CHECK_EQ(answer.verdict, box_is_larger ? NSVCD_FREE : NSVCD_HIT);
+  }
+  nsvcd_body_free(ball, NULL);
+  nsvcd_body_free(box, NULL);
+}
+
 static void round_bodies_are_saved_and_scaled(void) {
   shapes_rng rng = {33};
   for (int n = 0; n < 4 * KINDS; n++) {
@@ -721,6 +757,7 @@ void test_round(void) {
   RUN(round_bodies_are_saved_and_scaled);
   RUN(round_boxes_enclose);
   RUN(round_distances_of_little_work);
+  RUN(round_lifts_turn_with_the_larger);
   RUN(round_scales_are_exact);
   RUN(round_scales_about_far_origins);
   RUN(round_spheres_in_clouds);

@@ -11,47 +11,58 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along n is: the more touches it undoes the better; of equals, the more of
-// these have a face that says so. 0 if it undoes none, or cannot be better than `most`.
-static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
-  const size_t each = NSVCD__TOUCHES + 2;
-  size_t good = 0;
+// How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
+// that, and how many of these have a face that says so. A touch counts once where the lift goes
+// against its faces: what is round and so deep that its middle is inside would go further in.
+typedef struct nsvcd__undoing {
+  nsvcd__d3 n;
+  size_t count, faces;
+  double way;
+} nsvcd__undoing;
+
+// Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
+// goes less far; and of those that go as far, that more faces say.
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
+  const double same = nsvcd__hair(p) + 0.01 * nsvcd__max(best->way, 0);
+  nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
+  if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
-    if (good + (p->touch_count - k) * (each + 1) <= most) return 0;
+    const size_t left = 2 * (p->touch_count - k);
+    const double sides[2] = {nsvcd__d3_dot(n, t->ways[0]), nsvcd__d3_dot(n, t->ways[1])};
+    if (by.count + left < best->count) return;
+    if (by.count + left == best->count && by.way > best->way + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
-    good += each;
-    good += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
+    const double way = nsvcd__lift_along(n, t);
+    const double most = nsvcd__max(sides[0], sides[1]);
+    const int is_against = most < 0.3 && nsvcd__min(sides[0], sides[1]) < -0.3;
+    by.count += p->given.round > 0 && way < 0 && is_against ? 1 : 2;
+    by.faces += most > 0.9;
+    by.way = nsvcd__max(by.way, way);
   }
-  return good;
-}
-
-// Takes a direction that is better than the best so far.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
-                            nsvcd__d3 *best) {
-  if (*most > 0 && nsvcd__d3_dot(n, *best) > 0.99999) return;
-  const size_t good = nsvcd__undone(p, n, *most);
-  if (good == 0) return;
-  *best = n;
-  *most = good;
+  if (by.count == 0 || by.count < best->count) return;
+  const int is_as_far = by.way > best->way - same;
+  if (by.count == best->count && by.way > best->way + same) return;
+  if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
+  *best = by;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
-// the most touches: *best, as it was if none undoes any: then 0 is returned.
-static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  size_t most = 0;
+// the most touches, by the shortest way; its count is 0 if none undoes any.
+static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
+  nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
   for (size_t k = 0; k < p->touch_count; k++) {
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &most, best);
+    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 && !(most > 0); k++) {
-    const nsvcd__touch *t = &p->of.touches[0];
-    const nsvcd__d3 n = nsvcd__across_edges(t, k);
+  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
+    const nsvcd__touch *t = &p->of.touches[k / 9];
+    const nsvcd__d3 n = nsvcd__across_edges(t, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
-    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &most, best);
+    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);
   }
-  return most > 0;
+  return best;
 }
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
@@ -59,9 +70,10 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
   if (p->too_deep) return 0;
   while (p->touch_count > 0) {
     const size_t k = p->normal_count;
-    nsvcd__d3 best = {0, 0, 0};
-    if (k == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
-    p->normals[k] = best;
+    if (k == NSVCD__LIFTS) return 0;
+    const nsvcd__undoing best = nsvcd__best_lift(p);
+    if (best.count == 0) return 0;
+    p->normals[k] = best.n;
     p->depths[k] = 0;
     p->normal_count++;
     size_t left = 0;
@@ -93,12 +105,6 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// The two bodies' widest quanta: nearer to each other than this nothing is parted.
-static double nsvcd__hair(const nsvcd__proof *p) {
-  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
-}
-
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
 // lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
 // that others of them stay in touch with, and there may be too many touches to look at together: so
@@ -109,7 +115,9 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   still->lift = nsvcd__f3_of(0, 0, 0);
   // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
   // touch afterwards
-  double beside = nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
+  const double size = (double)p->given.lengths + p->given.round;
+  const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);

@@ -5,6 +5,12 @@
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
+// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+static double nsvcd__hair(const nsvcd__proof *p) {
+  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
+  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+}
+
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -65,9 +71,9 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most) {
+                                          double most, double hair) {
   // parallel faces meet at one time only
-  const double reach = clearance + 0.003 * most;
+  const double reach = clearance + nsvcd__min(0.003 * most, 0.5 * hair);
   const double square = reach * reach;
   // as it nearly always is
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
@@ -85,7 +91,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
     if (!(before < after)) low += third;
   }
   if (!found) return -HUGE_VAL;
-  for (double beyond = most; beyond - within > 1e-3 * most;) {
+  for (double beyond = most; beyond - within > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
     const double middle = 0.5 * (within + beyond);
     const int touches = nsvcd__gap_after(t, n, middle) <= square;
     within = touches ? middle : within;
@@ -101,7 +107,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__hair(p));
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 

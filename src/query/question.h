@@ -69,6 +69,12 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
 // ---- who moves
 
+// How far a body reaches from its origin, with what it goes beyond its triangles.
+static float nsvcd__reach_of(const nsvcd_mover *mover) {
+  const nsvcd_body *body = mover->body;
+  return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
+}
+
 // Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
 // that, else the larger one; where they are equal, any rule that does not depend on which is a:
 // then both ways of asking are answered alike.
@@ -76,8 +82,8 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1)) return count_b > 1;
-  const float size_a = nsvcd__scale_of(a) * a->body->extent;
-  const float size_b = nsvcd__scale_of(b) * b->body->extent;
+  const float size_a = nsvcd__reach_of(a);
+  const float size_b = nsvcd__reach_of(b);
   if (size_a < size_b || size_b < size_a) return size_b < size_a;
   if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
   if (count_a != count_b) return count_b < count_a;
