@@ -107,9 +107,9 @@ typedef struct nsvcd_question {
   // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
   // by this much along the normals of all that it touches, and touches nothing then: see
   // answer.lift. What is nearer than a twentieth of this is lifted off as if it touched. By FIRST,
-  // so that what was stopped before a contact goes on, so is what is nearer than `to`, up to half of
-  // this: to go into that by less than this is FREE, though it is a hit by HIT, which has no `to`.
-  // Of what was so near and did not touch answer.depth is 0
+  // so that what was stopped before a contact goes on, so is what is nearer than `to`, up to half
+  // of this: to go into that by less than this is FREE, though it is a hit by HIT, which has no
+  // `to`. Of what was so near and did not touch answer.depth is 0
   float skin;
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
@@ -249,9 +249,10 @@ typedef struct nsvcd_answer {
   // no contact at the start
   float depth;
   // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
-  // where a rests, or both move and a reaches farther from its origin, round and all, with a. The answer is about the motion so displaced, which touches nothing at the start. 0:
-  // nothing was touched, nor so near that it is lifted off; or no lift does that, since a is
-  // pressed in deeper than the skin, or held from all sides: then the contact counts
+  // where a rests, or both move and a reaches farther from its origin, round and all, with a. The
+  // answer is about the motion so displaced, which touches nothing at the start. 0: nothing was
+  // touched, nor so near that it is lifted off; or no lift does that, since a is pressed in deeper
+  // than the skin, or held from all sides: then the contact counts
   float lift[3];
   // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
   // That is of all places that are no farther apart than `to` (or the default, where only to_time
