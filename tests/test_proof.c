@@ -598,8 +598,8 @@ static void proof_check_triangles(const attack *a, int meets) {
   const double size = scale * a->moving->size + fixed_scale * a->fixed->size;
   const double quantum_x = scale * (double)nsvcd_body_describe(a->moving->body).quantum;
   const double quantum_y = fixed_scale * (double)nsvcd_body_describe(a->fixed->body).quantum;
-  // Half a unit in the last place of a float in [0.5, 1].
-  const double moved = proof_speed_bound(a, (double)w->nearest.time, 3e-8) + 1e-12 * (size + far);
+  // A unit in the last place of a float in [0.5, 1]: times of contacts are rounded up.
+  const double moved = proof_speed_bound(a, (double)w->nearest.time, 6e-8) + 1e-12 * (size + far);
   const double rounded = 6e-8 * (oracle_length(point.v[0])) + 1e-30;
   const double far_off = meets ? quantum_x + quantum_y : (double)w->distance.high;
   const double allowed = far_off + moved;
@@ -607,7 +607,7 @@ static void proof_check_triangles(const attack *a, int meets) {
   CHECK_LE(gap, allowed);
   CHECK_LE(proof_triangle_distance(&x, &point), (meets ? quantum_x : allowed) + moved + rounded);
   const double fixed_moved =
-      proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->nearest.time, 3e-8) +
+      proof_track_speed(&a->motion.fixed, a->fixed->size, (double)w->nearest.time, 6e-8) +
       1e-12 * (size + far);
   CHECK_LE(proof_triangle_distance(&y, &point), quantum_y + rounded + fixed_moved);
   if (!meets) return;

@@ -438,6 +438,31 @@ static void round_distances_of_little_work(void) {
   for (int k = 0; k < 2; k++) nsvcd_body_free(clouds[k], NULL);
 }
 
+// Two balls fly at each other: when they meet is known, and is between the times that are told, as
+// these are rounded.
+static void round_times_hold_the_first_contact(void) {
+  shapes_rng rng = {37};
+  const nsvcd_body *ball = NULL;
+  CHECK_EQ(nsvcd_encode_sphere(0.25f, NULL, &ball), NSVCD_OK);
+  for (int n = 0; n < 300; n++) {
+    const nsvcd_pose path[2] = {
+        {{0, 0, (float)pow(10, shapes_uniform(&rng, 0, 3.7))}, {0, 0, 0, 1}},
+        {{0, 0, (float)shapes_uniform(&rng, -0.3, 0.4)}, {0, 0, 0, 1}}};
+    const double from = (double)path[0].position[2];
+    const double when = (from - 0.5) / (from - (double)path[1].position[2]);
+    nsvcd_question q = question_of(ball, path, 2, ball, NULL, NULL);
+    for (int k = 0; k < 2; k++) {
+      q.ask = k ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+      const nsvcd_answer answer = round_ask(&q);
+      CHECK_EQ(answer.verdict, NSVCD_HIT);
+      CHECK_LE((double)answer.time.low, when * (1 + 1e-12));
+      CHECK_GE((double)answer.time.high, when * (1 - 1e-12));
+      CHECK_LE((double)answer.safe.time, (double)answer.time.low);
+    }
+  }
+  nsvcd_body_free(ball, NULL);
+}
+
 // What lies on a table or in it, by less than a skin: lifted by the skin, deep by what it is, on its
 // two ends, its four corners, its one point.
 static void round_bodies_lie_on_a_table(void) {
@@ -756,6 +781,7 @@ void test_round(void) {
   RUN(round_refuses_bad_input);
   RUN(round_bodies_are_saved_and_scaled);
   RUN(round_boxes_enclose);
+  RUN(round_times_hold_the_first_contact);
   RUN(round_distances_of_little_work);
   RUN(round_lifts_turn_with_the_larger);
   RUN(round_scales_are_exact);

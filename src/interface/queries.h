@@ -177,7 +177,7 @@ typedef struct nsvcd_contact {
   float normal[3];
   // metres between the stored triangles, less what is round; 0: they meet
   float gap;
-  // in [0,1]: when
+  // in [0,1]: when, rounded up
   float time;
   // as numbered in the caller's meshes; NSVCD_NO_TRIANGLE where none are named
   uint32_t triangle_a, triangle_b;

@@ -99,6 +99,12 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   nsvcd__proof_restart(p);
 }
 
+// A time in [0,1] as a float that is not earlier: by then they have met.
+static float nsvcd__time_above(double time) {
+  const float rounded = (float)time;
+  return (double)rounded < time ? nextafterf(rounded, 1) : rounded;
+}
+
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
 // the fixed body that counts as lifted, the other way.
 static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
@@ -119,7 +125,7 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
   out->gap = (float)(fmax(found->distance - p->given.round, 0) * world.unit);
-  out->time = (float)time;
+  out->time = nsvcd__time_above(time);
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
   out->patch_a = found->moving_patch;
