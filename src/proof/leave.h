@@ -13,12 +13,23 @@
 #ifndef NSVCD_NO_PROOF
 // How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
 // that, and how many of these have a face that says so. A touch counts once where the lift goes
-// against its faces: what is round and so deep that its middle is inside would go further in.
+// against its faces: what is beyond a face already, or round and its middle is, would go further in.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
   size_t count, faces;
   double way;
 } nsvcd__undoing;
+
+// Does a lift along n go against all faces of a touch? What has no area has none.
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
+  int against = 0;
+  for (size_t i = 0; i < 2; i++) {
+    const int is_face = nsvcd__d3_dot(t->ways[i], t->ways[i]) > 0.5;
+    if (is_face && nsvcd__d3_dot(n, t->ways[i]) > -0.3) return 0;
+    against |= is_face;
+  }
+  return against;
+}
 
 // Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
 // goes less far; and of those that go as far, that more faces say.
@@ -29,15 +40,12 @@ static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *
   for (size_t k = 0; k < p->touch_count; k++) {
     const nsvcd__touch *t = &p->of.touches[k];
     const size_t left = 2 * (p->touch_count - k);
-    const double sides[2] = {nsvcd__d3_dot(n, t->ways[0]), nsvcd__d3_dot(n, t->ways[1])};
     if (by.count + left < best->count) return;
     if (by.count + left == best->count && by.way > best->way + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double way = nsvcd__lift_along(n, t);
-    const double most = nsvcd__max(sides[0], sides[1]);
-    const int is_against = most < 0.3 && nsvcd__min(sides[0], sides[1]) < -0.3;
-    by.count += p->given.round > 0 && way < 0 && is_against ? 1 : 2;
-    by.faces += most > 0.9;
+    by.count += way < 0 && nsvcd__is_against(n, t) ? 1 : 2;
+    by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
     by.way = nsvcd__max(by.way, way);
   }
   if (by.count == 0 || by.count < best->count) return;
