@@ -339,7 +339,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
     nearest[1] = j;
   }
   if (!(least <= p->given.clearance)) return least;
-  p->ask.clearance = p->given.clearance;
+  p->ask.clearance = least;
   p->ask.limit = p->work + NSVCD__LOOK;
   (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, share);
   return p->known.has_contact ? p->known.found.distance : least;
