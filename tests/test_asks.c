@@ -181,6 +181,33 @@ static void asks_skin_of_what_is_near(void) {
   nsvcd_body_free(box, NULL);
 }
 
+// Boxes of all sizes, pressed a little into a corner, with a skin that is a good part of them: lifted
+// out of both walls and the floor, and not on through one.
+static void asks_skin_of_boxes_in_a_corner(void) {
+  const nsvcd_body *corner = asks_table(1, 1);
+  shapes_rng rng = {57};
+  for (int n = 0; n < 120; n++) {
+    shapes_mesh shape;
+    double half[3];
+    memset(&shape, 0, sizeof shape);
+    for (int k = 0; k < 3; k++) half[k] = shapes_uniform(&rng, 0.01, 0.1);
+    shapes_box(&shape, 2 * half[0], 2 * half[1], 2 * half[2], n % 3 ? 1 : 4);
+    const nsvcd_body *box = asks_body(&shape, 0);
+    const double skin = 0.01;
+    const double in = skin * pow(10, shapes_uniform(&rng, -3, -0.3));
+    const nsvcd_pose pose = asks_pose(0.3 - half[0] + in, 0.3 - half[1] + in, half[2] - in, 0);
+    nsvcd_question question = question_of(box, &pose, 1, corner, NULL, NULL);
+    question.skin = (float)skin;
+    question.clearance = n % 2 ? 1e-3f : 0;
+    const nsvcd_answer answer = asks(&question);
+    CHECK_EQ(answer.verdict, NSVCD_FREE);
+    for (int k = 0; k < 3; k++) CHECK_NEAR(answer.lift[k], k < 2 ? -skin : skin, 0.02 * skin);
+    asks_check_safe(&question, &answer);
+    nsvcd_body_free(box, NULL);
+  }
+  nsvcd_body_free(corner, NULL);
+}
+
 // A box in the corner of a floor and two walls, of triangles larger and smaller than the skin: it
 // is lifted off all three. Between two walls nothing lifts it.
 static void asks_skin_in_a_corner(void) {
@@ -1089,6 +1116,7 @@ void test_asks(void) {
   RUN(asks_goes_on_for_frames);
   RUN(asks_skin_lifts_what_stands);
   RUN(asks_skin_in_a_corner);
+  RUN(asks_skin_of_boxes_in_a_corner);
   RUN(asks_skin_under_a_ceiling);
   RUN(asks_skin_of_edge_on_edge);
   RUN(asks_faces_without_area);

@@ -44,9 +44,9 @@ static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *
     if (by.count + left == best->count && by.way > best->way + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double way = nsvcd__lift_along(n, t);
-    by.count += way < 0 && nsvcd__is_against(n, t) ? 1 : 2;
+    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1 : 2;
     by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
-    by.way = nsvcd__max(by.way, way);
+    by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
   }
   if (by.count == 0 || by.count < best->count) return;
   const int is_as_far = by.way > best->way - same;
@@ -185,8 +185,15 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->ask.motion = &start;
   p->ask.gathers = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
+  p->by_faces = 0;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);
+  if (!is_free && !p->too_deep) {
+    // the shortest ways may not go together
+    p->by_faces = 1;
+    p->needed = 0;
+    is_free = nsvcd__lift_still(p, search, &start);
+  }
   const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
   if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
     p->ask.skin = least;

@@ -357,8 +357,9 @@ typedef struct nsvcd__proof {
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
-  // and one has been found that nothing undoes
-  int too_deep;
+  // one has been found that nothing undoes; of directions that undo as many, which have more faces
+  // counts, not which is shorter
+  int too_deep, by_faces;
   nsvcd__d3 normals[NSVCD__LIFTS];
   // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
   double depths[NSVCD__LIFTS];
