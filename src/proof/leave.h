@@ -13,7 +13,8 @@
 #ifndef NSVCD_NO_PROOF
 // How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
 // that, and how many of these have a face that says so. A touch counts once where the lift goes
-// against its faces: what is beyond a face already, or round and its middle is, would go further in.
+// against its faces: what is beyond a face already, or round and its middle is, would go further
+// in.
 typedef struct nsvcd__undoing {
   nsvcd__d3 n;
   size_t count, faces;
