@@ -935,7 +935,10 @@ typedef struct nsvcd_question {
   // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
   // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
   // by this much along the normals of all that it touches, and touches nothing then: see
-  // answer.lift
+  // answer.lift. What is nearer than a twentieth of this is lifted off as if it touched. By FIRST,
+  // so that what was stopped before a contact goes on, so is what is nearer than `to`, up to half
+  // of this: to go into that by less than this is FREE, though it is a hit by HIT, which has no
+  // `to`. Of what was so near and did not touch answer.depth is 0
   float skin;
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided
@@ -1003,7 +1006,7 @@ typedef struct nsvcd_contact {
   float normal[3];
   // metres between the stored triangles, less what is round; 0: they meet
   float gap;
-  // in [0,1]: when
+  // in [0,1]: when, rounded up
   float time;
   // as numbered in the caller's meshes; NSVCD_NO_TRIANGLE where none are named
   uint32_t triangle_a, triangle_b;
@@ -1014,11 +1017,15 @@ typedef struct nsvcd_contact {
 } nsvcd_contact;
 
 // Where the bodies may go: to where they are at a time until which they are free of each other,
-// lifted off what they touch.
+// lifted off what they touch. There is no such place where they are in contact at the start and no
+// lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
+// where they are at the start, as the caller has them.
 typedef struct nsvcd_safe_place {
-  // time.low, or, where they are about to touch then, a hair before
+  // time.low, or, where they are about to touch then, a hair before: by as much as stored triangles
+  // and poses in float are off. Never later than time.low
   float time;
-  // of both, world. The lift is in the pose of a; where only b moves, in that of b
+  // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
+  // less than what floats resolve so far from the origin is too little for them
   nsvcd_pose a, b;
 } nsvcd_safe_place;
 
@@ -1066,12 +1073,15 @@ typedef struct nsvcd_answer {
   nsvcd_range distance;
   nsvcd_safe_place safe;
   // metres: of a contact at the start, the smallest lift of a off b, up to the skin or where it is
-  // made of several normals their sum, that ends it. 0: there is no contact at the start
+  // made of several normals their sum, that ends it: of those along normals of what touches, or
+  // across two of its edges; to a few per cent, and what stored triangles are off by. 0: there is
+  // no contact at the start
   float depth;
   // metres, world, at the start: by what a was lifted off b for the skin; it turns with b, or,
-  // where a rests, or both move and a is the larger, with a. The answer is about the motion so
-  // displaced, which touches nothing at the start. 0: nothing was touched; or no lift does that,
-  // since a is pressed in deeper than the skin, or held from all sides: then the contact counts
+  // where a rests, or both move and a reaches farther from its origin, round and all, with a. The
+  // answer is about the motion so displaced, which touches nothing at the start. 0: nothing was
+  // touched, nor so near that it is lifted off; or no lift does that, since a is pressed in deeper
+  // than the skin, or held from all sides: then the contact counts
   float lift[3];
   // of a HIT whose triangles are known, at time.high: one, or a manifold, in the order of its ids.
   // That is of all places that are no farther apart than `to` (or the default, where only to_time
@@ -5150,7 +5160,8 @@ static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
 // A mesh along a curve that fills space (Morton 1966).
 typedef struct nsvcd__curve {
   const nsvcd_mesh *mesh;
-  // (triangles) each number of a triangle below its code
+  // (triangles) each number of a triangle below its code, with NSVCD__ENCLOSES where it belongs to
+  // a closed component
   uint64_t *keys;
   // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
   // None of a cloud, which has each once
@@ -5159,6 +5170,23 @@ typedef struct nsvcd__curve {
   double greatest;  // coordinate of the mesh
   double round;     // metres
 } nsvcd__curve;
+
+// Marks the triangles of closed components. 0 without memory.
+static int nsvcd__curve_mark(nsvcd__curve *curve, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = curve->mesh;
+  // points and segments alone enclose nothing
+  if (!mesh->indices || !(nsvcd__mesh_area(mesh) > 0)) return 1;
+  nsvcd__topology topology;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  const int known = nsvcd__topology_build(mesh, &arena, &topology);
+  for (size_t t = 0; known && t < mesh->triangle_count; t++) {
+    uint32_t face[3];
+    nsvcd__welded_face(&topology, t, face);
+    if (!topology.open[topology.parents[face[0]]]) curve->keys[t] |= NSVCD__ENCLOSES;
+  }
+  nsvcd__arena_free(&arena);
+  return known;
+}
 
 // 0 without memory.
 static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena *arena,
@@ -5189,6 +5217,7 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena 
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
     curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
+  if (!nsvcd__curve_mark(curve, arena->allocator)) return 0;
   nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
   return 1;
 }
@@ -5240,8 +5269,9 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
     block->ids[k] = (uint32_t)curve->keys[begin + k];
+    const size_t id = block->ids[k] & ~NSVCD__ENCLOSES;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
-      const size_t corner = 3 * (size_t)block->ids[k] + n - 3 * k;
+      const size_t corner = 3 * id + n - 3 * k;
       block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
     }
   }
@@ -7574,9 +7604,13 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex goes to the slacks and quanta.
+  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta.
   const nsvcd__facets f = nsvcd__facets_of(b);
   const double by = (double)scale;
+  float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
+  const double exact = (double)*round * by;
+  *round *= scale;
+  const double off = fabs(exact - (double)*round);
   float *discs = (float *)nsvcd__writable(b, f.discs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
@@ -7586,7 +7620,7 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
-    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]);
+    const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
     slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
     quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
     disc.low = (float)((double)disc.low * by - rounding);
@@ -7595,8 +7629,6 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  void *counts = nsvcd__writable(b, nsvcd__counts_of(b));
-  ((nsvcd__facet_counts *)counts)->round *= scale;
   nsvcd__facets_finish(b);
 #endif
 }
@@ -8642,8 +8674,10 @@ typedef struct nsvcd__motion {
   double begin, duration;
   // else it has one pose
   int fixed_moves;
-  float scale;      // of the moving body, over that of the fixed one,
-  float per_scale;  // and the other way round
+  // of the moving body, over that of the fixed one: as triangles are placed, and rounded, for what
+  // allows for the roundings of float; and the other way round
+  double ratio;
+  float scale, per_scale;
   // of the fixed body's frame: its scale, metres
   float unit;
   nsvcd__f3 fixed_position;  // of the fixed body at t = 0, metres
@@ -8827,7 +8861,8 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
 static void nsvcd__motion_init(const nsvcd_mover *moving, const nsvcd_mover *fixed,
                                nsvcd__motion *motion) {
   motion->unit = nsvcd__scale_of(fixed);
-  motion->scale = nsvcd__scale_of(moving) / motion->unit;
+  motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;
+  motion->scale = (float)motion->ratio;
   motion->per_scale = 1 / motion->scale;
   motion->lift = nsvcd__f3_of(0, 0, 0);
   motion->begin = 0;
@@ -11116,8 +11151,9 @@ typedef struct nsvcd__proof {
   // With a skin: how many touches have been gathered that a lift along no normal known undoes; the
   // normals, unit, of what the moving body touches, towards it.
   size_t touch_count, normal_count;
-  // and one has been found that nothing undoes
-  int too_deep;
+  // one has been found that nothing undoes; of directions that undo as many, which have more faces
+  // counts, not which is shorter
+  int too_deep, by_faces;
   nsvcd__d3 normals[NSVCD__LIFTS];
   // how deep it is in contact along each; and by how much a plane normal to one is to be lifted
   double depths[NSVCD__LIFTS];
@@ -11317,7 +11353,7 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->first = first;
   arc->ticks = ticks;
   arc->fixed_moves = motion->fixed_moves;
-  arc->scale = (double)motion->scale;
+  arc->scale = motion->ratio;
   arc->lift = nsvcd__d3_widen(motion->lift);
   nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
   nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
@@ -13037,6 +13073,12 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
 // within the clearance; with a skin, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
+// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+static double nsvcd__hair(const nsvcd__proof *p) {
+  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
+  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+}
+
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -13097,9 +13139,9 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most) {
+                                          double most, double hair) {
   // parallel faces meet at one time only
-  const double reach = clearance + 0.003 * most;
+  const double reach = clearance + nsvcd__min(0.003 * most, 0.5 * hair);
   const double square = reach * reach;
   // as it nearly always is
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
@@ -13117,7 +13159,7 @@ static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, do
     if (!(before < after)) low += third;
   }
   if (!found) return -HUGE_VAL;
-  for (double beyond = most; beyond - within > 1e-3 * most;) {
+  for (double beyond = most; beyond - within > nsvcd__max(1e-3 * beyond, 1e-5 * most);) {
     const double middle = 0.5 * (within + beyond);
     const int touches = nsvcd__gap_after(t, n, middle) <= square;
     within = touches ? middle : within;
@@ -13133,7 +13175,7 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most);
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__hair(p));
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
@@ -14507,7 +14549,8 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 
 // How near the bodies come for certain, and a little more: the least distance between the vertices
 // of two patches, when and where these are nearest to each other. They are found in turns: which
-// are the nearest at a time, and when they are nearest. Where `measure` begins.
+// are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
+// the clearance, triangles of these patches are a contact, which is looked for there.
 static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
@@ -14515,6 +14558,9 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
+  double share = 0;
+  uint32_t from = 0;
+  size_t nearest[2] = {0, 0};
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
     double u;
     if (turn > 0) {
@@ -14539,9 +14585,18 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
     const double rounding =
         (double)(4 * NSVCD__ROUNDING * lengths + 2 * nsvcd__quanta_of(p, i, j));
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
-    least = nsvcd__min(least, apart);
+    if (!(apart < least)) continue;
+    least = apart;
+    share = u;
+    from = first;
+    nearest[0] = i;
+    nearest[1] = j;
   }
-  return least;
+  if (!(least <= p->given.clearance)) return least;
+  p->ask.clearance = least;
+  p->ask.limit = p->work + NSVCD__LOOK;
+  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, share);
+  return p->known.has_contact ? p->known.found.distance : least;
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
@@ -14565,21 +14620,26 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
 // brackets that get narrower and narrower: the last one that there was work enough for stays.
 static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
                                         nsvcd__verdict verdict, double finest) {
-  const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(p->ask.motion->lift);
   const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
   p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
   nsvcd__choose_segments(p->ask.motion, search);
   p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  is_named = is_named || p->known.has_contact;
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
   p->wide = !nsvcd__measure_once(p, search);
   p->ask.limit = p->given.work;
-  for (p->ask.measure = p->high - p->low; p->wide && p->ask.measure > finest;) {
+  p->ask.measure = p->high - p->low;
+  int is_enough = p->wide;
+  while (is_enough && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    p->wide = nsvcd__measure_once(p, search);
+    is_enough = nsvcd__measure_once(p, search);
   }
+  // what was found may have made it narrow enough
+  p->wide = p->wide && !is_enough && p->high - p->low > finest;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -14595,47 +14655,67 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
 // held from opposite sides, and is hit as ever. v is constant as the fixed body sees it.
 
 #ifndef NSVCD_NO_PROOF
-// How good a lift along n is: the more touches it undoes the better; of equals, the more of
-// these have a face that says so. 0 if it undoes none, or cannot be better than `most`.
-static size_t nsvcd__undone(const nsvcd__proof *p, nsvcd__d3 n, size_t most) {
-  const size_t each = NSVCD__TOUCHES + 2;
-  size_t good = 0;
-  for (size_t k = 0; k < p->touch_count; k++) {
-    const nsvcd__touch *t = &p->of.touches[k];
-    if (good + (p->touch_count - k) * (each + 1) <= most) return 0;
-    if (!nsvcd__undoes(p, n, t)) continue;
-    good += each;
-    good += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
+// How good a lift along a direction is: twice how many touches it undoes, how far it has to go for
+// that, and how many of these have a face that says so. A touch counts once where the lift goes
+// against its faces: what is beyond a face already, or round and its middle is, would go further
+// in.
+typedef struct nsvcd__undoing {
+  nsvcd__d3 n;
+  size_t count, faces;
+  double way;
+} nsvcd__undoing;
+
+// Does a lift along n go against all faces of a touch? What has no area has none.
+static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
+  int against = 0;
+  for (size_t i = 0; i < 2; i++) {
+    const int is_face = nsvcd__d3_dot(t->ways[i], t->ways[i]) > 0.5;
+    if (is_face && nsvcd__d3_dot(n, t->ways[i]) > -0.3) return 0;
+    against |= is_face;
   }
-  return good;
+  return against;
 }
 
-// Takes a direction that is better than the best so far.
-static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, size_t *most,
-                            nsvcd__d3 *best) {
-  if (*most > 0 && nsvcd__d3_dot(n, *best) > 0.99999) return;
-  const size_t good = nsvcd__undone(p, n, *most);
-  if (good == 0) return;
-  *best = n;
-  *most = good;
+// Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
+// goes less far; and of those that go as far, that more faces say.
+static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
+  const double same = nsvcd__hair(p) + 0.01 * nsvcd__max(best->way, 0);
+  nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
+  if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
+  for (size_t k = 0; k < p->touch_count; k++) {
+    const nsvcd__touch *t = &p->of.touches[k];
+    const size_t left = 2 * (p->touch_count - k);
+    if (by.count + left < best->count) return;
+    if (by.count + left == best->count && by.way > best->way + same) return;
+    if (!nsvcd__undoes(p, n, t)) continue;
+    const double way = nsvcd__lift_along(n, t);
+    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1 : 2;
+    by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
+    by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
+  }
+  if (by.count == 0 || by.count < best->count) return;
+  const int is_as_far = by.way > best->way - same;
+  if (by.count == best->count && by.way > best->way + same) return;
+  if (by.count == best->count && is_as_far && by.faces <= best->faces) return;
+  *best = by;
 }
 
 // Of the normals of what touches, and the directions across an edge of each, the one that undoes
-// the most touches: *best, as it was if none undoes any: then 0 is returned.
-static int nsvcd__best_lift(const nsvcd__proof *p, nsvcd__d3 *best) {
-  size_t most = 0;
+// the most touches, by the shortest way; its count is 0 if none undoes any.
+static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
+  nsvcd__undoing best = {{0, 0, 0}, 0, 0, HUGE_VAL};
   for (size_t k = 0; k < p->touch_count; k++) {
-    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &most, best);
+    for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 && !(most > 0); k++) {
-    const nsvcd__touch *t = &p->of.touches[0];
-    const nsvcd__d3 n = nsvcd__across_edges(t, k);
+  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
+    const nsvcd__touch *t = &p->of.touches[k / 9];
+    const nsvcd__d3 n = nsvcd__across_edges(t, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
-    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &most, best);
+    nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);
   }
-  return most > 0;
+  return best;
 }
 
 // Finds directions that undo all that was gathered. 0: there are none for something, or too many.
@@ -14643,9 +14723,10 @@ static int nsvcd__choose_lifts(nsvcd__proof *p) {
   if (p->too_deep) return 0;
   while (p->touch_count > 0) {
     const size_t k = p->normal_count;
-    nsvcd__d3 best = {0, 0, 0};
-    if (k == NSVCD__LIFTS || !nsvcd__best_lift(p, &best)) return 0;
-    p->normals[k] = best;
+    if (k == NSVCD__LIFTS) return 0;
+    const nsvcd__undoing best = nsvcd__best_lift(p);
+    if (best.count == 0) return 0;
+    p->normals[k] = best.n;
     p->depths[k] = 0;
     p->normal_count++;
     size_t left = 0;
@@ -14677,12 +14758,6 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
   return nsvcd__d3_of(0, 0, 0);
 }
 
-// The two bodies' widest quanta: nearer to each other than this nothing is parted.
-static double nsvcd__hair(const nsvcd__proof *p) {
-  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
-}
-
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
 // lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
 // that others of them stay in touch with, and there may be too many touches to look at together: so
@@ -14693,7 +14768,9 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   still->lift = nsvcd__f3_of(0, 0, 0);
   // what is about to touch, or where a motion may have ended before, is lifted off too; and may not
   // touch afterwards
-  double beside = nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
+  const double size = (double)p->given.lengths + p->given.round;
+  const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
+  double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
     p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
     (void)nsvcd__prove_anew(p, search);
@@ -14753,8 +14830,15 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->ask.motion = &start;
   p->ask.gathers = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
+  p->by_faces = 0;
   p->needed = 0;
   int is_free = nsvcd__lift_still(p, search, &start);
+  if (!is_free && !p->too_deep) {
+    // the shortest ways may not go together
+    p->by_faces = 1;
+    p->needed = 0;
+    is_free = nsvcd__lift_still(p, search, &start);
+  }
   const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
   if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
     p->ask.skin = least;
@@ -16535,7 +16619,7 @@ static double nsvcd__to_of(const nsvcd__task *task) {
   const float moving = task->motion.scale * nsvcd__whole_radius(task->moving);
   const float fixed = nsvcd__whole_radius(task->fixed);
   const float usual = NSVCD_DEFAULT_TO * (moving < fixed ? moving : fixed);
-  return (double)(q->to > 0 ? q->to / task->motion.unit : usual);
+  return q->to > 0 ? (double)q->to / (double)task->motion.unit : (double)usual;
 }
 
 // How far points of the moving body go in an arc, at most.
@@ -16566,21 +16650,21 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
 static void nsvcd__proof_begin(nsvcd__query *query) {
   const nsvcd__task *task = &query->task;
   const nsvcd_question *q = task->question;
-  const float unit = task->motion.unit;
+  const double unit = (double)task->motion.unit;
   nsvcd__proof *p = query->proof;
   p->spans = query->spans;
   p->ask.motion = &query->task.motion;
   p->moving = nsvcd__facets_of(nsvcd__triangles_of(task->moving));
   p->fixed = nsvcd__facets_of(nsvcd__triangles_of(task->fixed));
   p->given.lengths = task->motion.scale * p->moving.body->extent + p->fixed.body->extent;
-  p->given.tolerance = (double)(q->tolerance / unit);
-  const double moving_round = (double)p->moving.round * (double)task->motion.scale;
+  p->given.tolerance = (double)q->tolerance / unit;
+  const double moving_round = (double)p->moving.round * task->motion.ratio;
   p->given.round = moving_round + (double)p->fixed.round;
-  p->given.clearance = (double)(q->clearance / unit) + p->given.round;
+  p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
-  p->given.skin = (double)(q->skin / unit);
+  p->given.skin = (double)q->skin / unit;
   p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
-  p->given.tells = q->ask != NSVCD_ASK_HIT || q->skin / unit > 0;
+  p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->normal_count = 0;
   p->high = HUGE_VAL;
@@ -16595,6 +16679,12 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
     p->given.share = nsvcd__share_of(p, by_time ? 0 : to, (double)q->to_time);
   p->ask.share = p->given.share;
   nsvcd__proof_restart(p);
+}
+
+// A time in [0,1] as a float that is not earlier: by then they have met.
+static float nsvcd__time_above(double time) {
+  const float rounded = (float)time;
+  return (double)rounded < time ? nextafterf(rounded, 1) : rounded;
 }
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
@@ -16617,7 +16707,7 @@ static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
   nsvcd__f3_store(nsvcd__f3_round(point), out->point);
   nsvcd__f3_store(nsvcd__f3_round(normal), out->normal);
   out->gap = (float)(fmax(found->distance - p->given.round, 0) * world.unit);
-  out->time = (float)time;
+  out->time = nsvcd__time_above(time);
   out->triangle_a = found->moving_triangle;
   out->triangle_b = found->fixed_triangle;
   out->patch_a = found->moving_patch;
@@ -16656,6 +16746,17 @@ static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvc
   }
 }
 
+// How far the told poses at time t are from the bodies' own, at most: floats of positions and
+// quaternions are off by 6e-8. In the fixed body's units.
+static double nsvcd__told_within(const nsvcd__proof *p, double t) {
+  const nsvcd__motion *motion = p->ask.motion;
+  nsvcd__d3 moving, fixed;
+  (void)nsvcd__turn_at(motion, &motion->moving, t, &moving);
+  (void)nsvcd__turn_at(motion, &motion->fixed, t, &fixed);
+  const double places = nsvcd__d3_length(moving) + nsvcd__d3_length(fixed);
+  return 1.3e-7 * (2 * places / (double)motion->unit + (double)p->given.lengths);
+}
+
 // Sets the bodies down at time t, where they are free of each other when lifted as the motion is:
 // to a little more than what they are pressed in by at the start, or to a little before they are in
 // contact. Returns how far they are lifted then, which is proven to be free, and all the way down
@@ -16671,7 +16772,8 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
   // nearer to each other than stored triangles are known, nothing would be parted
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, 4 * nsvcd__hair(p));
+  const double hairs = 4 * nsvcd__hair(p) + nsvcd__told_within(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, hairs);
   const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
   const double way = nsvcd__d3_length(by);
@@ -16774,22 +16876,23 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 }
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
-// contact at the start.
+// contact at the start. Where one may be inside of the other no lift helps, and they stay.
 static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
   nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
   const int is_lifted = nsvcd__d3_dot(lift, lift) > 0;
-  if (is_lifted) {
+  const int may_go = is_lifted && !p->within && !p->unclear;
+  if (is_lifted && !p->within) {
     const double depth = nsvcd__d3_length(nsvcd__lift_off(p, 0, 1));
     answer->depth = (float)(depth * (double)task->motion.unit);
-    if (!p->unclear) lift = nsvcd__set_down(query, t);
-  } else if (answer->time.low > 0 || p->starts_free) {
+  } else if (!is_lifted && (answer->time.low > 0 || p->starts_free)) {
     answer->depth = 0;
   }
+  if (may_go) lift = nsvcd__set_down(query, t);
   // at the ends they are as the caller has them: nsvcd__answer_begin
-  if (is_lifted || (t > 0 && t < 1))
+  if (may_go || (t > 0 && t < 1))
     nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
@@ -16842,9 +16945,9 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = NSVCD__HAIRS * nsvcd__hair(p);
+    const double hairs = NSVCD__HAIRS * nsvcd__hair(p) + nsvcd__told_within(p, until);
     const double back = way > hairs ? hairs / way : p->given.share;
-    answer->safe.time = (float)fmax(0, until - back);
+    answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
   double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
   double high = p->high;
@@ -16854,7 +16957,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     high = fmax(found->distance, p->given.round) + (double)quanta;
   }
   low = fmax(low - p->given.round, 0);
-  high -= p->given.round;
+  high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
@@ -16942,6 +17045,12 @@ static nsvcd_result nsvcd__question_check(const nsvcd_question *question) {
 
 // ---- who moves
 
+// How far a body reaches from its origin, with what it goes beyond its triangles.
+static float nsvcd__reach_of(const nsvcd_mover *mover) {
+  const nsvcd_body *body = mover->body;
+  return nsvcd__scale_of(mover) * (body->extent + (nsvcd__whole_radius(body) - body->radius));
+}
+
 // Is b to be the one that moves, and a the one in whose frame that is seen? The one that rests is
 // that, else the larger one; where they are equal, any rule that does not depend on which is a:
 // then both ways of asking are answered alike.
@@ -16949,8 +17058,8 @@ static int nsvcd__is_swapped(const nsvcd_mover *a, const nsvcd_mover *b) {
   const size_t count_a = nsvcd__pose_count(a);
   const size_t count_b = nsvcd__pose_count(b);
   if ((count_a > 1) != (count_b > 1)) return count_b > 1;
-  const float size_a = nsvcd__scale_of(a) * a->body->extent;
-  const float size_b = nsvcd__scale_of(b) * b->body->extent;
+  const float size_a = nsvcd__reach_of(a);
+  const float size_b = nsvcd__reach_of(b);
   if (size_a < size_b || size_b < size_a) return size_b < size_a;
   if (a->body->checksum != b->body->checksum) return b->body->checksum < a->body->checksum;
   if (count_a != count_b) return count_b < count_a;
@@ -18097,6 +18206,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
 #define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
+#define nsvcd__is_against NSVCD__AT(is_against)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
 #define nsvcd__is_around NSVCD__AT(is_around)
 #define nsvcd__is_before NSVCD__AT(is_before)
@@ -18244,6 +18354,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__ranges NSVCD__AT(ranges)
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
+#define nsvcd__reach_of NSVCD__AT(reach_of)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__resting NSVCD__AT(resting)
@@ -18331,6 +18442,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__tile NSVCD__AT(tile)
 #define nsvcd__tile_fill NSVCD__AT(tile_fill)
 #define nsvcd__tile_fill_all NSVCD__AT(tile_fill_all)
+#define nsvcd__time_above NSVCD__AT(time_above)
 #define nsvcd__time_in_arc NSVCD__AT(time_in_arc)
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
@@ -18340,6 +18452,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
+#define nsvcd__told_within NSVCD__AT(told_within)
 #define nsvcd__touch NSVCD__AT(touch)
 #define nsvcd__track NSVCD__AT(track)
 #define nsvcd__track_box NSVCD__AT(track_box)
@@ -18356,7 +18469,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__turned_back NSVCD__AT(turned_back)
 #define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)
 #define nsvcd__undoes NSVCD__AT(undoes)
-#define nsvcd__undone NSVCD__AT(undone)
+#define nsvcd__undoing NSVCD__AT(undoing)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
 #define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
 #define nsvcd__unparted_members NSVCD__AT(unparted_members)
