@@ -285,6 +285,7 @@ extern "C" {
 #include "proof/loop.h"         // the loop: all that a search finds is settled
 #include "proof/verdict.h"      // the verdict, the first contact, the least distance
 #include "proof/leave.h"        // leaving a contact, and how deep it is
+#include "proof/normals.h"      // a contact's normal, against the motion
 
 // ============================================================================= network: an opinion
 #include "network/latent_rotation.h"  // Wigner matrices; latents turned by them

@@ -205,6 +205,13 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
   return numbers.number;
 }
 
+// Does listing n belong to a closed surface, of which the winding says which side is out?
+static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
+  nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
+  nsvcd__read_number(&numbers, n);
+  return numbers.encloses && !f->body->open;
+}
+
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }

@@ -181,6 +181,8 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
   out.fixed_triangle =
       nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_listing = (uint32_t)couple->moving_listing;
+  out.fixed_listing = (uint32_t)couple->fixed_listing;
   out.moving_patch = (uint16_t)couple->moving_patch;
   out.fixed_patch = (uint16_t)couple->fixed_patch;
   return out;

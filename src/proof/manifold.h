@@ -11,14 +11,16 @@
 #include "couples.h"
 
 #ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit.
-static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+// Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
+static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                double reach, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
   memset(m, 0, sizeof *m);
   m->normal = n;
+  m->twist = *twist;
   m->reach = reach;
   m->same = same;
   // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
@@ -58,9 +60,44 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
+// A couple that is looked at: the moving triangle, posed; where its faces look, out of the fixed
+// body, for the sides of an open surface as the normal of the contact does; and has it such?
+typedef struct nsvcd__facing {
+  const nsvcd__couple *couple;
+  const nsvcd__d3 *posed;
+  nsvcd__d3 faces[2];
+  int is_open;
+} nsvcd__facing;
+
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                      const nsvcd__d3 *posed) {
+  const nsvcd__d3 n = p->of.kept.manifold.normal;
+  const int closed[2] = {
+      nsvcd__facet_encloses(&p->moving, couple->moving_patch, couple->moving_listing),
+      nsvcd__facet_encloses(&p->fixed, couple->fixed_patch, couple->fixed_listing)};
+  nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  out.faces[1] = nsvcd__face_direction(couple->fixed);
+  for (int k = 0; k < 2; k++) {
+    if (!closed[k] && nsvcd__d3_dot(out.faces[k], n) < 0)
+      out.faces[k] = nsvcd__d3_scale(out.faces[k], -1);
+  }
+  return out;
+}
+
+// Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
+// then, or one of another couple.
+static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
+                          const nsvcd__d3 *faces) {
+  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
+  const double least = 1e-7 * nsvcd__d3_length(speed);
+  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
+  return nsvcd__d3_dot(speed, faces[0]) < -least || nsvcd__d3_dot(speed, faces[1]) < -least;
+}
+
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
 // face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple *couple,
+static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
                                            nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
                                            nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
@@ -68,8 +105,12 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(way, normal);
   const double aside = nsvcd__d3_dot(way, way) - gap * gap;
+  nsvcd__d3 point;
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
+  // nor are they on the far side of a sheet that they do not pass through
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->couple->fixed, &point)) return;
+  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
@@ -77,7 +118,7 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, couple, 0, &nearest);
+    if (!known) contact = nsvcd__contact_at(p, f->couple, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
@@ -97,27 +138,26 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
                                               const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
-  const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
-  // faces look at each other, along the normal
-  const double moving_up = -nsvcd__d3_dot(faces[0], m->normal);
-  const double fixed_up = nsvcd__d3_dot(faces[1], m->normal);
-  const int moving_faces = (p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8;
-  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
-  for (size_t k = 0; k < 3 && farther; k++) {
+  if (!farther) return;
+  // faces look at each other, along the normal
+  const nsvcd__facing facing = nsvcd__facing_of(p, couple, posed);
+  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
+  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
+  for (size_t k = 0; k < 3; k++) {
     const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
+      nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
+      nsvcd__keep_place(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -133,8 +173,8 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_place(p, couple, nearest.on_a, nearest.on_b,
-                        nsvcd__d3_unit(across, faces[1]), number | 2);
+      nsvcd__keep_place(p, &facing, nearest.on_a, nearest.on_b,
+                        nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }

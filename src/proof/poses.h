@@ -153,7 +153,32 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of p->arc, remembered: couples ask for the same poses again.
+// How the moving body goes there. Where both turn, what the fixed one does is taken off.
+static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
+  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const double per_tick = 1 / (double)arc->ticks;
+  nsvcd__twist out;
+  nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  out.along = arc->moved;
+  out.turn = turn;
+  if (arc->fixed_moves) {
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, u));
+    const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&fixed, nsvcd__leg_turn(&arc->fixed));
+    turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+    out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
+    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->lift));
+    out.turn = nsvcd__d3_sub(turn, own);
+  }
+  out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
+  out.along = nsvcd__d3_scale(out.along, per_tick);
+  out.turn = nsvcd__d3_scale(out.turn, per_tick);
+  return out;
+}
+static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
+  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
+}
+
+// The true pose in p->arc, remembered: couples ask for the same poses again.
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;

@@ -187,8 +187,14 @@ typedef struct nsvcd__contact {
   // the fixed body's frame; out of the fixed body
   nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
+  uint32_t moving_listing, fixed_listing;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
+
+// How the moving body goes, as the fixed one sees it: a point x by `along` and turn x x in a tick.
+typedef struct nsvcd__twist {
+  nsvcd__d3 along, turn;
+} nsvcd__twist;
 
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
@@ -202,6 +208,7 @@ typedef struct nsvcd__touch {
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  nsvcd__twist twist;
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not

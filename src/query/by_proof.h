@@ -1,6 +1,7 @@
 // In: a task. Out: its answer, by proof, with the contact as places in the world.
 #pragma once
 #include "../proof/leave.h"
+#include "../proof/normals.h"
 #include "task.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -233,16 +234,26 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   return still;
 }
 
-// Against the normal of a contact's moving triangle, as the bodies rest.
-static nsvcd__d3 nsvcd__against(nsvcd__proof *p, const nsvcd__contact *found) {
-  const size_t patch = found->moving_patch;
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  nsvcd__d3 corners[3], posed[3];
-  size_t n = p->moving.first_triangle[patch];
-  while (nsvcd__facet_number(&p->moving, patch, n) != found->moving_triangle) n++;
-  nsvcd__facet_triangle(&p->moving, patch, n, corners);
-  nsvcd__place_triangle(&at, corners, posed);
-  return nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+// The directions that the contacts of a manifold may be about: the normal of the contact that was
+// found; and those of its faces, where the bodies do not leave along them, of open surfaces on the
+// side of that normal. Returns how many. How they go: 0 at the start, where they only touch.
+static int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
+                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
+  nsvcd__approach now;
+  int count = 1;
+  nsvcd__approach_at(p, found, found->tick, &now);
+  memset(twist, 0, sizeof *twist);
+  if (found->tick > 0) *twist = now.twist;
+  p->of.kept.manifold.normal = normals[0] = found->normal;
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.couple, now.touch.moving);
+  for (int k = 1; k >= 0; k--) {
+    const nsvcd__d3 n = facing.faces[k];
+    const nsvcd__d3 all[2] = {found->normal, found->normal};
+    int is_new = nsvcd__d3_dot(n, n) > 0.5 && !nsvcd__is_left(twist, found->point, n, all);
+    for (int i = 0; i < count; i++) is_new &= !(nsvcd__d3_dot(n, normals[i]) > 0.9);
+    if (is_new) normals[count++] = n;
+  }
+  return count;
 }
 
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
@@ -258,20 +269,21 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__d3 normals[3];
   double widest = -1;
   nsvcd_pose poses[2];
+  nsvcd__twist twist;
+  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
-  const nsvcd__d3 normals[2] = {found.normal, nsvcd__against(p, &found)};
-  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
+    nsvcd__begin_places(p, normals[k], &twist, p->ask.clearance, same);
     nsvcd__seek_places(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__look_across(&p->of.kept.manifold, area)) {
@@ -338,6 +350,10 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int has_doubt = p->known.unsure < NSVCD__NEVER;
   const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
   const int is_within = verdict == NSVCD__WITHIN;
+  const double until = fmin(nsvcd__clear_until(p), p->known.found.tick);
+  const int is_first = p->given.share > 0;
+  if (names)
+    nsvcd__settle_normal(p, is_first ? until : 0, is_first && (until > 0 || p->starts_free));
   const int is_free = verdict == NSVCD__FREE;
   const int is_hit = is_within || verdict == NSVCD__MEETS;
   nsvcd__answer_begin(task,
