@@ -109,7 +109,8 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing 
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
   // nor are they on the far side of a sheet that they do not pass through
-  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->couple->fixed, &point)) return;
+  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->couple->fixed, &point))
+    return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;

@@ -15,24 +15,23 @@
 #include "witnesses.h"
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, at a knot, that ends there: what comes to
-// a contact comes by that one.
+// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends there:
+// what comes to a contact comes by that one.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
-  if (!(*u > 0) && first > 0) {
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
     first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
     *u = 1;
   }
   return nsvcd__arc_at(p, first);
 }
 
-// The triangles of a contact at a time.
+// The triangles of a contact at a time, and how the bodies go then.
 typedef struct nsvcd__approach {
   nsvcd__couple couple;
-  double u;
   nsvcd__touch touch;
-  nsvcd__nearest nearest;
   nsvcd__twist twist;
+  double u;
 } nsvcd__approach;
 
 static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
@@ -45,44 +44,75 @@ static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contac
   memcpy(out->touch.fixed, out->couple.fixed, sizeof out->touch.fixed);
   out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
   out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
-  out->nearest = nsvcd__nearest_of(out->touch.moving, out->touch.fixed);
   out->twist = nsvcd__twist_at(arc, out->u);
 }
 
-// Do the nearest points of two triangles come apart?
-static int nsvcd__recedes(const nsvcd__approach *a) {
-  const nsvcd__d3 apart = nsvcd__d3_sub(a->nearest.on_a, a->nearest.on_b);
-  return nsvcd__d3_dot(nsvcd__twist_of(&a->twist, a->nearest.on_b), apart) > 0;
+// So near to where they meet it is asked which of them a corner meets: nearer than they are known
+// that cannot be told.
+static double nsvcd__margin_of(const nsvcd__couple *couple) {
+  return 16 * couple->slack + 1e4 * couple->rounding;
 }
 
-// The direction at which two triangles meet that touch, if the moving one comes straight along
-// `way`, of which it has gone all, or, if they were free before, more. The distance is convex on
-// it: Newton's method, from where they are apart, comes to where they meet, and never past it. 0:
-// they are in touch all the way.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__touch *t, nsvcd__d3 way, int is_free,
-                                         double margin, nsvcd__d3 *normal) {
-  double back = 1;
-  int known = 0;
-  for (size_t k = 0; k < NSVCD__HALVINGS; k++) {
-    nsvcd__d3 moved[3];
-    for (int n = 0; n < 3; n++)
-      moved[n] = nsvcd__d3_sub(t->moving[n], nsvcd__d3_scale(way, back));
-    const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
+// Do two points come apart?
+static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points) {
+  const nsvcd__d3 apart = nsvcd__d3_sub(points->on_a, points->on_b);
+  return nsvcd__d3_dot(nsvcd__twist_of(twist, points->on_b), apart) > 0;
+}
+
+// Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
+// come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
+// apart all the while, it stays.
+static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
+  nsvcd__contact *found = &p->known.found;
+  nsvcd__contact sooner = *found;
+  double early = since;
+  double late = found->tick;
+  double tick = late;
+  for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
+    nsvcd__approach then;
+    nsvcd__approach_at(p, found, tick, &then);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
     const double distance = sqrt(nearest.square);
-    if (!(distance > margin)) {
-      if (known || !is_free) return known;
-      back *= 2;
-      continue;
-    }
-    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-    const nsvcd__d3 n = nsvcd__d3_scale(apart, 1 / distance);
-    const double fall = -nsvcd__d3_dot(n, way);
-    if (!(fall > 0)) return known;
-    *normal = n;
-    known = 1;
-    back -= distance / fall;
+    const int are_near = k == 0 || distance <= found->distance + then.couple.rounding;
+    const int come_nearer =
+        distance > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
+    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.couple, then.u, &nearest);
+    if (are_near && come_nearer) break;
+    *(are_near ? &late : &early) = tick;
+    tick = k == 0 ? early : 0.5 * (early + late);
   }
-  return known;
+  if (early < late) *found = sooner;
+}
+
+// The directions along which two triangles that touch may be separated, both ways: 22. 0: none.
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
+  const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t, k / 2 - 2);
+  return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
+}
+
+// The direction at which two triangles met that touch, if the moving one came straight along so much
+// of `way` or less. 0: it did not.
+static NSVCD__APART int nsvcd__met_along(const nsvcd__touch *t, nsvcd__d3 way, double most,
+                                         double margin, nsvcd__d3 *normal) {
+  double back = HUGE_VAL;  // where they met, as a share of the way
+  double beyond = 0;
+  nsvcd__d3 moved[3];
+  for (size_t k = 0; k < 22; k++) {
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
+    const double fall = -nsvcd__d3_dot(n, way);
+    if (!(fall > 0) || !(nsvcd__lift_along(n, t) < back * fall)) continue;
+    back = nsvcd__lift_along(n, t) / fall;
+    beyond = margin / fall;
+    *normal = n;
+  }
+  if (!(back < most)) return 0;
+  // a hair before, of all directions that are left there the one most against the way
+  const nsvcd__d3 off = nsvcd__d3_scale(way, back + beyond);
+  for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  if (nsvcd__d3_dot(apart, way) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  return 1;
 }
 
 // The direction along which two triangles that touch are the least deep in each other; of several
@@ -93,55 +123,47 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__touch *t, const int
   nsvcd__d3 best = t->ways[1];
   double least = HUGE_VAL;
   for (size_t k = 0; k < 22; k++) {
-    const size_t axis = k / 2;
-    const nsvcd__d3 out = axis < 2 ? t->ways[1 - axis] : nsvcd__across_edges(t, axis - 2);
-    const nsvcd__d3 n = nsvcd__d3_scale(out, k % 2 ? -1 : 1);
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
     const int against_moving = closed[0] && nsvcd__d3_dot(n, t->ways[0]) < -1e-9;
     const int against_fixed = closed[1] && nsvcd__d3_dot(n, t->ways[1]) < -1e-9;
     if (!(nsvcd__d3_dot(n, n) > 0.5) || (against_moving && against_fixed)) continue;
-    if (k % 2 && axis < 2 && closed[1 - axis]) continue;
+    if (k < 4 && (k < 2 ? against_fixed : against_moving)) continue;
     const double depth = nsvcd__lift_along(n, t);
     const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);
-    const int is_same = depth < least + margin && more > 0;
-    if (!(depth < least - margin || is_same)) continue;
+    if (depth > least - margin && !(depth < least + margin && more > 0)) continue;
     best = n;
     least = nsvcd__min(least, depth);
   }
   return best;
 }
 
+// The direction at which the triangles of the contact that is known met, if they did not before
+// `since`; or, if they were free of each other then, at some time.
+static int nsvcd__normal_when_met(nsvcd__proof *p, double since, int is_free,
+                                  nsvcd__approach *now) {
+  nsvcd__contact *found = &p->known.found;
+  nsvcd__approach_at(p, found, found->tick, now);
+  const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
+  const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(&now->touch, way, is_free ? HUGE_VAL : 1,
+                          nsvcd__margin_of(&now->couple), &found->normal);
+}
+
 // Gives the contact that is known its normal. since: ticks; were they free of each other then?
 static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p, double since, int is_free) {
   nsvcd__contact *found = &p->known.found;
   nsvcd__approach now;
-  nsvcd__approach_at(p, found, found->tick, &now);
-  if (found->distance > now.couple.rounding && found->tick > since && nsvcd__recedes(&now)) {
-    nsvcd__approach then;
-    double early = since;
-    double late = found->tick;
-    nsvcd__approach_at(p, found, early, &then);
-    int is_early = sqrt(then.nearest.square) > found->distance || !nsvcd__recedes(&then);
-    for (size_t k = 0; is_early && k < NSVCD__HALVINGS; k++) {
-      const double middle = 0.5 * (early + late);
-      nsvcd__approach_at(p, found, middle, &then);
-      const int is_apart = sqrt(then.nearest.square) > found->distance;
-      *(!is_apart && nsvcd__recedes(&then) ? &late : &early) = middle;
-      if (is_apart || nsvcd__recedes(&then)) continue;
-      *found = nsvcd__contact_at(p, &then.couple, then.u, &then.nearest);
-      now = then;
-      is_early = 0;
-    }
+  if (found->distance > 0) nsvcd__turn_back(p, since);
+  if (found->distance > 0 || nsvcd__normal_when_met(p, since, 0, &now)) return;
+  if (is_free) {
+    // it has turned since, and they may come apart again
+    nsvcd__turn_back(p, since);
+    if (nsvcd__normal_when_met(p, since, 1, &now)) return;
   }
-  if (found->distance > now.couple.rounding) return;
-  const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
-  const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
-  const double margin = 1e4 * now.couple.rounding;
   const int closed[2] = {
       nsvcd__facet_encloses(&p->moving, found->moving_patch, found->moving_listing),
       nsvcd__facet_encloses(&p->fixed, found->fixed_patch, found->fixed_listing)};
-  if (nsvcd__d3_length(way) > 0 &&
-      nsvcd__met_along(&now.touch, way, is_free, margin, &found->normal))
-    return;
-  found->normal = nsvcd__shallowest(&now.touch, closed, speed, margin);
+  const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
+  found->normal = nsvcd__shallowest(&now.touch, closed, speed, nsvcd__margin_of(&now.couple));
 }
 #endif  // NSVCD_NO_PROOF

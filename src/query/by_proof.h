@@ -235,8 +235,8 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
 }
 
 // The directions that the contacts of a manifold may be about: the normal of the contact that was
-// found; and those of its faces, where the bodies do not leave along them, of open surfaces on the
-// side of that normal. Returns how many. How they go: 0 at the start, where they only touch.
+// found, and those of its faces that are not against it, where the bodies do not leave along them.
+// Returns how many. How the bodies go: 0 at the start, where they only touch.
 static int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
                                    nsvcd__twist *twist, nsvcd__d3 *normals) {
   nsvcd__approach now;
@@ -249,7 +249,8 @@ static int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
   for (int k = 1; k >= 0; k--) {
     const nsvcd__d3 n = facing.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
-    int is_new = nsvcd__d3_dot(n, n) > 0.5 && !nsvcd__is_left(twist, found->point, n, all);
+    int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
+    is_new &= !nsvcd__is_left(twist, found->point, n, all);
     for (int i = 0; i < count; i++) is_new &= !(nsvcd__d3_dot(n, normals[i]) > 0.9);
     if (is_new) normals[count++] = n;
   }
