@@ -175,6 +175,7 @@
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
 //   tree, node        boxes over a mesh's triangles, for certificates; a run of these
 //   certificate       bytes that prove an answer; a walk over two trees and time, and rays
+//   twist             how the moving body goes at a time: a velocity and an angular velocity
 //   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H

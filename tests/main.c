@@ -38,6 +38,7 @@ void test_motion(void);
 void test_broad_phase(void);
 void test_proof(void);
 void test_asks(void);
+void test_normals(void);
 void test_winding_number(void);
 void test_decoder(void);
 void test_query(void);
@@ -75,6 +76,7 @@ static const test_file files[] = {
     OF(broad_phase),
     OF(proof),
     OF(asks),
+    OF(normals),
     OF(round),
     OF(robot),
     OF(postures),

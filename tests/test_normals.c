@@ -425,9 +425,79 @@ static void normals_known(void) {
   }
 }
 
+// In touch from the start, by a hair, along a floor, into it or away from it, of one face or a fine
+// one: out of the floor, where the motion does not tell.
+static void normals_at_the_start(void) {
+  for (int n = 0; n < 24; n++) {
+    shapes_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    shapes_box(&mesh, 10, 10, 1, n % 2 ? 1 : 7);
+    normals_body floor = normals_encode(&mesh, 1, 0, 0);
+    normals_body cube = normals_known_body(CUBE);
+    const float down = n / 4 % 3 == 0 ? 0 : n / 4 % 3 == 1 ? -0.1f : 0.1f;
+    const nsvcd_pose path[2] = {{{0.3f, 0.1f, 1.5f - 1e-4f}, {0, 0, 0, 1}},
+                                {{1.3f, 0.2f, 1.5f - 1e-4f + down}, {0, 0, 0, 1}}};
+    nsvcd_question q;
+    memset(&q, 0, sizeof q);
+    q.a.body = n % 4 < 2 ? cube.body : floor.body;
+    q.b.body = n % 4 < 2 ? floor.body : cube.body;
+    nsvcd_mover *mover = n % 4 < 2 ? &q.a : &q.b;
+    mover->poses = path;
+    mover->count = 2;
+    q.ask = NSVCD_ASK_FIRST;
+    q.manifold = n > 11;
+    const nsvcd_answer answer = normals_ask(&q);
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_EQ(answer.time.high, 0);
+    for (size_t k = 0; k < answer.contact_count; k++)
+      CHECK_NEAR(answer.contacts[k].normal[2], n % 4 < 2 ? 1 : -1, 1e-4);
+    normals_free(&cube);
+    normals_free(&floor);
+  }
+}
+
+// Of sheets that meet, said to be open or not, round or not, or come within a clearance: where a
+// manifold names the triangles of the first contact, it has their normal and their gap.
+static void normals_of_sheets(void) {
+  shapes_rng rng = {4512};
+  size_t same = 0;
+  for (int n = 0; n < 900; n++) {
+    normals_body a = normals_make(&rng, n % 3 == 1 ? ROUND_SOUP : SOUP);
+    normals_body b = normals_make(&rng, n % 3 == 1 ? ROUND_SOUP : SOUP);
+    const float x = (float)shapes_uniform(&rng, -0.3, 0.3);
+    const nsvcd_pose path[2] = {{{x, 0.1f, 1}, {0, 0, 0, 1}},
+                                {{0.3f * x, 0.05f, -1}, {0, 0, 0, 1}}};
+    nsvcd_question q;
+    memset(&q, 0, sizeof q);
+    q.a.body = a.body;
+    q.a.poses = path;
+    q.a.count = 2;
+    q.b.body = b.body;
+    q.ask = NSVCD_ASK_FIRST;
+    q.manifold = 1;
+    q.clearance = n % 3 == 0 ? 0.03f : 0;
+    const nsvcd_answer answer = normals_ask(&q);
+    const nsvcd_contact *first = &answer.nearest;
+    for (size_t k = 0; k < answer.contact_count && answer.time.low > 0; k++) {
+      const nsvcd_contact *c = &answer.contacts[k];
+      double along = 0;
+      if (c->triangle_a != first->triangle_a || c->triangle_b != first->triangle_b) continue;
+      same++;
+      for (int i = 0; i < 3; i++) along += (double)c->normal[i] * (double)first->normal[i];
+      CHECK_GE(along, 0.5);
+      CHECK_NEAR(c->gap, first->gap, 1e-3);
+    }
+    normals_free(&a);
+    normals_free(&b);
+  }
+  CHECK_GE(same, 200);
+}
+
 void test_normals(void) {
   RUN(normals_are_against_the_motion);
   RUN(normals_known);
+  RUN(normals_at_the_start);
+  RUN(normals_of_sheets);
 }
 
 CHECK_ALONE(test_normals)

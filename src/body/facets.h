@@ -205,7 +205,7 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
   return numbers.number;
 }
 
-// Does listing n belong to a closed surface, of which the winding says which side is out?
+// Does listing n belong to a closed surface?
 static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);

@@ -171,11 +171,20 @@ typedef struct nsvcd_contact {
   // metres, world. Where they meet, or on b where they are nearest: on its surface, if it is round.
   // Of a large triangle, which is stored in parts, on the part that was looked at last
   float point[3];
-  // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
-  // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
-  // where that triangle has no area
+  // world, unit, from b to a, and against the motion: with v the velocity of a's point there less
+  // that of b's, v . normal is not above 0 wherever a motion has led to the contact (at a pose, v
+  // is that before it). Triangles that are apart have the direction from b's nearest point to a's;
+  // those that meet have the one at which they met as they go at that time. Where a corner met a
+  // face that is the face's normal, on the side that the corner came from, however it is wound;
+  // where an edge crossed an edge, the direction across both; where a corner met a corner or an
+  // edge, or an edge an edge along it, of all directions along which they were separated still the
+  // one most against v. Two contacts may be along v: triangles in touch from the start on, which
+  // have the direction along which they are the least deep, out of closed surfaces; and of a
+  // manifold, places where both faces are left. 0 where none are named, and where no direction is
+  // known, since they have no area
   float normal[3];
-  // metres between the stored triangles, less what is round; 0: they meet
+  // metres between the stored triangles, of a manifold at that place, less what is round; 0: they
+  // meet
   float gap;
   // in [0,1]: when, rounded up
   float time;

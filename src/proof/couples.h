@@ -165,6 +165,14 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   return couple;
 }
 
+// Are these of closed surfaces, of which the winding says which side is out?
+static int nsvcd__moving_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+  return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
+}
+static int nsvcd__fixed_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+  return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
+}
+
 // What is said of two triangles a share u of the arc later than its start.
 static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
                                         double u, const nsvcd__nearest *nearest) {

@@ -1,22 +1,21 @@
-// In: a contact, and since when its triangles have not been in touch. Out: its normal.
+// In: a contact, and the motion that led to it. Out: its normal.
 //
-// Just before two triangles meet, the direction between their nearest points is one along which they
-// are still separated: of all those that are left at the contact, the one most against the motion.
-// So where a corner comes to a face it is the face's normal, on the side that the corner comes from;
+// Just before two triangles meet, the direction between their nearest points is one along which
+// they are separated still: of all that are left at the contact, the one most against the motion.
+// Where a corner comes to a face it is the face's normal, on the side that the corner comes from;
 // where an edge crosses an edge, across both; where a corner comes to a corner, against the motion.
-// A contact may be found a little after triangles have met: so one is taken back along the speed of
-// the contact point until they are separated, and the direction is that at which they meet. Where
-// they have been in touch from the start the motion tells nothing: then it is the direction along
-// which they are the least deep.
+// A contact may be found a little after they have met: so one of them is taken back, as fast as the
+// contact point goes, until they are separated. Where they have been in touch from the start the
+// motion tells nothing: then it is the direction along which they are the least deep.
 //
 // Triangles within the clearance that do not meet have a direction: their nearest points'. It is
 // along the motion only if they have been nearer, and then the contact is moved to before that.
 #pragma once
-#include "witnesses.h"
+#include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends there:
-// what comes to a contact comes by that one.
+// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends
+// there: what comes to a contact comes by that one.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
   if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
@@ -45,12 +44,6 @@ static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contac
   out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
   out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
   out->twist = nsvcd__twist_at(arc, out->u);
-}
-
-// So near to where they meet it is asked which of them a corner meets: nearer than they are known
-// that cannot be told.
-static double nsvcd__margin_of(const nsvcd__couple *couple) {
-  return 16 * couple->slack + 1e4 * couple->rounding;
 }
 
 // Do two points come apart?
@@ -90,24 +83,27 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 
-// The direction at which two triangles met that touch, if the moving one came straight along so much
-// of `way` or less. 0: it did not.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__touch *t, nsvcd__d3 way, double most,
-                                         double margin, nsvcd__d3 *normal) {
+// The direction at which two triangles met that touch, if the moving one came straight along so
+// much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
+// a corner met: so it is that a little before.
+static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
+                                         nsvcd__d3 *normal) {
+  const nsvcd__touch *t = &a->touch;
+  const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
-  double beyond = 0;
+  double before = 0;
   nsvcd__d3 moved[3];
   for (size_t k = 0; k < 22; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
     const double fall = -nsvcd__d3_dot(n, way);
-    if (!(fall > 0) || !(nsvcd__lift_along(n, t) < back * fall)) continue;
-    back = nsvcd__lift_along(n, t) / fall;
-    beyond = margin / fall;
+    const double deep = nsvcd__lift_along(n, t);
+    if (!(fall > 0) || !(deep < back * fall)) continue;
+    back = deep / fall;
+    before = nsvcd__max(close, 1e4 * a->couple.rounding / fall);
     *normal = n;
   }
   if (!(back < most)) return 0;
-  // a hair before, of all directions that are left there the one most against the way
-  const nsvcd__d3 off = nsvcd__d3_scale(way, back + beyond);
+  const nsvcd__d3 off = nsvcd__d3_scale(way, back + before);
   for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
   const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
@@ -118,19 +114,24 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__touch *t, nsvcd__d3 way, d
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__touch *t, const int *closed,
-                                                nsvcd__d3 way, double margin) {
+static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                const nsvcd__approach *a, nsvcd__d3 way) {
+  const int moving_closed = nsvcd__moving_encloses(p, &a->couple);
+  const int fixed_closed = nsvcd__fixed_encloses(p, &a->couple);
+  const nsvcd__touch *t = &a->touch;
+  const double same = 1e4 * a->couple.rounding;
   nsvcd__d3 best = t->ways[1];
   double least = HUGE_VAL;
   for (size_t k = 0; k < 22; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const int against_moving = closed[0] && nsvcd__d3_dot(n, t->ways[0]) < -1e-9;
-    const int against_fixed = closed[1] && nsvcd__d3_dot(n, t->ways[1]) < -1e-9;
-    if (!(nsvcd__d3_dot(n, n) > 0.5) || (against_moving && against_fixed)) continue;
-    if (k < 4 && (k < 2 ? against_fixed : against_moving)) continue;
+    const int out_of_moving = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
+    const int out_of_fixed = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
+    int is_out = out_of_moving || out_of_fixed;
+    if (k < 4) is_out = k < 2 ? out_of_fixed : out_of_moving;
+    if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
     const double depth = nsvcd__lift_along(n, t);
     const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);
-    if (depth > least - margin && !(depth < least + margin && more > 0)) continue;
+    if (depth > least - same && !(depth < least + same && more > 0)) continue;
     best = n;
     least = nsvcd__min(least, depth);
   }
@@ -145,13 +146,15 @@ static int nsvcd__normal_when_met(nsvcd__proof *p, double since, int is_free,
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(&now->touch, way, is_free ? HUGE_VAL : 1,
-                          nsvcd__margin_of(&now->couple), &found->normal);
+  return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
 }
 
-// Gives the contact that is known its normal. since: ticks; were they free of each other then?
-static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p, double since, int is_free) {
+// Gives the contact that is known its normal.
+static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   nsvcd__contact *found = &p->known.found;
+  const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
+  const double since = p->given.share > 0 ? until : 0;
+  const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
   nsvcd__approach now;
   if (found->distance > 0) nsvcd__turn_back(p, since);
   if (found->distance > 0 || nsvcd__normal_when_met(p, since, 0, &now)) return;
@@ -160,10 +163,7 @@ static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p, double since, int
     nsvcd__turn_back(p, since);
     if (nsvcd__normal_when_met(p, since, 1, &now)) return;
   }
-  const int closed[2] = {
-      nsvcd__facet_encloses(&p->moving, found->moving_patch, found->moving_listing),
-      nsvcd__facet_encloses(&p->fixed, found->fixed_patch, found->fixed_listing)};
   const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
-  found->normal = nsvcd__shallowest(&now.touch, closed, speed, nsvcd__margin_of(&now.couple));
+  found->normal = nsvcd__shallowest(p, &now, speed);
 }
 #endif  // NSVCD_NO_PROOF
