@@ -77,8 +77,9 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.faces[1] = nsvcd__face_direction(couple->fixed);
   for (int k = 0; k < 2; k++) {
-    if (!closed[k] && nsvcd__d3_dot(out.faces[k], n) < 0)
-      out.faces[k] = nsvcd__d3_scale(out.faces[k], -1);
+    nsvcd__d3 *face = &out.faces[k];
+    const int is_turned = nsvcd__d3_dot(*face, n) < 0;
+    if (is_turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
   }
   return out;
 }
@@ -90,7 +91,9 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
   const double least = 1e-7 * nsvcd__d3_length(speed);
   if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
-  return nsvcd__d3_dot(speed, faces[0]) < -least || nsvcd__d3_dot(speed, faces[1]) < -least;
+  for (int k = 0; k < 2; k++)
+    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
+  return 0;
 }
 
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
@@ -107,8 +110,9 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing 
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
   // nor are they on the far side of a sheet that they do not pass through
-  if (gap < 0 && f->is_open && !nsvcd__triangles_meet(f->posed, f->couple->fixed, &point))
-    return;
+  const nsvcd__d3 *fixed = f->couple->fixed;
+  const int is_beyond = gap < 0 && f->is_open;
+  if (is_beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;

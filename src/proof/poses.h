@@ -162,8 +162,10 @@ static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
   out.along = arc->moved;
   out.turn = turn;
   if (arc->fixed_moves) {
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, u));
-    const nsvcd__d3 own = nsvcd__dmat3_apply_transpose(&fixed, nsvcd__leg_turn(&arc->fixed));
+    const nsvcd__dquat q = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
+    nsvcd__d3 own = nsvcd__leg_turn(&arc->fixed);
+    own = nsvcd__dmat3_apply_transpose(&fixed, own);
     turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
     out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
     out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->lift));

@@ -251,7 +251,7 @@ static int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
     const nsvcd__d3 all[2] = {found->normal, found->normal};
     int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
     is_new &= !nsvcd__is_left(twist, found->point, n, all);
-    for (int i = 0; i < count; i++) is_new &= !(nsvcd__d3_dot(n, normals[i]) > 0.9);
+    for (int i = 0; i < count; i++) is_new &= nsvcd__d3_dot(n, normals[i]) <= 0.9;
     if (is_new) normals[count++] = n;
   }
   return count;
