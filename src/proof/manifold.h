@@ -78,8 +78,8 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple
   out.faces[1] = nsvcd__face_direction(couple->fixed);
   for (int k = 0; k < 2; k++) {
     nsvcd__d3 *face = &out.faces[k];
-    const int is_turned = nsvcd__d3_dot(*face, n) < 0;
-    if (is_turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
+    const int turned = nsvcd__d3_dot(*face, n) < 0;
+    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
   }
   return out;
 }
@@ -111,8 +111,8 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing 
   if (aside > 0.01 * m->same * m->same) return;
   // nor are they on the far side of a sheet that they do not pass through
   const nsvcd__d3 *fixed = f->couple->fixed;
-  const int is_beyond = gap < 0 && f->is_open;
-  if (is_beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
+  const int beyond = gap < 0 && f->is_open;
+  if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;

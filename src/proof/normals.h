@@ -66,12 +66,11 @@ static void nsvcd__turn_back(nsvcd__proof *p, double since) {
     nsvcd__approach then;
     nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
-    const double distance = sqrt(nearest.square);
-    const int are_near = k == 0 || distance <= found->distance + then.couple.rounding;
-    const int come_nearer =
-        distance > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
+    const double gap = sqrt(nearest.square);
+    const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
+    const int nearing = gap > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
     if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.couple, then.u, &nearest);
-    if (are_near && come_nearer) break;
+    if (are_near && nearing) break;
     *(are_near ? &late : &early) = tick;
     tick = k == 0 ? early : 0.5 * (early + late);
   }
