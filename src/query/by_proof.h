@@ -351,7 +351,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int has_doubt = p->known.unsure < NSVCD__NEVER;
   const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
   const int is_within = verdict == NSVCD__WITHIN;
-  if (names) nsvcd__settle_normal(p);
+  if (names && !is_within) nsvcd__settle_normal(p);
   const int is_free = verdict == NSVCD__FREE;
   const int is_hit = is_within || verdict == NSVCD__MEETS;
   nsvcd__answer_begin(task,
