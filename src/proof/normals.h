@@ -33,8 +33,8 @@ typedef struct nsvcd__approach {
   double u;
 } nsvcd__approach;
 
-static void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found, double tick,
-                               nsvcd__approach *out) {
+static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
+                                            double tick, nsvcd__approach *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
   const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
   out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
@@ -56,7 +56,7 @@ static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
 // come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
 // apart all the while, it stays.
-static void nsvcd__turn_back(nsvcd__proof *p, double since) {
+static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
   nsvcd__contact *found = &p->known.found;
   nsvcd__contact sooner = *found;
   double early = since;
@@ -86,8 +86,8 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
-                            nsvcd__d3 *normal) {
+static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
+                                         nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
   const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
@@ -114,8 +114,8 @@ static int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p, const nsvcd__approach *a,
-                                   nsvcd__d3 way) {
+static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                const nsvcd__approach *a, nsvcd__d3 way) {
   const int moving_closed = nsvcd__moving_encloses(p, &a->couple);
   const int fixed_closed = nsvcd__fixed_encloses(p, &a->couple);
   const nsvcd__touch *t = &a->touch;
@@ -150,7 +150,7 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
 }
 
 // Gives the contact that is known its normal.
-static void nsvcd__settle_normal(nsvcd__proof *p) {
+static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   nsvcd__contact *found = &p->known.found;
   const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
   const double since = p->given.share > 0 ? until : 0;

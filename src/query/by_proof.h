@@ -237,8 +237,8 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
 // The directions that the contacts of a manifold may be about: the normal of the contact that was
 // found, and those of its faces that are not against it, where the bodies do not leave along them.
 // Returns how many. How the bodies go: 0 at the start, where they only touch.
-static int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
-                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
+static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
+                                                nsvcd__twist *twist, nsvcd__d3 *normals) {
   nsvcd__approach now;
   int count = 1;
   nsvcd__approach_at(p, found, found->tick, &now);
