@@ -215,6 +215,7 @@
 //     loop            the loop: all that a search finds is settled
 //     verdict         the verdict, the first contact, the least distance
 //     leave           leaving a contact, and how deep it is
+//     normals         a contact's normal, against the motion
 //   network: an opinion
 //     latent_rotation Wigner matrices; latents turned by them
 //     winding_number  what is inside of what, for the network
@@ -294,6 +295,7 @@
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
 //   tree, node        boxes over a mesh's triangles, for certificates; a run of these
 //   certificate       bytes that prove an answer; a walk over two trees and time, and rays
+//   twist             how the moving body goes at a time: a velocity and an angular velocity
 //   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
@@ -1000,11 +1002,20 @@ typedef struct nsvcd_contact {
   // metres, world. Where they meet, or on b where they are nearest: on its surface, if it is round.
   // Of a large triangle, which is stored in parts, on the part that was looked at last
   float point[3];
-  // world. Unit normal of one of them, from b to a (an open surface met from behind: as it is
-  // wound), or, where they are apart, the direction from b's to a's. 0 where none are named, and
-  // where that triangle has no area
+  // world, unit, from b to a, and against the motion: with v the velocity of a's point there less
+  // that of b's, v . normal is not above 0 wherever a motion has led to the contact (at a pose, v
+  // is that before it). Triangles that are apart have the direction from b's nearest point to a's;
+  // those that meet have the one at which they met as they go at that time. Where a corner met a
+  // face that is the face's normal, on the side that the corner came from, however it is wound;
+  // where an edge crossed an edge, the direction across both; where a corner met a corner or an
+  // edge, or an edge an edge along it, of all directions along which they were separated still the
+  // one most against v. Two contacts may be along v: triangles in touch from the start on, which
+  // have the direction along which they are the least deep, out of closed surfaces; and of a
+  // manifold, places where both faces are left. 0 where none are named, and where no direction is
+  // known, since they have no area
   float normal[3];
-  // metres between the stored triangles, less what is round; 0: they meet
+  // metres between the stored triangles, of a manifold at that place, less what is round; 0: they
+  // meet
   float gap;
   // in [0,1]: when, rounded up
   float time;
@@ -7005,6 +7016,13 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
   return numbers.number;
 }
 
+// Does listing n belong to a closed surface?
+static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
+  nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
+  nsvcd__read_number(&numbers, n);
+  return numbers.encloses && !f->body->open;
+}
+
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
   return nsvcd__centre_of(nsvcd__body_patches(f->body), patch);
 }
@@ -10981,8 +10999,14 @@ typedef struct nsvcd__contact {
   // the fixed body's frame; out of the fixed body
   nsvcd__d3 point, normal;
   uint32_t moving_triangle, fixed_triangle;
+  uint32_t moving_listing, fixed_listing;
   uint16_t moving_patch, fixed_patch;
 } nsvcd__contact;
+
+// How the moving body goes, as the fixed one sees it: a point x by `along` and turn x x in a tick.
+typedef struct nsvcd__twist {
+  nsvcd__d3 along, turn;
+} nsvcd__twist;
 
 // Two triangles that touch at the start, as the fixed body sees them.
 typedef struct nsvcd__touch {
@@ -10996,6 +11020,7 @@ typedef struct nsvcd__touch {
 typedef struct nsvcd__manifold {
   // unit: the contact's, and directions across it
   nsvcd__d3 normal, along[NSVCD__SUPPORTS];
+  nsvcd__twist twist;
   // nearer than `reach` is touching; nearer to each other than `same` is the same place
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
@@ -11421,7 +11446,34 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
   return at;
 }
 
-// The same, of p->arc, remembered: couples ask for the same poses again.
+// How the moving body goes there. Where both turn, what the fixed one does is taken off.
+static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
+  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const double per_tick = 1 / (double)arc->ticks;
+  nsvcd__twist out;
+  nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  out.along = arc->moved;
+  out.turn = turn;
+  if (arc->fixed_moves) {
+    const nsvcd__dquat q = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
+    nsvcd__d3 own = nsvcd__leg_turn(&arc->fixed);
+    own = nsvcd__dmat3_apply_transpose(&fixed, own);
+    turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
+    out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
+    out.along = nsvcd__d3_add(out.along, nsvcd__d3_cross(own, arc->lift));
+    out.turn = nsvcd__d3_sub(turn, own);
+  }
+  out.along = nsvcd__d3_sub(out.along, nsvcd__d3_cross(turn, at.position));
+  out.along = nsvcd__d3_scale(out.along, per_tick);
+  out.turn = nsvcd__d3_scale(out.turn, per_tick);
+  return out;
+}
+static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
+  return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
+}
+
+// The true pose in p->arc, remembered: couples ask for the same poses again.
 // The last two that were asked for stay where they are.
 static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
@@ -12191,6 +12243,14 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   return couple;
 }
 
+// Are these of closed surfaces, of which the winding says which side is out?
+static int nsvcd__moving_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+  return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
+}
+static int nsvcd__fixed_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+  return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
+}
+
 // What is said of two triangles a share u of the arc later than its start.
 static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
                                         double u, const nsvcd__nearest *nearest) {
@@ -12207,6 +12267,8 @@ static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__coup
       nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
   out.fixed_triangle =
       nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
+  out.moving_listing = (uint32_t)couple->moving_listing;
+  out.fixed_listing = (uint32_t)couple->fixed_listing;
   out.moving_patch = (uint16_t)couple->moving_patch;
   out.fixed_patch = (uint16_t)couple->fixed_patch;
   return out;
@@ -12887,14 +12949,16 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 // of the floor's triangles are near the side as well, but it is not what the body stands on.
 
 #ifndef NSVCD_NO_PROOF
-// Prepares a manifold of contacts with about this normal, unit.
-static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, double reach, double same) {
+// Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
+static void nsvcd__begin_places(nsvcd__proof *p, nsvcd__d3 n, const nsvcd__twist *twist,
+                                double reach, double same) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const int flattest = fabs(n.x) < fabs(n.y) ? 0 : 1;
   const nsvcd__d3 aside = nsvcd__d3_of(flattest == 0, flattest == 1, 0);
   const nsvcd__d3 u = nsvcd__d3_unit(nsvcd__d3_cross(n, aside), nsvcd__d3_of(1, 0, 0));
   memset(m, 0, sizeof *m);
   m->normal = n;
+  m->twist = *twist;
   m->reach = reach;
   m->same = same;
   // by an eighth of a turn each: the sum of one and the one a quarter on, shortened
@@ -12934,9 +12998,45 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
+// A couple that is looked at: the moving triangle, posed; where its faces look, out of the fixed
+// body, for the sides of an open surface as the normal of the contact does; and has it such?
+typedef struct nsvcd__facing {
+  const nsvcd__couple *couple;
+  const nsvcd__d3 *posed;
+  nsvcd__d3 faces[2];
+  int is_open;
+} nsvcd__facing;
+
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
+                                      const nsvcd__d3 *posed) {
+  const nsvcd__d3 n = p->of.kept.manifold.normal;
+  const int closed[2] = {nsvcd__moving_encloses(p, couple), nsvcd__fixed_encloses(p, couple)};
+  nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+  out.faces[1] = nsvcd__face_direction(couple->fixed);
+  for (int k = 0; k < 2; k++) {
+    nsvcd__d3 *face = &out.faces[k];
+    const int turned = nsvcd__d3_dot(*face, n) < 0;
+    if (turned && !closed[k]) *face = nsvcd__d3_scale(*face, -1);
+  }
+  return out;
+}
+
+// Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
+// then, or one of another couple.
+static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
+                          const nsvcd__d3 *faces) {
+  const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
+  const double least = 1e-7 * nsvcd__d3_length(speed);
+  if (!(nsvcd__d3_dot(speed, normal) > least)) return 0;
+  for (int k = 0; k < 2; k++)
+    if (nsvcd__d3_dot(speed, faces[k]) < -least) return 1;
+  return 0;
+}
+
 // Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
 // face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple *couple,
+static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
                                            nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
                                            nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
@@ -12944,8 +13044,14 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
   const double gap = side * nsvcd__d3_dot(way, normal);
   const double aside = nsvcd__d3_dot(way, way) - gap * gap;
+  nsvcd__d3 point;
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
+  // nor are they on the far side of a sheet that they do not pass through
+  const nsvcd__d3 *fixed = f->couple->fixed;
+  const int beyond = gap < 0 && f->is_open;
+  if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
+  if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
   nsvcd__contact contact;
   int known = 0;
@@ -12953,7 +13059,7 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__couple 
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, couple, 0, &nearest);
+    if (!known) contact = nsvcd__contact_at(p, f->couple, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
@@ -12973,27 +13079,26 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
                                               const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const nsvcd__d3 *fixed = couple->fixed;
-  const nsvcd__d3 faces[2] = {nsvcd__face_direction(posed), nsvcd__face_direction(fixed)};
-  // faces look at each other, along the normal
-  const double moving_up = -nsvcd__d3_dot(faces[0], m->normal);
-  const double fixed_up = nsvcd__d3_dot(faces[1], m->normal);
-  const int moving_faces = (p->moving.body->open ? fabs(moving_up) : moving_up) >= 0.8;
-  const int fixed_faces = (p->fixed.body->open ? fabs(fixed_up) : fixed_up) >= 0.8;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
     for (int i = 0; i < 3; i++)
       farther |= nsvcd__d3_dot(m->along[k], posed[i]) + m->reach >= m->farthest[k] - m->same;
   }
-  for (size_t k = 0; k < 3 && farther; k++) {
+  if (!farther) return;
+  // faces look at each other, along the normal
+  const nsvcd__facing facing = nsvcd__facing_of(p, couple, posed);
+  const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
+  const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
+  for (size_t k = 0; k < 3; k++) {
     const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
     const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, couple, posed[k], foot, faces[1], moving_id);
+      nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
     if (moving_faces && nsvcd__foot_within(fixed[k], posed, &foot) &&
         nsvcd__d3_distance2(fixed[k], foot) <= m->reach * m->reach)
-      nsvcd__keep_place(p, couple, foot, fixed[k], faces[0], fixed_id);
+      nsvcd__keep_place(p, &facing, foot, fixed[k], facing.faces[0], fixed_id);
     for (size_t i = 0; i < 3; i++) {
       const nsvcd__d3 a = posed[(k + 1) % 3];
       const nsvcd__d3 b = fixed[(i + 1) % 3];
@@ -13009,8 +13114,8 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
       nsvcd__edges_nearest(posed[k], a, fixed[i], b, &nearest);
       if (!(nearest.square <= m->reach * m->reach)) continue;
       const uint32_t number = moving_id * 3 + fixed_id * 5 + (uint32_t)(1 + i) * 0x9e3779b9u;
-      nsvcd__keep_place(p, couple, nearest.on_a, nearest.on_b,
-                        nsvcd__d3_unit(across, faces[1]), number | 2);
+      nsvcd__keep_place(p, &facing, nearest.on_a, nearest.on_b,
+                        nsvcd__d3_unit(across, facing.faces[1]), number | 2);
     }
   }
 }
@@ -14850,6 +14955,175 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
   p->ask.motion = whole;
   whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
   nsvcd__proof_restart(p);
+}
+#endif  // NSVCD_NO_PROOF
+
+// ----------------------------------------------------------------------------------- proof/normals
+// In: a contact, and the motion that led to it. Out: its normal.
+//
+// Just before two triangles meet, the direction between their nearest points is one along which
+// they are separated still: of all that are left at the contact, the one most against the motion.
+// Where a corner comes to a face it is the face's normal, on the side that the corner comes from;
+// where an edge crosses an edge, across both; where a corner comes to a corner, against the motion.
+// A contact may be found a little after they have met: so one of them is taken back, as fast as the
+// contact point goes, until they are separated. Where they have been in touch from the start the
+// motion tells nothing: then it is the direction along which they are the least deep.
+//
+// Triangles within the clearance that do not meet have a direction: their nearest points'. It is
+// along the motion only if they have been nearer, and then the contact is moved to before that.
+
+#ifndef NSVCD_NO_PROOF
+// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends
+// there: what comes to a contact comes by that one.
+static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
+  uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
+  if (first > 0 && tick - (double)first < 6e-8 * (double)p->ask.motion->ticks) {
+    first = nsvcd__arc_of(p->ask.motion, (double)first - 0.5, u);
+    *u = 1;
+  }
+  return nsvcd__arc_at(p, first);
+}
+
+// The triangles of a contact at a time, and how the bodies go then.
+typedef struct nsvcd__approach {
+  nsvcd__couple couple;
+  nsvcd__touch touch;
+  nsvcd__twist twist;
+  double u;
+} nsvcd__approach;
+
+static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
+                                            double tick, nsvcd__approach *out) {
+  const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
+  const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
+  out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
+                                 found->moving_listing, found->fixed_listing);
+  nsvcd__place_triangle(&at, out->couple.moving, out->touch.moving);
+  memcpy(out->touch.fixed, out->couple.fixed, sizeof out->touch.fixed);
+  out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
+  out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
+  out->twist = nsvcd__twist_at(arc, out->u);
+}
+
+// Do two points come apart?
+static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points) {
+  const nsvcd__d3 apart = nsvcd__d3_sub(points->on_a, points->on_b);
+  const nsvcd__d3 speed = nsvcd__twist_of(twist, points->on_b);
+  return nsvcd__d3_dot(speed, apart) > 0;
+}
+
+// Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
+// come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
+// apart all the while, it stays.
+static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
+  nsvcd__contact *found = &p->known.found;
+  nsvcd__contact sooner = *found;
+  double early = since;
+  double late = found->tick;
+  double tick = late;
+  for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
+    nsvcd__approach then;
+    nsvcd__approach_at(p, found, tick, &then);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
+    const double gap = sqrt(nearest.square);
+    const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
+    const int nearing = gap > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
+    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.couple, then.u, &nearest);
+    if (are_near && nearing) break;
+    *(are_near ? &late : &early) = tick;
+    tick = k == 0 ? early : 0.5 * (early + late);
+  }
+  if (early < late) *found = sooner;
+}
+
+// The directions along which two triangles that touch may be separated, both ways: 22. 0: none.
+static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
+  const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t, k / 2 - 2);
+  return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
+}
+
+// The direction at which two triangles met that touch, if the moving one came straight along so
+// much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
+// a corner met: so it is that a little before.
+static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
+                                         nsvcd__d3 *normal) {
+  const nsvcd__touch *t = &a->touch;
+  const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
+  double back = HUGE_VAL;  // where they met, as a share of the way
+  double before = 0;
+  nsvcd__d3 moved[3];
+  for (size_t k = 0; k < 22; k++) {
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
+    const double fall = -nsvcd__d3_dot(n, way);
+    const double deep = nsvcd__lift_along(n, t);
+    if (!(fall > 0) || !(deep < back * fall)) continue;
+    back = deep / fall;
+    before = nsvcd__max(close, 1e4 * a->couple.rounding / fall);
+    *normal = n;
+  }
+  if (!(back < most)) return 0;
+  const nsvcd__d3 off = nsvcd__d3_scale(way, back + before);
+  for (int n = 0; n < 3; n++) moved[n] = nsvcd__d3_sub(t->moving[n], off);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(moved, t->fixed);
+  const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+  if (nsvcd__d3_dot(apart, way) < 0) *normal = nsvcd__d3_unit(apart, *normal);
+  return 1;
+}
+
+// The direction along which two triangles that touch are the least deep in each other; of several
+// the one most against `way`. A face of a closed surface has one side, and no direction is against
+// both faces.
+static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                const nsvcd__approach *a, nsvcd__d3 way) {
+  const int moving_closed = nsvcd__moving_encloses(p, &a->couple);
+  const int fixed_closed = nsvcd__fixed_encloses(p, &a->couple);
+  const nsvcd__touch *t = &a->touch;
+  const double same = 1e4 * a->couple.rounding;
+  nsvcd__d3 best = t->ways[1];
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < 22; k++) {
+    const nsvcd__d3 n = nsvcd__axis_apart(t, k);
+    const int out_of_moving = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
+    const int out_of_fixed = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
+    int is_out = out_of_moving || out_of_fixed;
+    if (k < 4) is_out = k < 2 ? out_of_fixed : out_of_moving;
+    if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
+    const double depth = nsvcd__lift_along(n, t);
+    const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);
+    if (depth > least - same && !(depth < least + same && more > 0)) continue;
+    best = n;
+    least = nsvcd__min(least, depth);
+  }
+  return best;
+}
+
+// The direction at which the triangles of the contact that is known met, if they did not before
+// `since`; or, if they were free of each other then, at some time.
+static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
+                             nsvcd__approach *now) {
+  nsvcd__contact *found = &p->known.found;
+  nsvcd__approach_at(p, found, found->tick, now);
+  const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
+  const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
+  return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
+}
+
+// Gives the contact that is known its normal.
+static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
+  nsvcd__contact *found = &p->known.found;
+  const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
+  const double since = p->given.share > 0 ? until : 0;
+  const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
+  nsvcd__approach now;
+  if (found->distance > 0) nsvcd__turn_back(p, since);
+  if (found->distance > 0 || nsvcd__normal_met(p, since, 0, &now)) return;
+  if (is_free) {
+    // it has turned since, and they may come apart again
+    nsvcd__turn_back(p, since);
+    if (nsvcd__normal_met(p, since, 1, &now)) return;
+  }
+  const nsvcd__d3 speed = nsvcd__twist_of(&now.twist, found->point);
+  found->normal = nsvcd__shallowest(p, &now, speed);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -16815,16 +17089,27 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
   return still;
 }
 
-// Against the normal of a contact's moving triangle, as the bodies rest.
-static nsvcd__d3 nsvcd__against(nsvcd__proof *p, const nsvcd__contact *found) {
-  const size_t patch = found->moving_patch;
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  nsvcd__d3 corners[3], posed[3];
-  size_t n = p->moving.first_triangle[patch];
-  while (nsvcd__facet_number(&p->moving, patch, n) != found->moving_triangle) n++;
-  nsvcd__facet_triangle(&p->moving, patch, n, corners);
-  nsvcd__place_triangle(&at, corners, posed);
-  return nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
+// The directions that the contacts of a manifold may be about: the normal of the contact that was
+// found, and those of its faces that are not against it, where the bodies do not leave along them.
+// Returns how many. How the bodies go: 0 at the start, where they only touch.
+static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
+                                                nsvcd__twist *twist, nsvcd__d3 *normals) {
+  nsvcd__approach now;
+  int count = 1;
+  nsvcd__approach_at(p, found, found->tick, &now);
+  memset(twist, 0, sizeof *twist);
+  if (found->tick > 0) *twist = now.twist;
+  p->of.kept.manifold.normal = normals[0] = found->normal;
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.couple, now.touch.moving);
+  for (int k = 1; k >= 0; k--) {
+    const nsvcd__d3 n = facing.faces[k];
+    const nsvcd__d3 all[2] = {found->normal, found->normal};
+    int is_new = nsvcd__d3_dot(n, found->normal) > -0.1;
+    is_new &= !nsvcd__is_left(twist, found->point, n, all);
+    for (int i = 0; i < count; i++) is_new &= nsvcd__d3_dot(n, normals[i]) <= 0.9;
+    if (is_new) normals[count++] = n;
+  }
+  return count;
 }
 
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
@@ -16840,20 +17125,21 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
+  nsvcd__d3 normals[3];
   double widest = -1;
   nsvcd_pose poses[2];
+  nsvcd__twist twist;
+  int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
   p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
-  const nsvcd__d3 normals[2] = {found.normal, nsvcd__against(p, &found)};
-  int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
     double area;
-    nsvcd__begin_places(p, normals[k], p->ask.clearance, same);
+    nsvcd__begin_places(p, normals[k], &twist, p->ask.clearance, same);
     nsvcd__seek_places(p, 0, NSVCD__AROUND);
     int count = nsvcd__choose_four(m, chosen, &area);
     if (nsvcd__look_across(&p->of.kept.manifold, area)) {
@@ -16920,6 +17206,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const int has_doubt = p->known.unsure < NSVCD__NEVER;
   const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
   const int is_within = verdict == NSVCD__WITHIN;
+  if (names && !is_within) nsvcd__settle_normal(p);
   const int is_free = verdict == NSVCD__FREE;
   const int is_hit = is_within || verdict == NSVCD__MEETS;
   nsvcd__answer_begin(task,
@@ -18044,21 +18331,24 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
-#define nsvcd__against NSVCD__AT(against)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__approach NSVCD__AT(approach)
+#define nsvcd__approach_at NSVCD__AT(approach_at)
 #define nsvcd__arc NSVCD__AT(arc)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
+#define nsvcd__arc_before NSVCD__AT(arc_before)
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
 #define nsvcd__are_opposed NSVCD__AT(are_opposed)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__at_origin NSVCD__AT(at_origin)
+#define nsvcd__axis_apart NSVCD__AT(axis_apart)
 #define nsvcd__beam NSVCD__AT(beam)
 #define nsvcd__begin_places NSVCD__AT(begin_places)
 #define nsvcd__bends NSVCD__AT(bends)
@@ -18163,11 +18453,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__face_direction NSVCD__AT(face_direction)
 #define nsvcd__face_normal NSVCD__AT(face_normal)
 #define nsvcd__facet_vertices NSVCD__AT(facet_vertices)
+#define nsvcd__facing NSVCD__AT(facing)
+#define nsvcd__facing_of NSVCD__AT(facing_of)
 #define nsvcd__farthest_tip NSVCD__AT(farthest_tip)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
+#define nsvcd__fixed_encloses NSVCD__AT(fixed_encloses)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__foot_within NSVCD__AT(foot_within)
 #define nsvcd__forget NSVCD__AT(forget)
@@ -18217,6 +18510,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_inside NSVCD__AT(is_inside)
 #define nsvcd__is_large NSVCD__AT(is_large)
+#define nsvcd__is_left NSVCD__AT(is_left)
 #define nsvcd__is_length NSVCD__AT(is_length)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
@@ -18262,6 +18556,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__look_across NSVCD__AT(look_across)
 #define nsvcd__manifold NSVCD__AT(manifold)
+#define nsvcd__manifold_normals NSVCD__AT(manifold_normals)
 #define nsvcd__margin_along NSVCD__AT(margin_along)
 #define nsvcd__mat3_lane NSVCD__AT(mat3_lane)
 #define nsvcd__matters NSVCD__AT(matters)
@@ -18275,6 +18570,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__meets_at NSVCD__AT(meets_at)
 #define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__memo NSVCD__AT(memo)
+#define nsvcd__met_along NSVCD__AT(met_along)
 #define nsvcd__method_of NSVCD__AT(method_of)
 #define nsvcd__motion NSVCD__AT(motion)
 #define nsvcd__motion_gap NSVCD__AT(motion_gap)
@@ -18286,6 +18582,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
+#define nsvcd__moving_encloses NSVCD__AT(moving_encloses)
 #define nsvcd__moving_ranges NSVCD__AT(moving_ranges)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
@@ -18298,6 +18595,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__next_knot NSVCD__AT(next_knot)
 #define nsvcd__next_place NSVCD__AT(next_place)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
+#define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
 #define nsvcd__normals_part NSVCD__AT(normals_part)
 #define nsvcd__not_parted NSVCD__AT(not_parted)
@@ -18355,6 +18653,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__ray NSVCD__AT(ray)
 #define nsvcd__ray_crosses NSVCD__AT(ray_crosses)
 #define nsvcd__reach_of NSVCD__AT(reach_of)
+#define nsvcd__recede NSVCD__AT(recede)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__resting NSVCD__AT(resting)
@@ -18398,10 +18697,12 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_doubt NSVCD__AT(settle_doubt)
 #define nsvcd__settle_item NSVCD__AT(settle_item)
 #define nsvcd__settle_items NSVCD__AT(settle_items)
+#define nsvcd__settle_normal NSVCD__AT(settle_normal)
 #define nsvcd__settle_row NSVCD__AT(settle_row)
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_straight NSVCD__AT(settle_straight)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
+#define nsvcd__shallowest NSVCD__AT(shallowest)
 #define nsvcd__share_of NSVCD__AT(share_of)
 #define nsvcd__sheets NSVCD__AT(sheets)
 #define nsvcd__sheets_begin NSVCD__AT(sheets_begin)
@@ -18465,9 +18766,13 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
+#define nsvcd__turn_back NSVCD__AT(turn_back)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
 #define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)
+#define nsvcd__twist NSVCD__AT(twist)
+#define nsvcd__twist_at NSVCD__AT(twist_at)
+#define nsvcd__twist_of NSVCD__AT(twist_of)
 #define nsvcd__undoes NSVCD__AT(undoes)
 #define nsvcd__undoing NSVCD__AT(undoing)
 #define nsvcd__undone_by NSVCD__AT(undone_by)
