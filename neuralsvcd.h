@@ -2011,7 +2011,8 @@ static const char *nsvcd__text_of(const char *texts, size_t n) {
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
   return nsvcd__text_of(
       "ok\0"
-      "a pointer is NULL that must not be: an argument, or a body or an array in one\0"
+      "a pointer is NULL that "
+      "must not be: an argument, or a body or an array in one\0"
       "the file is missing or cannot be read\0"
       "out of memory\0"
       "the memory given is NULL, misaligned, or too small: its size or capacity\0"
@@ -2024,7 +2025,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a coordinate is not finite, or beyond a million metres\0"
       "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
       "more vertices, triangles or bytes than can be counted\0"
-      "sizes: a face has fewer than three corners, or all together not corner_count\0"
+      "sizes: a face has fewer "
+      "than three corners, or all together not corner_count\0"
       "low or high is not finite, or low is not less than high on each axis\0"
       "patches is more than 65536, or patch_radius is negative or not finite\0"
       "radius, round or half is negative, zero where it must not be, not finite or too "
@@ -2032,10 +2034,12 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "this is not a body: its first bytes are others, or it is damaged, cut short or "
       "misaligned\0"
       "the body is of another version, model or byte order: encode the mesh again\0"
-      "a body holds no triangles, which a proof needs: encode it without no_triangles\0"
+      "a body holds no triangles, "
+      "which a proof needs: encode it without no_triangles\0"
       "a body holds no latents, which the network needs: encode it with latents, and "
       "without round\0"
-      "poses and count do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
+      "poses and count "
+      "do not agree: count is 0 where poses is NULL, else 1 to 65536\0"
       "times do not rise, or, of poses, not from 0 to 1 by 1e-7 or more\0"
       "the position of a pose is not finite, or beyond a million metres\0"
       "a quaternion (x y z w) is not of unit length, to 1e-4\0"
@@ -2064,7 +2068,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a joint's limits are not finite or too large, or low is above high\0"
       "a joint's speed or acceleration is negative, not finite or too large\0"
       "a link is no joint of the scene, or a part none of its parts\0"
-      "a pair is not there, or names a part that is not there, one twice, or two of one link\0"
+      "a pair is not there, or "
+      "names a part that is not there, one twice, or two of one link\0"
       "a joint's value (start, goal, guess, points) is not finite or too large\0"
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
@@ -2310,7 +2315,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 // A double also where registers are wider (x87), for what is compared with itself computed again.
-static inline double nsvcd__to_double(double x) {
+static inline double nsvcd__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
 #else
@@ -2319,7 +2324,7 @@ static inline double nsvcd__to_double(double x) {
 #endif
 }
 static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
-  return nsvcd__d3_of(nsvcd__to_double(a.x), nsvcd__to_double(a.y), nsvcd__to_double(a.z));
+  return nsvcd__d3_of(nsvcd__stored(a.x), nsvcd__stored(a.y), nsvcd__stored(a.z));
 }
 
 // -------------------------------------------------------------------------------- ground/rotations
@@ -3227,8 +3232,8 @@ static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
 }
 
 // A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
-static nsvcd_result nsvcd__mesh_coordinate(const nsvcd_mesh_options *options, size_t axis,
-                                           double value, float *out) {
+static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t axis,
+                                       double value, float *out) {
   const double metres = (value - options->origin[axis]) * options->scale;
   if (!(fabs(metres) <= (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   *out = (float)metres;
@@ -3416,10 +3421,10 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
 // Is the statement's keyword one of OBJ's?
 static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
   static const char words[] =
-      " v f vt vn vp p l g o s mg usemtl mtllib usemap maplib cstype deg bmat step curv curv2 "
-      "surf "
-      "parm trim hole scrv sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech "
-      "stech ";
+      " v vt vn vp p l f g o s mg usemtl mtllib usemap maplib "
+      "cstype deg bmat step curv curv2 surf parm trim hole scrv "
+      "sp end con bevel c_interp d_interp lod shadow_obj "
+      "trace_obj ctech stech ";
   const size_t length = (size_t)(obj->at - obj->word);
   for (const char *word = words; *++word; word += strcspn(word, " ")) {
     if (strcspn(word, " ") == length && memcmp(word, obj->word, length) == 0) return 1;
@@ -3470,7 +3475,7 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
       }
       if (count == 8) result = NSVCD_ERROR_SYNTAX;
       if (!result && count < 3)
-        result = nsvcd__mesh_coordinate(&obj->options, (size_t)count, value, positions++);
+        result = nsvcd__mesh_number(&obj->options, (size_t)count, value, positions++);
       if (result) return result;
     }
     if (count < 3) return NSVCD_ERROR_SYNTAX;
@@ -3615,7 +3620,7 @@ static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
     const uint32_t bits = nsvcd__stl_word(at + 4 * k);
     float value;
     memcpy(&value, &bits, sizeof bits);
-    result = nsvcd__mesh_coordinate(options, k, (double)value, &out[k]);
+    result = nsvcd__mesh_number(options, k, (double)value, &out[k]);
   }
   return result;
 }
@@ -3661,7 +3666,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
         if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
         nsvcd_result result = nsvcd__obj_number(text, &value);
         float *corner = corners + 3 * *count + k;
-        if (!result) result = nsvcd__mesh_coordinate(&text->options, k, value, corner);
+        if (!result) result = nsvcd__mesh_number(&text->options, k, value, corner);
         if (result) return result;
       }
       in_loop++;
@@ -7047,7 +7052,7 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 // ---- what follows from the patches
 
 // A float not less than x, which is not negative.
-static float nsvcd__round_outward(double x) {
+static float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
@@ -7115,7 +7120,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   disc.normal = nsvcd__f3_round(best);
   disc.low = (float)(thinnest.low - margin);
   disc.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
-  disc.across = nsvcd__round_outward(thinnest.across + margin);
+  disc.across = nsvcd__above(thinnest.across + margin);
   float *discs = (float *)nsvcd__writable(b, f.group_discs);
   nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
 }
@@ -7143,7 +7148,7 @@ static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const double radius = (double)f->slacks[i] + rounding;
       const size_t n = out->count++;
-      out->spheres[3][n] = nsvcd__round_outward(radius);
+      out->spheres[3][n] = nsvcd__above(radius);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
     }
   }
@@ -7639,11 +7644,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
+    slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
+    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding);
     disc.low = (float)((double)disc.low * by - rounding);
     disc.high = (float)((double)disc.high * by + rounding);
-    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
+    disc.across = nsvcd__above((double)disc.across * by + rounding);
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
@@ -7976,7 +7981,8 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #ifdef NSVCD_NO_NETWORK
   if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
+  if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
+  if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
     return NSVCD_ERROR_RADIUS;
   if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;
@@ -12244,10 +12250,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
-static int nsvcd__moving_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
   return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
 }
-static int nsvcd__fixed_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
   return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
 }
 
@@ -13010,7 +13016,7 @@ typedef struct nsvcd__facing {
 static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
                                       const nsvcd__d3 *posed) {
   const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_encloses(p, couple), nsvcd__fixed_encloses(p, couple)};
+  const int closed[2] = {nsvcd__moving_closed(p, couple), nsvcd__fixed_closed(p, couple)};
   nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.faces[1] = nsvcd__face_direction(couple->fixed);
@@ -14985,15 +14991,15 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
 }
 
 // The triangles of a contact at a time, and how the bodies go then.
-typedef struct nsvcd__approach {
+typedef struct nsvcd__meet {
   nsvcd__couple couple;
   nsvcd__touch touch;
   nsvcd__twist twist;
   double u;
-} nsvcd__approach;
+} nsvcd__meet;
 
-static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
-                                            double tick, nsvcd__approach *out) {
+static NSVCD__APART void nsvcd__meet_at(nsvcd__proof *p, const nsvcd__contact *found,
+                                        double tick, nsvcd__meet *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
   const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
   out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
@@ -15022,8 +15028,8 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
   double late = found->tick;
   double tick = late;
   for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
-    nsvcd__approach then;
-    nsvcd__approach_at(p, found, tick, &then);
+    nsvcd__meet then;
+    nsvcd__meet_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
     const double gap = sqrt(nearest.square);
     const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
@@ -15036,7 +15042,9 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
   if (early < late) *found = sooner;
 }
 
-// The directions along which two triangles that touch may be separated, both ways: 22. 0: none.
+// The directions along which two triangles that touch may be separated: two normals and nine
+// products of edges, both ways. 0: none.
+enum { NSVCD__AXES = 22 };
 static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
   const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
@@ -15045,14 +15053,14 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
+static NSVCD__APART int nsvcd__met_along(const nsvcd__meet *a, nsvcd__d3 way, double most,
                                          nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
   const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
-  for (size_t k = 0; k < 22; k++) {
+  for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
     const double fall = -nsvcd__d3_dot(n, way);
     const double deep = nsvcd__lift_along(n, t);
@@ -15073,15 +15081,15 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
-                                                const nsvcd__approach *a, nsvcd__d3 way) {
-  const int moving_closed = nsvcd__moving_encloses(p, &a->couple);
-  const int fixed_closed = nsvcd__fixed_encloses(p, &a->couple);
+static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p, const nsvcd__meet *a,
+                                                nsvcd__d3 way) {
+  const int moving_closed = nsvcd__moving_closed(p, &a->couple);
+  const int fixed_closed = nsvcd__fixed_closed(p, &a->couple);
   const nsvcd__touch *t = &a->touch;
   const double same = 1e4 * a->couple.rounding;
   nsvcd__d3 best = t->ways[1];
   double least = HUGE_VAL;
-  for (size_t k = 0; k < 22; k++) {
+  for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
     const int out_of_moving = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
     const int out_of_fixed = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
@@ -15099,10 +15107,9 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
 
 // The direction at which the triangles of the contact that is known met, if they did not before
 // `since`; or, if they were free of each other then, at some time.
-static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
-                             nsvcd__approach *now) {
+static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free, nsvcd__meet *now) {
   nsvcd__contact *found = &p->known.found;
-  nsvcd__approach_at(p, found, found->tick, now);
+  nsvcd__meet_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
   return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
@@ -15114,7 +15121,7 @@ static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
   const double since = p->given.share > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
-  nsvcd__approach now;
+  nsvcd__meet now;
   if (found->distance > 0) nsvcd__turn_back(p, since);
   if (found->distance > 0 || nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
@@ -18286,6 +18293,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__AT_ENTRY NSVCD__NUMBER_AT(AT_ENTRY)
 #define NSVCD__AT_EXIT NSVCD__NUMBER_AT(AT_EXIT)
 #define NSVCD__AT_MIDDLE NSVCD__NUMBER_AT(AT_MIDDLE)
+#define NSVCD__AXES NSVCD__NUMBER_AT(AXES)
 #define NSVCD__BY_DISC NSVCD__NUMBER_AT(BY_DISC)
 #define NSVCD__BY_HULL NSVCD__NUMBER_AT(BY_HULL)
 #define NSVCD__BY_TRIANGLES NSVCD__NUMBER_AT(BY_TRIANGLES)
@@ -18337,8 +18345,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
-#define nsvcd__approach NSVCD__AT(approach)
-#define nsvcd__approach_at NSVCD__AT(approach_at)
 #define nsvcd__arc NSVCD__AT(arc)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
 #define nsvcd__arc_before NSVCD__AT(arc_before)
@@ -18460,7 +18466,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
-#define nsvcd__fixed_encloses NSVCD__AT(fixed_encloses)
+#define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__foot_within NSVCD__AT(foot_within)
 #define nsvcd__forget NSVCD__AT(forget)
@@ -18565,6 +18571,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__measure_once NSVCD__AT(measure_once)
 #define nsvcd__measure_turn NSVCD__AT(measure_turn)
 #define nsvcd__meet NSVCD__AT(meet)
+#define nsvcd__meet_at NSVCD__AT(meet_at)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
@@ -18582,7 +18589,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
 #define nsvcd__mover_check NSVCD__AT(mover_check)
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
-#define nsvcd__moving_encloses NSVCD__AT(moving_encloses)
+#define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_ranges NSVCD__AT(moving_ranges)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
@@ -19369,7 +19376,7 @@ typedef struct nsvcd__rider {
 
 static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
   if (mover->times) return (double)mover->times[k];
-  return nsvcd__to_double((double)k / (double)(mover->count - 1));
+  return nsvcd__stored((double)k / (double)(mover->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
@@ -19405,7 +19412,7 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   // summed in doubles: its sign says which way a turn by 180 degrees goes
   double dot = 0;
   for (size_t k = 0; k < 4; k++)
-    dot = nsvcd__to_double(dot + (double)a->rotation[k] * (double)b->rotation[k]);
+    dot = nsvcd__stored(dot + (double)a->rotation[k] * (double)b->rotation[k]);
   const double side = dot < 0 ? -1 : 1;
   out.from = nsvcd__dquat_unit(from);
   out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
@@ -20069,7 +20076,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return nsvcd__to_double(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+  return nsvcd__stored(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
@@ -20814,7 +20821,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
     const nsvcd_body_pair *pair = &scene->pairs[k];
-    if (pair->a >= scene->part_count || pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (pair->a >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
     if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
   }
   return result;
@@ -21081,7 +21089,7 @@ static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
 }
 
 // Takes a contact as it is seen to the world.
-static void nsvcd__place_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
+static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
   const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
   const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
@@ -21155,8 +21163,7 @@ static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pai
   const double strays = is_proof ? off + view.rounding : 0;
   const double clearance = (double)options->clearance + strays;
   return nsvcd__ask_seen(c, pair, spell->steps + 1,
-                         clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
-                         answer);
+                         clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
 }
 
 // Is a pair hit at joints of its motion? Then the answer says so.
@@ -21179,7 +21186,7 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
-  nsvcd__place_contact(&view, &answer->contact);
+  nsvcd__set_contact(&view, &answer->contact);
   return NSVCD_OK;
 }
 
@@ -21422,7 +21429,7 @@ typedef struct nsvcd__carried {
 static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
   const double first = nsvcd__piece_start(m, 0);
   const double whole = nsvcd__piece_start(m, m->pieces) - first;
-  return nsvcd__to_double((nsvcd__piece_start(m, k) - first) / whole);
+  return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
 }
 
 static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
@@ -21808,8 +21815,8 @@ static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
 }
 
 // Of two parts where they stand.
-static nsvcd_question nsvcd__standing_question(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                               size_t work, nsvcd__sight *view) {
+static nsvcd_question nsvcd__ask_standing(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t work, nsvcd__sight *view) {
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
                                          nsvcd__frames_at(c, pair->b, 0)};
   nsvcd__look(c, pair, frames, 1, view);
@@ -21892,11 +21899,11 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   const nsvcd__d3 along = nsvcd__d3_scale(lift, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
-  gap->depth = nsvcd__round_outward(high * length);
+  gap->depth = nsvcd__above(high * length);
   gap->contact = found.nearest;
   gap->contact.gap = 0;
   nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
-  nsvcd__place_contact(view, &gap->contact);
+  nsvcd__set_contact(view, &gap->contact);
   // a lift parts the two faces slower than it goes, unless it is along their normal
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
@@ -21918,11 +21925,11 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
     return NSVCD_OK;
-  nsvcd_question question = nsvcd__standing_question(c, both, o->work, &view);
+  nsvcd_question question = nsvcd__ask_standing(c, both, o->work, &view);
   // places are off by so much, at most, and a lift that is told in floats
   const double off = frames_off + view.rounding;
-  const float deepest_off = nsvcd__round_outward(off + 2e-7 * (double)o->deepest);
-  question.clearance = nsvcd__round_outward((double)o->within + off);
+  const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
+  question.clearance = nsvcd__above((double)o->within + off);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -21937,25 +21944,25 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->why = found.why;
   gap->contact = found.nearest;
   if (found.verdict == NSVCD_HIT) {
-    nsvcd__place_contact(&view, &gap->contact);
-    gap->distance.high = nsvcd__round_outward(off);
+    nsvcd__set_contact(&view, &gap->contact);
+    gap->distance.high = nsvcd__above(off);
     gap->depth = HUGE_VALF;
     question.clearance = deepest_off;
     return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
   }
-  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
+  gap->distance.high = nsvcd__above((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
   nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
   nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
-  nsvcd__place_contact(&view, &gap->contact);
+  nsvcd__set_contact(&view, &gap->contact);
   if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
   // the poses are free of each other: are the parts?
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  question.clearance = nsvcd__round_outward(off);
+  question.clearance = nsvcd__above(off);
   result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   gap->verdict = NSVCD_UNDECIDED;
@@ -21973,7 +21980,8 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.within) || !nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.within)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
@@ -22112,7 +22120,7 @@ static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__stand(c, joints);
-    const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
+    const nsvcd_question question = nsvcd__ask_standing(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }

@@ -212,11 +212,11 @@ postures: depths of a alone|nsvcd__slope_add(c, both->b, view, point, normal, -1
 postures: depths without a rate|nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);|nsvcd__slope_add(c, both->a, view, on_a, normal, 1, gap->slope);
 postures: depths where a is lifted|const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);|const nsvcd__d3 on_a = point;
 postures: near without the boxes' room|&members[1]->box, 1.000001 * within))|&members[1]->box, 0.5 * within))
-postures: near without within|question.clearance = nsvcd__round_outward((double)o->within + off);|question.clearance = 0;
-postures: no depth|gap->depth = nsvcd__round_outward(high * length);|
-postures: a depth of half|gap->depth = nsvcd__round_outward(high * length);|gap->depth = 0.5f * nsvcd__round_outward(high * length);
+postures: near without within|question.clearance = nsvcd__above((double)o->within + off);|question.clearance = 0;
+postures: no depth|gap->depth = nsvcd__above(high * length);|
+postures: a depth of half|gap->depth = nsvcd__above(high * length);|gap->depth = 0.5f * nsvcd__above(high * length);
 postures: a depth of all the lift|*(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;|low = middle;
-postures: brackets without rounding|gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);|gap->distance.high = found.distance.high;
+postures: brackets without rounding|gap->distance.high = nsvcd__above((double)found.distance.high + off);|gap->distance.high = found.distance.high;
 postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] = gap;|gaps[near_ones] = gap;
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
 postures: escapes to anywhere|ring * o->farthest;|2 * ring * o->farthest;

@@ -259,7 +259,8 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 #ifdef NSVCD_NO_NETWORK
   if (o->latents) return NSVCD_ERROR_LATENTS;
 #endif
-  if (!nsvcd__is_finite(o->patch_radius) || o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
+  if (!nsvcd__is_finite(o->patch_radius)) return NSVCD_ERROR_PATCHES;
+  if (o->patch_radius < 0) return NSVCD_ERROR_PATCHES;
   if (!nsvcd__within(&o->round, 1, NSVCD_MAX_COORDINATE) || o->round < 0)
     return NSVCD_ERROR_RADIUS;
   if (o->round > 0 && o->latents) return NSVCD_ERROR_LATENTS;

@@ -236,7 +236,7 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 // ---- what follows from the patches
 
 // A float not less than x, which is not negative.
-static float nsvcd__round_outward(double x) {
+static float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
@@ -304,7 +304,7 @@ static void nsvcd__finish_group(nsvcd_body *b, size_t g) {
   disc.normal = nsvcd__f3_round(best);
   disc.low = (float)(thinnest.low - margin);
   disc.high = thinnest.high < HUGE_VAL ? (float)(thinnest.high + margin) : 0;
-  disc.across = nsvcd__round_outward(thinnest.across + margin);
+  disc.across = nsvcd__above(thinnest.across + margin);
   float *discs = (float *)nsvcd__writable(b, f.group_discs);
   nsvcd__disc_store(disc, discs, nsvcd__group_slots(b->padded), g);
 }
@@ -332,7 +332,7 @@ static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *
       const double rounding = 1.1e-7 * nsvcd__d3_length(v);
       const double radius = (double)f->slacks[i] + rounding;
       const size_t n = out->count++;
-      out->spheres[3][n] = nsvcd__round_outward(radius);
+      out->spheres[3][n] = nsvcd__above(radius);
       nsvcd__f3_put(nsvcd__f3_round(v), &out->spheres[0][n], NSVCD__HULLS);
     }
   }

@@ -306,11 +306,11 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
-    slacks[i] = nsvcd__round_outward((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__round_outward((double)quanta[i] * by + rounding);
+    slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
+    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding);
     disc.low = (float)((double)disc.low * by - rounding);
     disc.high = (float)((double)disc.high * by + rounding);
-    disc.across = nsvcd__round_outward((double)disc.across * by + rounding);
+    disc.across = nsvcd__above((double)disc.across * by + rounding);
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;

@@ -191,7 +191,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return nsvcd__to_double(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+  return nsvcd__stored(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,

@@ -36,7 +36,7 @@ typedef struct nsvcd__rider {
 
 static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
   if (mover->times) return (double)mover->times[k];
-  return nsvcd__to_double((double)k / (double)(mover->count - 1));
+  return nsvcd__stored((double)k / (double)(mover->count - 1));
 }
 
 // The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
@@ -72,7 +72,7 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   // summed in doubles: its sign says which way a turn by 180 degrees goes
   double dot = 0;
   for (size_t k = 0; k < 4; k++)
-    dot = nsvcd__to_double(dot + (double)a->rotation[k] * (double)b->rotation[k]);
+    dot = nsvcd__stored(dot + (double)a->rotation[k] * (double)b->rotation[k]);
   const double side = dot < 0 ? -1 : 1;
   out.from = nsvcd__dquat_unit(from);
   out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);

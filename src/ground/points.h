@@ -129,7 +129,7 @@ static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
   return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
 }
 // A double also where registers are wider (x87), for what is compared with itself computed again.
-static inline double nsvcd__to_double(double x) {
+static inline double nsvcd__stored(double x) {
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
   return x;
 #else
@@ -138,5 +138,5 @@ static inline double nsvcd__to_double(double x) {
 #endif
 }
 static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
-  return nsvcd__d3_of(nsvcd__to_double(a.x), nsvcd__to_double(a.y), nsvcd__to_double(a.z));
+  return nsvcd__d3_of(nsvcd__stored(a.x), nsvcd__stored(a.y), nsvcd__stored(a.z));
 }

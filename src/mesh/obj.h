@@ -24,8 +24,8 @@ static nsvcd_result nsvcd__mesh_options_of(const nsvcd_mesh_options *given,
 }
 
 // A coordinate of a file, in metres. The limit is that of what becomes of it, not of what is read.
-static nsvcd_result nsvcd__mesh_coordinate(const nsvcd_mesh_options *options, size_t axis,
-                                           double value, float *out) {
+static nsvcd_result nsvcd__mesh_number(const nsvcd_mesh_options *options, size_t axis,
+                                       double value, float *out) {
   const double metres = (value - options->origin[axis]) * options->scale;
   if (!(fabs(metres) <= (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_NUMBER;
   *out = (float)metres;
@@ -213,10 +213,10 @@ static void nsvcd__obj_begin(nsvcd__obj *obj, const char *text, size_t size) {
 // Is the statement's keyword one of OBJ's?
 static int nsvcd__obj_is_own(const nsvcd__obj *obj) {
   static const char words[] =
-      " v f vt vn vp p l g o s mg usemtl mtllib usemap maplib cstype deg bmat step curv curv2 "
-      "surf "
-      "parm trim hole scrv sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech "
-      "stech ";
+      " v vt vn vp p l f g o s mg usemtl mtllib usemap maplib "
+      "cstype deg bmat step curv curv2 surf parm trim hole scrv "
+      "sp end con bevel c_interp d_interp lod shadow_obj "
+      "trace_obj ctech stech ";
   const size_t length = (size_t)(obj->at - obj->word);
   for (const char *word = words; *++word; word += strcspn(word, " ")) {
     if (strcspn(word, " ") == length && memcmp(word, obj->word, length) == 0) return 1;
@@ -267,7 +267,7 @@ static nsvcd_result nsvcd__obj_vertices(nsvcd__obj *obj, float *positions) {
       }
       if (count == 8) result = NSVCD_ERROR_SYNTAX;
       if (!result && count < 3)
-        result = nsvcd__mesh_coordinate(&obj->options, (size_t)count, value, positions++);
+        result = nsvcd__mesh_number(&obj->options, (size_t)count, value, positions++);
       if (result) return result;
     }
     if (count < 3) return NSVCD_ERROR_SYNTAX;

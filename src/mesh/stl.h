@@ -22,7 +22,7 @@ static nsvcd_result nsvcd__stl_corner(const unsigned char *at,
     const uint32_t bits = nsvcd__stl_word(at + 4 * k);
     float value;
     memcpy(&value, &bits, sizeof bits);
-    result = nsvcd__mesh_coordinate(options, k, (double)value, &out[k]);
+    result = nsvcd__mesh_number(options, k, (double)value, &out[k]);
   }
   return result;
 }
@@ -68,7 +68,7 @@ static nsvcd_result nsvcd__stl_text(nsvcd__obj *text, float *corners, size_t *co
         if (!nsvcd__stl_token(text)) return NSVCD_ERROR_SYNTAX;
         nsvcd_result result = nsvcd__obj_number(text, &value);
         float *corner = corners + 3 * *count + k;
-        if (!result) result = nsvcd__mesh_coordinate(&text->options, k, value, corner);
+        if (!result) result = nsvcd__mesh_number(&text->options, k, value, corner);
         if (result) return result;
       }
       in_loop++;

@@ -166,10 +166,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
-static int nsvcd__moving_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
   return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
 }
-static int nsvcd__fixed_encloses(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
   return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
 }
 

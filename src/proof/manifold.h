@@ -72,7 +72,7 @@ typedef struct nsvcd__facing {
 static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
                                       const nsvcd__d3 *posed) {
   const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_encloses(p, couple), nsvcd__fixed_encloses(p, couple)};
+  const int closed[2] = {nsvcd__moving_closed(p, couple), nsvcd__fixed_closed(p, couple)};
   nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
   out.faces[1] = nsvcd__face_direction(couple->fixed);

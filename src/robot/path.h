@@ -60,7 +60,8 @@ static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
     result = nsvcd__part_check(scene, &scene->parts[n]);
   for (size_t k = 0; k < scene->pair_count && !result; k++) {
     const nsvcd_body_pair *pair = &scene->pairs[k];
-    if (pair->a >= scene->part_count || pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (pair->a >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
     if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
   }
   return result;
@@ -327,7 +328,7 @@ static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
 }
 
 // Takes a contact as it is seen to the world.
-static void nsvcd__place_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
+static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
   const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
   const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
   nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
@@ -401,8 +402,7 @@ static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pai
   const double strays = is_proof ? off + view.rounding : 0;
   const double clearance = (double)options->clearance + strays;
   return nsvcd__ask_seen(c, pair, spell->steps + 1,
-                         clearance > 0 ? nsvcd__round_outward(clearance) : 0, options, found,
-                         answer);
+                         clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
 }
 
 // Is a pair hit at joints of its motion? Then the answer says so.
@@ -425,7 +425,7 @@ static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *j
   if (result || found.verdict != NSVCD_HIT) return result;
   answer->verdict = NSVCD_HIT;
   answer->contact = found.nearest;
-  nsvcd__place_contact(&view, &answer->contact);
+  nsvcd__set_contact(&view, &answer->contact);
   return NSVCD_OK;
 }
 

@@ -42,8 +42,8 @@ static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
 }
 
 // Of two parts where they stand.
-static nsvcd_question nsvcd__standing_question(nsvcd_checker *c, const nsvcd_body_pair *pair,
-                                               size_t work, nsvcd__sight *view) {
+static nsvcd_question nsvcd__ask_standing(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t work, nsvcd__sight *view) {
   const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
                                          nsvcd__frames_at(c, pair->b, 0)};
   nsvcd__look(c, pair, frames, 1, view);
@@ -126,11 +126,11 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   const nsvcd__d3 along = nsvcd__d3_scale(lift, 1 / length);
   const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
   const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
-  gap->depth = nsvcd__round_outward(high * length);
+  gap->depth = nsvcd__above(high * length);
   gap->contact = found.nearest;
   gap->contact.gap = 0;
   nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
-  nsvcd__place_contact(view, &gap->contact);
+  nsvcd__set_contact(view, &gap->contact);
   // a lift parts the two faces slower than it goes, unless it is along their normal
   const double rate = nsvcd__d3_dot(along, normal);
   if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
@@ -152,11 +152,11 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   *is_near = 0;
   if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
     return NSVCD_OK;
-  nsvcd_question question = nsvcd__standing_question(c, both, o->work, &view);
+  nsvcd_question question = nsvcd__ask_standing(c, both, o->work, &view);
   // places are off by so much, at most, and a lift that is told in floats
   const double off = frames_off + view.rounding;
-  const float deepest_off = nsvcd__round_outward(off + 2e-7 * (double)o->deepest);
-  question.clearance = nsvcd__round_outward((double)o->within + off);
+  const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
+  question.clearance = nsvcd__above((double)o->within + off);
   nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   question.clearance = 0;
@@ -171,25 +171,25 @@ static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap
   gap->why = found.why;
   gap->contact = found.nearest;
   if (found.verdict == NSVCD_HIT) {
-    nsvcd__place_contact(&view, &gap->contact);
-    gap->distance.high = nsvcd__round_outward(off);
+    nsvcd__set_contact(&view, &gap->contact);
+    gap->distance.high = nsvcd__above(off);
     gap->depth = HUGE_VALF;
     question.clearance = deepest_off;
     return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
   }
-  gap->distance.high = nsvcd__round_outward((double)found.distance.high + off);
+  gap->distance.high = nsvcd__above((double)found.distance.high + off);
   gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
   // of both at the point on b: that on a is off it along the normal, and no turn changes that
   const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
   const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
   nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
   nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
-  nsvcd__place_contact(&view, &gap->contact);
+  nsvcd__set_contact(&view, &gap->contact);
   if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
   // the poses are free of each other: are the parts?
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  question.clearance = nsvcd__round_outward(off);
+  question.clearance = nsvcd__above(off);
   result = nsvcd_sweep(&question, c->query, c->query_size, &found);
   if (result || found.verdict == NSVCD_FREE) return result;
   gap->verdict = NSVCD_UNDECIDED;
@@ -207,7 +207,8 @@ NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
   if (result) return result;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
-  if (!nsvcd__is_length(o.within) || !nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.within)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
   if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
   o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
   o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
@@ -346,7 +347,7 @@ static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair 
       joints[j] = low + (high - low) * nsvcd__random(&random);
     }
     nsvcd__stand(c, joints);
-    const nsvcd_question question = nsvcd__standing_question(c, pair, 0, &view);
+    const nsvcd_question question = nsvcd__ask_standing(c, pair, 0, &view);
     result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     *in_all = !result && found.verdict == NSVCD_HIT;
   }

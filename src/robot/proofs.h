@@ -27,7 +27,7 @@ typedef struct nsvcd__carried {
 static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
   const double first = nsvcd__piece_start(m, 0);
   const double whole = nsvcd__piece_start(m, m->pieces) - first;
-  return nsvcd__to_double((nsvcd__piece_start(m, k) - first) / whole);
+  return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
 }
 
 static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
