@@ -14991,15 +14991,15 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
 }
 
 // The triangles of a contact at a time, and how the bodies go then.
-typedef struct nsvcd__meet {
+typedef struct nsvcd__approach {
   nsvcd__couple couple;
   nsvcd__touch touch;
   nsvcd__twist twist;
   double u;
-} nsvcd__meet;
+} nsvcd__approach;
 
-static NSVCD__APART void nsvcd__meet_at(nsvcd__proof *p, const nsvcd__contact *found,
-                                        double tick, nsvcd__meet *out) {
+static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
+                                            double tick, nsvcd__approach *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
   const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
   out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
@@ -15028,8 +15028,8 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
   double late = found->tick;
   double tick = late;
   for (size_t k = 0; k < NSVCD__HALVINGS && early < late; k++) {
-    nsvcd__meet then;
-    nsvcd__meet_at(p, found, tick, &then);
+    nsvcd__approach then;
+    nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
     const double gap = sqrt(nearest.square);
     const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
@@ -15053,7 +15053,7 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__meet *a, nsvcd__d3 way, double most,
+static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
                                          nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
   const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
@@ -15081,8 +15081,8 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__meet *a, nsvcd__d3 way, do
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p, const nsvcd__meet *a,
-                                                nsvcd__d3 way) {
+static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                const nsvcd__approach *a, nsvcd__d3 way) {
   const int moving_closed = nsvcd__moving_closed(p, &a->couple);
   const int fixed_closed = nsvcd__fixed_closed(p, &a->couple);
   const nsvcd__touch *t = &a->touch;
@@ -15107,9 +15107,10 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p, const nsv
 
 // The direction at which the triangles of the contact that is known met, if they did not before
 // `since`; or, if they were free of each other then, at some time.
-static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free, nsvcd__meet *now) {
+static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
+                             nsvcd__approach *now) {
   nsvcd__contact *found = &p->known.found;
-  nsvcd__meet_at(p, found, found->tick, now);
+  nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
   return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
@@ -15121,7 +15122,7 @@ static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
   const double since = p->given.share > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
-  nsvcd__meet now;
+  nsvcd__approach now;
   if (found->distance > 0) nsvcd__turn_back(p, since);
   if (found->distance > 0 || nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
@@ -18345,6 +18346,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__approach NSVCD__AT(approach)
+#define nsvcd__approach_at NSVCD__AT(approach_at)
 #define nsvcd__arc NSVCD__AT(arc)
 #define nsvcd__arc_at NSVCD__AT(arc_at)
 #define nsvcd__arc_before NSVCD__AT(arc_before)
@@ -18571,7 +18574,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__measure_once NSVCD__AT(measure_once)
 #define nsvcd__measure_turn NSVCD__AT(measure_turn)
 #define nsvcd__meet NSVCD__AT(meet)
-#define nsvcd__meet_at NSVCD__AT(meet_at)
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
