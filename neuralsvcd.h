@@ -14800,7 +14800,7 @@ static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *
     if (by.count + left == best->count && by.way > best->way + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double way = nsvcd__lift_along(n, t);
-    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1 : 2;
+    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
     by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
   }
@@ -17250,6 +17250,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const nsvcd__contact *found = &p->known.found;
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
     high = fmax(found->distance, p->given.round) + (double)quanta;
+    // the contact may have been moved to where it is nearer
+    p->wide = p->wide && found->distance - p->low > p->given.width;
   }
   low = fmax(low - p->given.round, 0);
   high = fmax(high - p->given.round, 0);

@@ -78,7 +78,7 @@ containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (o
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
-passing not seen|if (has_met) {|if (0 * has_met) {
+passing not seen|const int has_met = passes;|const int has_met = 0 * passes;
 passing without a change of sides|  const int falls = before > least_before \&\& after < -least_after;|  const int falls = before != 0;
 both turn, twist forgotten|nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));|nsvcd__v_mul(turn, turn);
 both turn, half of the way|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_fma(fixed_turn, remote, way)
@@ -121,14 +121,14 @@ level: latents of one region|parts->latents[NSVCD__LATENT * to + k]|parts->laten
 level: members of one dipole in two|const size_t member = NSVCD__GROUP * (first + nsvcd__low_bit(close));|const size_t member = NSVCD__GROUP * (first + (nsvcd__low_bit(close) \& ~(size_t)1));
 margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set(1e30f), limit)|limit
 round: the fixed one is not|p->given.round = moving_round + (double)p->fixed.round;|p->given.round = moving_round;
-round: without the scale|(double)p->moving.round * (double)task->motion.scale;|(double)p->moving.round;
-round: distances of the skeletons|  high -= p->given.round;|
+round: without the scale|(double)p->moving.round * task->motion.ratio;|(double)p->moving.round;
+round: distances of the skeletons|high = fmax(high - p->given.round, 0);|
 round: as near as the skeletons|  low = fmax(low - p->given.round, 0);|
 round: points on the skeleton|fmin((double)p->fixed.round, found->distance);|0;
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.round, 0) * world.unit);|(float)(found->distance * world.unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
-round: not scaled|((nsvcd__facet_counts *)counts)->round *= scale;|(void)counts;
+round: not scaled|*round *= scale;|
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
@@ -136,7 +136,7 @@ asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__
 asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
 asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
-asks: a bracket as wide as may be|for (p->ask.measure = p->high - p->low; p->wide|for (p->ask.measure = p->high - p->low; 0 \&\& p->wide
+asks: a bracket as wide as may be|while (is_enough \&\& p->ask.measure > finest) {|while (0 \&\& is_enough) {
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
@@ -148,7 +148,7 @@ asks: metres of the arc before|  // that of the question before\n  p->arc.ticks 
 asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|0
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
-asks: a safe place where it is about to touch|answer->safe.time = (float)fmax(0, until - back);|answer->safe.time = answer->time.low;
+asks: a safe place where it is about to touch|answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));|answer->safe.time = answer->time.low;
 asks: set down to the ground|const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);|const nsvcd__d3 least = nsvcd__lift_off(p, 0, 1);
 asks: not set down|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return lift;
 asks: set down through contacts|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return least;
@@ -163,7 +163,7 @@ asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->reach * m-
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|
 asks: contacts that hold less|if (!(spanned > 1.001 * *area)) continue;|if (*area > 0) continue;
-asks: contacts of one normal|int tries = nsvcd__d3_dot(normals[0], normals[1]) > 0.9 ? 1 : 2;|int tries = 1;
+asks: contacts of one normal|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals);|int tries = nsvcd__manifold_normals(p, \&found, \&twist, normals) > 0;
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
@@ -221,7 +221,7 @@ postures: more than there is room for|if (near_ones < capacity) gaps[near_ones] 
 postures: escapes without the clearance|{o->clearance, 0, 0, o->stop, o->user};|{0, 0, 0, o->stop, o->user};
 postures: escapes to anywhere|ring * o->farthest;|2 * ring * o->farthest;
 postures: no way back|memcpy(is_free ? at : blocked, middle, joints * sizeof *at);|memcpy(blocked, middle, joints * sizeof *at);
-postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? farthest : ring
+postures: the first way out|*is_found ? NSVCD__ESCAPE_NEARER * best : ring|*is_found ? o->farthest : ring
 postures: what touches once touches always|*in_all = !result && found.verdict == NSVCD_HIT;|*in_all = !result && (n > 0 ? 1 : found.verdict == NSVCD_HIT);
 postures: out of the limits|joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));|
 postures: the world is adjacent|return a > 0 && b > 0 && (scene->joints[a - 1].parent == b|return a > 0 && (b == 0 \|\| scene->joints[a - 1].parent == b

@@ -1524,7 +1524,7 @@ static void proof_keeps_clearances(void) {
   timing_sum sums[3];
   static const char *const names[3] = {"clearance", "least", "both"};
   memset(sums, 0, sizeof sums);
-  while (sums[0].asked < check_many(80)) {
+  while (sums[0].asked < check_many(100)) {
     attack a;
     if (!proof_timing_scene(&rng, &a)) continue;
     const double size = a.moving->size + a.fixed->size;

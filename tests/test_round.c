@@ -736,6 +736,38 @@ static void round_scales_about_far_origins(void) {
   CHECK_GE(free_ones, 100);
 }
 
+// A capsule dives through the middle of a large face, either end first, far from the face's edges: the
+// nearest points are an end's until the segment crosses the face, and there it is found too.
+static void round_capsules_dive(void) {
+  const float ends[2][3] = {{0, 0, -0.2f}, {0, 0, 0.2f}};
+  const float half[3] = {1, 1, 0.05f};
+  const nsvcd_body *box = NULL;
+  CHECK_EQ(nsvcd_encode_box(half, 0, NULL, &box), NSVCD_OK);
+  for (int n = 0; n < 24; n++) {
+    const nsvcd_body *capsule = NULL;
+    const float round = n % 3 ? 0.01f : 1e-4f;
+    const float x = 0.3f + 0.02f * (float)n;
+    CHECK_EQ(nsvcd_encode_capsule(ends[n % 2], ends[1 - n % 2], round, NULL, &capsule), NSVCD_OK);
+    nsvcd_pose path[2] = {{{x, 0.2f, 1}, {0, 0, 0, 1}}, {{x, 0.2f, -1}, {0, 0, 0, 1}}};
+    nsvcd_question q = question_of(capsule, path, 2, box, NULL, NULL);
+    CHECK_EQ(round_ask(&q).verdict, NSVCD_HIT);
+    q.ask = NSVCD_ASK_FIRST;
+    q.to = 1e-4f;
+    const nsvcd_answer answer = round_ask(&q);
+    const double first = (1 - 0.05 - 0.2 - (double)round) / 2;
+    CHECK_EQ(answer.verdict, NSVCD_HIT);
+    CHECK_LE((double)answer.time.low, first + 1e-6);
+    CHECK_NEAR(answer.time.high, first, 1e-4);
+    // across the face already, and moving along it
+    path[0].position[2] = path[1].position[2] = n % 4 < 2 ? 0.1f : 0;
+    path[1].position[0] += 0.1f;
+    q = question_of(capsule, path, 2, box, NULL, NULL);
+    CHECK_EQ(round_ask(&q).verdict, NSVCD_HIT);
+    nsvcd_body_free(capsule, NULL);
+  }
+  nsvcd_body_free(box, NULL);
+}
+
 static void round_refuses_bad_input(void) {
   const float good[6] = {0, 0, 0, 1, 0, 0};
   const float bad[6] = {0, 0, 0, NAN, 0, 0};
@@ -788,6 +820,7 @@ void test_round(void) {
   RUN(round_scales_about_far_origins);
   RUN(round_spheres_in_clouds);
   RUN(round_bodies_lie_on_a_table);
+  RUN(round_capsules_dive);
   RUN(round_bodies_are_exact);
 }
 

@@ -45,7 +45,7 @@ static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *
     if (by.count + left == best->count && by.way > best->way + same) return;
     if (!nsvcd__undoes(p, n, t)) continue;
     const double way = nsvcd__lift_along(n, t);
-    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1 : 2;
+    by.count += way < 0 && !p->by_faces && nsvcd__is_against(n, t) ? 1u : 2u;
     by.faces += nsvcd__d3_dot(n, t->ways[0]) > 0.9 || nsvcd__d3_dot(n, t->ways[1]) > 0.9;
     by.way = p->by_faces ? 0 : nsvcd__max(by.way, way);
   }

@@ -387,6 +387,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const nsvcd__contact *found = &p->known.found;
     const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
     high = fmax(found->distance, p->given.round) + (double)quanta;
+    // the contact may have been moved to where it is nearer
+    p->wide = p->wide && found->distance - p->low > p->given.width;
   }
   low = fmax(low - p->given.round, 0);
   high = fmax(high - p->given.round, 0);
