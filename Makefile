@@ -172,11 +172,11 @@ $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) 
 build/tests: $(TEST_OBJECTS)
 	$(CC) $(TEST_CFLAGS) -pthread -o $@ $(TEST_OBJECTS) -lm
 
-# All that a compiler and make can do, on all processors: JOBS=1 for one.
-JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+# On all processors: CORES=1 for one.
+CORES ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 test:  ## builds and runs the test binary; the last line is `N passed, N failed`
-	@$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS)) build/tests
-	@TEST_JOBS=$(JOBS) build/tests
+	@$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) build/tests
+	@TEST_JOBS=$(CORES) build/tests
 
 # Peers, generators and benchmarks.
 BENCHES = $(patsubst tests/bench/%.c,build/%,$(wildcard tests/bench/*.c))
@@ -415,11 +415,11 @@ CHECKS = text rooms header examples newcomer tools processor fast-math levels ex
 RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web trainer sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
-	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED))
-	@MAKE="$(MAKE)" tests/check.sh $(JOBS) $(or $(ONLY),$(CHECKS))
+	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(CORES) $(CHECKED))
+	@MAKE="$(MAKE)" tests/check.sh $(CORES) $(or $(ONLY),$(CHECKS))
 check-release:  ## all of that, and what takes hours, or tools that few have
-	@$(MAKE) --no-print-directory -j$(JOBS) $(CHECKED)
-	@MAKE="$(MAKE)" tests/check.sh $(JOBS) $(or $(ONLY),$(CHECKS) $(RELEASE))
+	@$(MAKE) --no-print-directory -j$(CORES) $(CHECKED)
+	@MAKE="$(MAKE)" tests/check.sh $(CORES) $(or $(ONLY),$(CHECKS) $(RELEASE))
 .PHONY: $(addprefix check-,$(CHECKS) $(RELEASE))
 check-many: build/tests  # the tests, five times as many trials each
 	TEST_MANY=5 build/tests
