@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks of the Makefile, JOBS at a time, and one table of what each is, how many seconds it took and how it ended. What it
-# printed is in build/check/NAME.txt. check.sh JOBS NAME..., from the repository's root; a name is that of `make check-NAME`.
+# Checks of the Makefile, CORES at a time, and one table of what each is, how many seconds it took and how it ended. What it
+# printed is in build/check/NAME.txt. check.sh CORES NAME..., from the repository's root; a name is that of `make check-NAME`.
 # A check that says `not tested` has lacked a tool: it counts as skipped, and the table says which one.
 # Ends with 1 if a check fails; the last line is `N passed, N failed, N skipped`.
 set -u
