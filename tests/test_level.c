@@ -747,7 +747,7 @@ static int level_cancel(float done, void *user) {
 static void level_encoding_ends_well(void) {
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
-  level_make(&shape, 4, 1500, 2);
+  level_make(&shape, 4, 800, 2);
   level_solid solid;
   level_solid_init(&solid, &shape, 0);
   nsvcd_encode_options options = level_options(600);
