@@ -158,7 +158,7 @@ asks: half of a depth|p->depths[k] = nsvcd__max(p->depths[k], depth);|p->depths[
 asks: one depth for all normals|const double along = least + (by_depth ? p->depths[k] : 0);|const double along = least + (by_depth ? p->depths[0] : 0);
 no look on the way off|if (is_free \&\& p->normal_count > 0) nsvcd__deepen(p, search, \&start);|
 asks: no lift under a ceiling|least < 0.9 * p->given.skin|least < 0
-asks: a floor that is near by|nsvcd__max(0.05 * p->ask.skin, nsvcd__min(p->given.to, 0.5 * p->ask.skin))|0.05 * p->ask.skin
+asks: a floor that is near by|nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin))|near_by
 asks: contacts out of reach|nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach|1
 asks: contacts past an edge|if (aside > 0.01 * m->same * m->same) return;|
 asks: contacts of any normal|if (along * along < 0.64 * square) continue;|

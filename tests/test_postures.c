@@ -355,7 +355,7 @@ static void postures_far_parts_are_told_as_near_ones(void) {
       }
       CHECK_EQ(gap.verdict == NSVCD_FREE, is_apart);
       CHECK_LE((double)gap.distance.low, fmax(off, 0) + 1e-8);
-      CHECK_LE(off, (double)gap.distance.high + 1e-8);
+      CHECK_LE(off, (double)gap.distance.high + 4e-13 * far);
       CHECK_LE((double)(gap.distance.high - gap.distance.low), 2e-5 + 2 * quanta + 1e-6);
       if (gap.verdict != NSVCD_HIT || !(gap.depth < HUGE_VALF)) continue;
       depths++;
