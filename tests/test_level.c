@@ -375,8 +375,17 @@ static const nsvcd_body *level_with_latents(void) {
   return body;
 }
 
-// Asked for, they stand before the body for the proof, which is the same to the byte; not asked
-// for, a level has none. The blob is checked, and scales.
+static void *level_zeroed(size_t size, void *user) {
+  (void)user;
+  return calloc(1, size);
+}
+static void level_release(void *memory, void *user) {
+  (void)user;
+  free(memory);
+}
+
+// Asked for, they stand before the body for the proof, which is the same to the byte, each patch of
+// each region has some; not asked for, a level has none. The blob is checked, and scales.
 static void level_latents_are_added(void) {
   const nsvcd_body *plain = level_shared()->level.body;
   const nsvcd_body *body = level_with_latents();
@@ -394,12 +403,20 @@ static void level_latents_are_added(void) {
            NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 0);
   nsvcd_body_free(other, NULL);
+  const nsvcd_allocator zeroed = {level_zeroed, level_release, NULL};
   options.no_triangles = 1;  // then they are all there is
-  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, NULL, NULL, 0, &other),
+  CHECK_EQ(nsvcd_encode(&level_shared()->bodies[1].mesh, &options, &zeroed, NULL, 0, &other),
            NSVCD_OK);
   CHECK_EQ(nsvcd_body_describe(other).latents, 1);
   CHECK_EQ(other->size, nsvcd_body_size(other->patches));
-  nsvcd_body_free(other, NULL);
+  CHECK_GE(other->patches, 513);  // of several regions
+  for (size_t i = 0; i < other->patches; i++) {
+    const int8_t *latent = nsvcd__body_latents(other) + NSVCD__LATENT * i;
+    int most = 0;
+    for (size_t k = 0; k < NSVCD__LATENT; k++) most = abs(latent[k]) > most ? abs(latent[k]) : most;
+    CHECK_GE(most, 1);
+  }
+  nsvcd_body_free(other, &zeroed);
 
   nsvcd_body *copy = (nsvcd_body *)malloc(facts.size);
   memcpy(copy, body, facts.size);
