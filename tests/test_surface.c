@@ -522,7 +522,7 @@ static void surface_of_a_fine_mesh(void) {
   reader r;
   CHECK_LE(20000, mesh.triangle_count);
   check_all(&mesh, 256, &rng, 1);
-  check_all(&mesh, 1, &rng, 1);
+  if (check_many(1) > 1) check_all(&mesh, 1, &rng, 1);
   CHECK(reader_open(&r, &mesh, 256));
   const nsvcd__surface *s = &r.surface;
   double slack = 0;
