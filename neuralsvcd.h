@@ -2015,7 +2015,8 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "must not be: an argument, or a body or an array in one\0"
       "the file is missing or cannot be read\0"
       "out of memory\0"
-      "the memory given is NULL, misaligned, or too small: its size or capacity\0"
+      "the memory given is NULL, misaligned, or too small: "
+      "its size or capacity\0"
       "cancelled\0"
       "a count is 0, or larger than the library takes: joint_count, joints, part_count, "
       "body_count, goal_count or guess_count\0"
@@ -2023,17 +2024,20 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a line cannot be understood, or a face has fewer than three corners\0"
       "an index is zero or refers to no vertex\0"
       "a coordinate is not finite, or beyond a million metres\0"
-      "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
+      "there is no triangle, or no area, or the "
+      "mesh is smaller than 1e-12 metres\0"
       "more vertices, triangles or bytes than can be counted\0"
       "sizes: a face has fewer "
       "than three corners, or all together not corner_count\0"
       "low or high is not finite, or low is not less than high on each axis\0"
-      "patches is more than 65536, or patch_radius is negative or not finite\0"
+      "patches is more than 65536, or "
+      "patch_radius is negative or not finite\0"
       "radius, round or half is negative, zero where it must not be, not finite or too "
       "large\0"
       "this is not a body: its first bytes are others, or it is damaged, cut short or "
       "misaligned\0"
-      "the body is of another version, model or byte order: encode the mesh again\0"
+      "the body is of another version, model or byte order: "
+      "encode the mesh again\0"
       "a body holds no triangles, "
       "which a proof needs: encode it without no_triangles\0"
       "a body holds no latents, which the network needs: encode it with latents, and "
@@ -2063,14 +2067,16 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "network.precision is none of its values, or not compiled in\0"
       "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
       "network.swell is negative or not finite\0"
-      "a joint's kind is none of its values, or its parent does not come before it\0"
+      "a joint's kind is none of its values, or its "
+      "parent does not come before it\0"
       "a joint's axis has no length, or is not finite\0"
       "a joint's limits are not finite or too large, or low is above high\0"
       "a joint's speed or acceleration is negative, not finite or too large\0"
       "a link is no joint of the scene, or a part none of its parts\0"
       "a pair is not there, or "
       "names a part that is not there, one twice, or two of one link\0"
-      "a joint's value (start, goal, guess, points) is not finite or too large\0"
+      "a joint's value (start, goal, guess, "
+      "points) is not finite or too large\0"
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
       "finest is negative or not finite\0"
@@ -3555,46 +3561,6 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       size_t *error_line) {
   return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
 }
-
-#ifndef NSVCD_NO_STDIO
-// What a file holds; in the arena.
-static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
-                                     size_t *size) {
-#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
-  FILE *file = NULL;
-  if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
-#else
-  FILE *file = fopen(path, "rb");
-  if (!file) return NSVCD_ERROR_IO;
-#endif
-  // No fseek, so that pipes work and a directory is an error.
-  size_t capacity = 32768;
-  *text = NULL;
-  *size = 0;
-  do {
-    capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
-    *text = (char *)nsvcd__arena_grow(arena, *text, *size, capacity, 1);
-    if (*text) *size += fread(*text + *size, 1, capacity - *size, file);
-  } while (*text && *size == capacity);
-  nsvcd_result result = *text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  if (*text && ferror(file)) result = NSVCD_ERROR_IO;
-  fclose(file);
-  return result;
-}
-
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  char *text;
-  size_t size;
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_result result = nsvcd__read_file(path, &arena, &text, &size);
-  if (!result) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
-  nsvcd__arena_free(&arena);
-  return result;
-}
-#endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
 
 // ---------------------------------------------------------------------------------------- mesh/stl
@@ -3801,21 +3767,6 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       size_t *error_line) {
   return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
 }
-
-#ifndef NSVCD_NO_STDIO
-NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  char *data;
-  size_t size;
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
-  if (!result) result = nsvcd_stl_parse(data, size, allocator, mesh, error_line);
-  nsvcd__arena_free(&arena);
-  return result;
-}
-#endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
 
 // -------------------------------------------------------------------------------------- mesh/files
@@ -3844,6 +3795,31 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
 }
 
 #ifndef NSVCD_NO_STDIO
+// What a file holds; in the arena.
+static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
+                                     size_t *size) {
+#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
+  FILE *file = NULL;
+  if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
+#else
+  FILE *file = fopen(path, "rb");
+  if (!file) return NSVCD_ERROR_IO;
+#endif
+  // No fseek, so that pipes work and a directory is an error.
+  size_t capacity = 32768;
+  *text = NULL;
+  *size = 0;
+  do {
+    capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
+    *text = (char *)nsvcd__arena_grow(arena, *text, *size, capacity, 1);
+    if (*text) *size += fread(*text + *size, 1, capacity - *size, file);
+  } while (*text && *size == capacity);
+  nsvcd_result result = *text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
+  if (*text && ferror(file)) result = NSVCD_ERROR_IO;
+  fclose(file);
+  return result;
+}
+
 NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options *options,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
@@ -3856,6 +3832,18 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
   if (!result) result = nsvcd_mesh_parse(data, size, options, allocator, mesh, error_line);
   nsvcd__arena_free(&arena);
   return result;
+}
+
+NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  const nsvcd_mesh_options options = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
+}
+
+NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
+                                     nsvcd_mesh *mesh, size_t *error_line) {
+  const nsvcd_mesh_options options = {NSVCD_MESH_STL, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ

@@ -1,7 +1,7 @@
 // nsvcd_sweep through the public API: mesh -> body -> answer. Accuracy last, on a small labelled file.
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
-#include "../src/mesh/obj.h"
+#include "../src/mesh/files.h"
 #include "../src/body/trust.h"
 #include "../src/body/encode.h"
 #include "../src/entry/processor.h"

@@ -347,44 +347,4 @@ NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       size_t *error_line) {
   return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
 }
-
-#ifndef NSVCD_NO_STDIO
-// What a file holds; in the arena.
-static nsvcd_result nsvcd__read_file(const char *path, nsvcd__arena *arena, char **text,
-                                     size_t *size) {
-#ifdef _MSC_VER  // where fopen is called unsafe, with /sdl an error
-  FILE *file = NULL;
-  if (fopen_s(&file, path, "rb")) return NSVCD_ERROR_IO;
-#else
-  FILE *file = fopen(path, "rb");
-  if (!file) return NSVCD_ERROR_IO;
-#endif
-  // No fseek, so that pipes work and a directory is an error.
-  size_t capacity = 32768;
-  *text = NULL;
-  *size = 0;
-  do {
-    capacity = capacity <= SIZE_MAX / 2 ? 2 * capacity : SIZE_MAX;
-    *text = (char *)nsvcd__arena_grow(arena, *text, *size, capacity, 1);
-    if (*text) *size += fread(*text + *size, 1, capacity - *size, file);
-  } while (*text && *size == capacity);
-  nsvcd_result result = *text ? NSVCD_OK : NSVCD_ERROR_MEMORY;
-  if (*text && ferror(file)) result = NSVCD_ERROR_IO;
-  fclose(file);
-  return result;
-}
-
-NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  char *text;
-  size_t size;
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_result result = nsvcd__read_file(path, &arena, &text, &size);
-  if (!result) result = nsvcd_obj_parse(text, size, allocator, mesh, error_line);
-  nsvcd__arena_free(&arena);
-  return result;
-}
-#endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ

@@ -203,19 +203,4 @@ NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       size_t *error_line) {
   return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
 }
-
-#ifndef NSVCD_NO_STDIO
-NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
-                                     nsvcd_mesh *mesh, size_t *error_line) {
-  char *data;
-  size_t size;
-  if (error_line) *error_line = 0;
-  if (!path || !mesh) return NSVCD_ERROR_ARGUMENT;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  nsvcd_result result = nsvcd__read_file(path, &arena, &data, &size);
-  if (!result) result = nsvcd_stl_parse(data, size, allocator, mesh, error_line);
-  nsvcd__arena_free(&arena);
-  return result;
-}
-#endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
