@@ -2024,8 +2024,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "a line cannot be understood, or a face has fewer than three corners\0"
       "an index is zero or refers to no vertex\0"
       "a coordinate is not finite, or beyond a million metres\0"
-      "there is no triangle, or no area, or the "
-      "mesh is smaller than 1e-12 metres\0"
+      "there is no triangle, or no area, or the mesh is smaller than 1e-12 metres\0"
       "more vertices, triangles or bytes than can be counted\0"
       "sizes: a face has fewer "
       "than three corners, or all together not corner_count\0"
@@ -2067,16 +2066,14 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "network.precision is none of its values, or not compiled in\0"
       "network.recall is none of 0, 0.99, 0.999 and 0.9999\0"
       "network.swell is negative or not finite\0"
-      "a joint's kind is none of its values, or its "
-      "parent does not come before it\0"
+      "a joint's kind is none of its values, or its parent does not come before it\0"
       "a joint's axis has no length, or is not finite\0"
       "a joint's limits are not finite or too large, or low is above high\0"
       "a joint's speed or acceleration is negative, not finite or too large\0"
       "a link is no joint of the scene, or a part none of its parts\0"
       "a pair is not there, or "
       "names a part that is not there, one twice, or two of one link\0"
-      "a joint's value (start, goal, guess, "
-      "points) is not finite or too large\0"
+      "a joint's value (start, goal, guess, points) is not finite or too large\0"
       "degree is not 1 to 5, or pieces are more than can be counted\0"
       "joints turn too far in a piece of the motion to be certified\0"
       "finest is negative or not finite\0"
@@ -3836,14 +3833,14 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
 
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options options = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
+  const nsvcd_mesh_options as = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options options = {NSVCD_MESH_STL, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
+  const nsvcd_mesh_options as = {NSVCD_MESH_STL, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ
@@ -15079,10 +15076,10 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
   double least = HUGE_VAL;
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const int out_of_moving = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
-    const int out_of_fixed = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
-    int is_out = out_of_moving || out_of_fixed;
-    if (k < 4) is_out = k < 2 ? out_of_fixed : out_of_moving;
+    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
+    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
+    int is_out = out_of_a || out_of_b;
+    if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
     const double depth = nsvcd__lift_along(n, t);
     const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);

@@ -66,14 +66,14 @@ NSVCDDEF nsvcd_result nsvcd_mesh_load(const char *path, const nsvcd_mesh_options
 
 NSVCDDEF nsvcd_result nsvcd_obj_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options options = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
+  const nsvcd_mesh_options as = {NSVCD_MESH_OBJ, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
 }
 
 NSVCDDEF nsvcd_result nsvcd_stl_load(const char *path, const nsvcd_allocator *allocator,
                                      nsvcd_mesh *mesh, size_t *error_line) {
-  const nsvcd_mesh_options options = {NSVCD_MESH_STL, {0, 0, 0}, 0};
-  return nsvcd_mesh_load(path, &options, allocator, mesh, error_line);
+  const nsvcd_mesh_options as = {NSVCD_MESH_STL, {0, 0, 0}, 0};
+  return nsvcd_mesh_load(path, &as, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_STDIO
 #endif  // NSVCD_NO_OBJ

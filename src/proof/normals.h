@@ -126,10 +126,10 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
   double least = HUGE_VAL;
   for (size_t k = 0; k < NSVCD__AXES; k++) {
     const nsvcd__d3 n = nsvcd__axis_apart(t, k);
-    const int out_of_moving = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
-    const int out_of_fixed = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
-    int is_out = out_of_moving || out_of_fixed;
-    if (k < 4) is_out = k < 2 ? out_of_fixed : out_of_moving;
+    const int out_of_a = !moving_closed || nsvcd__d3_dot(n, t->ways[0]) >= -1e-9;
+    const int out_of_b = !fixed_closed || nsvcd__d3_dot(n, t->ways[1]) >= -1e-9;
+    int is_out = out_of_a || out_of_b;
+    if (k < 4) is_out = k < 2 ? out_of_b : out_of_a;
     if (!is_out || !(nsvcd__d3_dot(n, n) > 0.5)) continue;
     const double depth = nsvcd__lift_along(n, t);
     const double more = nsvcd__d3_dot(nsvcd__d3_sub(best, n), way);
