@@ -86,8 +86,8 @@
 //   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
 //   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
-//   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
-//   with rounding, less than twice that), that of eight rays none could tell whether one is inside
+//   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
+//   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
 //   the other, or that the work allowed was not enough; then the network's opinion is added where
 //   it has one. A component of a mesh is closed if every edge has its reverse; what is open
 //   encloses nothing.
@@ -188,6 +188,7 @@
 //     walk            a walk through the groups; load, scale, describe
 //     facets          the blob of the proof: discs, hulls, triangles
 //     trust           is a blob sound? load it, scale it, describe it
+//     write           a surface -> the blob of the proof
 //     encode          nsvcd_encode
 //     shapes          spheres, capsules, boxes, clouds
 //   lanes: 16 numbers at a time
@@ -285,7 +286,7 @@
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
 //   facets            what a body stores for the proof: discs, hulls, listings
-//   quantum           how far a stored triangle may be off the mesh's
+//   quantum           how far a coarse triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
 //   knot, arc         when one of the poses given is reached; the motion from a knot to the next
 //   tick              the unit of a motion's time: every knot is at a whole number of ticks
@@ -658,8 +659,7 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
 // fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
-// of more is a level, with a patch for each 12 triangles. What is stored of a patch is as exact as
-// it is small: of what is large and has few triangles, ask for more.
+// of more is a level, with a patch for each 12 triangles.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_FEW_TRIANGLES 32768
@@ -696,6 +696,10 @@ typedef struct nsvcd_encode_options {
   int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;
+  // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
+  // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
+  // nsvcd_body_facts.quantum of the mesh's own: HIT says that the mesh comes as near as that
+  int coarse;
   // NULL, or told how much is done
   nsvcd_progress *progress;
   // handed to progress
@@ -810,7 +814,8 @@ typedef struct nsvcd_body_facts {
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
   size_t listings;
-  // metres: stored triangles are within this of the mesh's
+  // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
+  // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
   float quantum;
   // metres that the body goes beyond its mesh
   float round;
@@ -985,8 +990,8 @@ typedef enum nsvcd_by {
 typedef enum nsvcd_why {
   // all of it is
   NSVCD_WHY_NOTHING = 0,
-  // surfaces come nearer than the quanta of both bodies and the tolerance, and do not meet; or, of
-  // eight rays, none could tell whether one is inside the other
+  // surfaces come within the tolerance, or 1e-9 of all lengths, and do not meet; or, of eight rays,
+  // none could tell whether one is inside the other
   NSVCD_WHY_TOO_NEAR,
   // question.work was not enough
   NSVCD_WHY_WORK
@@ -1129,9 +1134,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
-// FREE, and a HIT of what is inside, hold for the meshes themselves. The triangles of any other HIT
-// meet to within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces
-// that come as close as that without meeting, or more work than was allowed. More work never leaves
+// FREE and HIT hold for the meshes' own floats: the triangles of a HIT meet, or come within the
+// clearance, to 1e-12 of all lengths (both extents and how far the bodies are apart). UNDECIDED are
+// surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
+// whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
+// it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
 // undecided what less decides, but for luck: FIRST with a few hundred units.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
@@ -1157,7 +1164,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
   (1088 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
    ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24832 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 
@@ -1438,8 +1445,8 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
-// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to both bodies' quanta and
-// to what a pose in float is off: 1e-7 of the distance between the two parts' origins and of the
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is
+// off: 1e-7 of the distance between the two parts' origins and of the
 // bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
 // is asked about in the frame of one of its parts.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
@@ -1503,8 +1510,7 @@ typedef struct nsvcd_gap {
 typedef struct nsvcd_gap_options {
   // metres: pairs that are as near as this are told; 0.05
   float within;
-  // metres: how wide a bracket of a distance may be, beside both bodies' quanta and what poses in
-  // float are off; 20 um
+  // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
   float to;
   // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;
@@ -4542,7 +4548,8 @@ typedef struct nsvcd__region {
   size_t cut_count;
   // (vertices)
   uint8_t *seeds;
-  // (vertices) their numbers among the points of all regions; NULL: the same
+  // (vertices) their numbers among the points of all regions, which begin with the caller's
+  // vertices; NULL: the same
   uint32_t *vertices;
 } nsvcd__region;
 
@@ -4841,8 +4848,11 @@ typedef struct nsvcd__surface {
   size_t done;   // so many are described by now
   // L, triangles listed, over all patches
   size_t listed;
-  // V, vertices stored, over all patches
+  // V, points stored as integers, over all patches; and vertices of the mesh that are named
   size_t vertex_count;
+  size_t named_count;
+  // 1: corners are stored as integers too, and none is named
+  int coarse;
   // C, connected components (vertices at the same place are one vertex)
   size_t component_count;
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
@@ -4854,16 +4864,20 @@ typedef struct nsvcd__surface {
   // (N) metres: every point of a piece is within this of the convex hull of the first
   // hull_counts[i] stored vertices
   float *slacks;
-  // (N) metres: every corner listed is within this of its stored vertex
+  // (N) metres: every corner that is stored as integers is within this of them
   float *quanta;
   // (N) 1..NSVCD__HULL; 0 where empty
   uint8_t *hull_counts;
   // (N + 1)
   uint32_t *first_vertex;
+  uint32_t *first_named;
   uint32_t *first_triangle;  // (N + 1)
-  // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
+  // patch i: x of its points, then y, then z, at 3 * first_vertex[i]: the hull's, then corners that
+  // cuts have made
   int16_t *vertices;
-  // (L, 3) numbers of vertices within the patch
+  // patch i, from first_named[i] on: the caller's vertices that are corners
+  uint32_t *named;
+  // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
   uint16_t *corners;
   // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a closed component
   uint32_t *ids;
@@ -4873,8 +4887,8 @@ typedef struct nsvcd__surface {
   nsvcd__f3 *seeds;
   // (C) a patch with a piece that has it for a corner
   uint32_t *seed_patches;
-  // where vertices, corners and ids are
-  nsvcd__list vertex_list, corner_list, id_list;
+  // where vertices, names, corners and ids are
+  nsvcd__list vertex_list, named_list, corner_list, id_list;
 } nsvcd__surface;
 
 // ---- pieces: triangles cut by the cells of the centres
@@ -5248,7 +5262,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
   block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
   block->ids = NSVCD__TAKE(arena, uint32_t, count);
-  uint32_t *origins = NSVCD__TAKE(arena, uint32_t, most);
+  block->vertices = NSVCD__TAKE(arena, uint32_t, most);
   block->seeds = NSVCD__TAKE(arena, uint8_t, most);
   block->greatest = curve->greatest;
   patches->count = last - first;
@@ -5277,7 +5291,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     }
   }
   if (!mesh->indices) {
-    memcpy(origins, block->ids, count * sizeof *origins);
+    memcpy(block->vertices, block->ids, count * sizeof *block->vertices);
     memset(block->seeds, 1, count);
     block->mesh.vertex_count = count;
   }
@@ -5287,13 +5301,13 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     if (*met <= before) {
       block->seeds[block->mesh.vertex_count] =
           n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
-      origins[block->mesh.vertex_count++] = block->mesh.indices[n];
+      block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
       *met = ++curve->met_count;
     }
     block->mesh.indices[n] = *met - 1 - before;
   }
   for (size_t i = 0; i < block->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, origins[i]);
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, block->vertices[i]);
     nsvcd__f3_store(at, block->mesh.positions + 3 * i);
   }
   return 1;
@@ -5868,32 +5882,57 @@ static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_
   return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
 }
 
-// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many
-// triangles it lists.
-static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, size_t hull_count) {
+// Is a point a vertex of the caller's mesh, which is named, and not stored as integers?
+static int nsvcd__is_named(const nsvcd__sorted *sorted, const nsvcd__surface *s,
+                           uint32_t point) {
+  const nsvcd__region *region = sorted->pieces->region;
+  return !s->coarse && point < region->mesh.vertex_count - region->cut_count;
+}
+
+// Numbers the points of patch i: the hull's, then corners that are not named, then, from *stored
+// on, those that are. Returns how many triangles it lists.
+static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvcd__surface *s,
+                                     size_t *stored) {
+  const size_t hull_count = s->hull_counts[s->done + i];
   size_t listed = 0;
   sorted->pass++;
   sorted->met_count = 0;
   for (size_t k = 0; k < hull_count; k++)
     nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const uint32_t *corners;
-    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
-    for (size_t j = 0; j < count; j++) nsvcd__number_point(sorted, corners[j]);
-    listed += count ? count - 2 : 0;
+  for (int named = 0; named < 2; named++) {
+    listed = 0;
+    // what is in the hull is met again
+    sorted->pass += (uint32_t)named;
+    if (named) *stored = sorted->met_count;
+    for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+      const uint32_t *corners;
+      const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+      for (size_t j = 0; j < count; j++) {
+        if (nsvcd__is_named(sorted, s, corners[j]) == named)
+          nsvcd__number_point(sorted, corners[j]);
+      }
+      listed += count ? count - 2 : 0;
+    }
   }
   return listed;
 }
 
-// Writes the vertices of patch i as integers, and its triangles.
+// Writes the points of patch i, of which so many are stored as integers, and its triangles.
 static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
   const size_t to = s->done + i;
   const size_t hull_count = s->hull_counts[to];
-  (void)nsvcd__number_vertices(sorted, i, hull_count);
+  const nsvcd__region *region = sorted->pieces->region;
+  size_t stored;
+  (void)nsvcd__number_vertices(sorted, i, s, &stored);
   const nsvcd__d3 centre = nsvcd__d3_widen(s->balls[to].centre);
   const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  uint32_t *named = s->named + s->first_named[to];
+  for (size_t j = stored; j < points.count; j++) {
+    const uint32_t point = sorted->met[j];
+    *named++ = region->vertices ? region->vertices[point] : point;
+  }
   double greatest = NSVCD__SURFACE_TINY;
-  for (size_t j = 0; j < points.count; j++) {
+  for (size_t j = 0; j < stored; j++) {
     for (size_t k = 0; k < 3; k++)
       greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
   }
@@ -5902,21 +5941,20 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
   int16_t *vertices = s->vertices + 3 * (size_t)s->first_vertex[to];
   double worst = 0;
   double worst_of_hull = 0;
-  for (size_t j = 0; j < points.count; j++) {
-    nsvcd__d3 stored = {0, 0, 0};
+  int has_stored = 0;  // corners
+  for (size_t j = 0; j < stored; j++) {
+    nsvcd__d3 rounded = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
       const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
       const double integer = nsvcd__min(nsvcd__max(nearest, -32767), 32767);
-      vertices[k * points.count + j] = (int16_t)integer;
-      nsvcd__d3_set_axis(&stored, k, metres * integer);
+      vertices[k * stored + j] = (int16_t)integer;
+      nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    worst = nsvcd__max(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
-    if (j < hull_count) worst_of_hull = worst;
+    sorted->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    if (j < hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
   }
-  s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
   // Each point of the hull is off by no more than its vertices are.
-  const double slack = (double)s->slacks[to] + worst_of_hull;
-  s->slacks[to] = nsvcd__float_above(slack);
+  s->slacks[to] = nsvcd__float_above((double)s->slacks[to] + worst_of_hull);
 
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
@@ -5924,21 +5962,29 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
     for (size_t j = 2; j < count; j++) {
       uint16_t *out = s->corners + 3 * s->listed;
-      out[0] = (uint16_t)sorted->numbers[corners[0]];
-      out[1] = (uint16_t)sorted->numbers[corners[j - 1]];
-      out[2] = (uint16_t)sorted->numbers[corners[j]];
-      s->ids[s->listed++] = sorted->pieces->region->ids[triangle];
+      for (size_t n = 0; n < 3; n++) {
+        const uint32_t number = sorted->numbers[corners[n ? j - 2 + n : 0]];
+        out[n] = (uint16_t)number;
+        if (number >= stored) continue;
+        worst = nsvcd__max(worst, sorted->bounds[number]);
+        has_stored = 1;
+      }
+      s->ids[s->listed++] = region->ids[triangle];
     }
   }
+  worst += sorted->pieces->margin;
+  s->quanta[to] = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
 // ---- all of it
 
-// A surface of up to n patches, none of which is described yet. 0 without memory.
-static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena,
+// A surface of up to n patches, none of which is described yet. coarse: 1 if corners are to be
+// stored as integers. 0 without memory.
+static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__arena *arena,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
   s->arena = arena;
+  s->coarse = coarse;
   s->component_count = components;
   s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
   s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
@@ -5947,22 +5993,26 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   s->quanta = NSVCD__TAKE(arena, float, n);
   s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
   s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->first_named = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->first_triangle = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->seeds = NSVCD__TAKE(arena, nsvcd__f3, components);
   s->seed_patches = NSVCD__TAKE(arena, uint32_t, components);
   return !arena->failed;
 }
 
-// Makes room for more vertices and listings. 0 without memory.
-static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triangles) {
-  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
-  for (size_t k = 0; k < 3; k++) {
-    const size_t more = k == 0 ? vertices : triangles;
-    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
-    lists[k]->count = k == 0 ? s->vertex_count : s->listed;
-    if (!nsvcd__list_reserve(lists[k], more, size, s->arena)) return 0;
+// Makes room for more points, stored and named, and listings. 0 without memory.
+static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t named,
+                               size_t triangles) {
+  nsvcd__list *lists[] = {&s->vertex_list, &s->named_list, &s->corner_list, &s->id_list};
+  const size_t counts[] = {s->vertex_count, s->named_count, s->listed, s->listed};
+  const size_t more[] = {vertices, named, triangles, triangles};
+  for (size_t k = 0; k < 4; k++) {
+    const size_t size = k % 2 ? sizeof(uint32_t) : 3 * sizeof(int16_t);
+    lists[k]->count = counts[k];
+    if (!nsvcd__list_reserve(lists[k], more[k], size, s->arena)) return 0;
   }
   s->vertices = (int16_t *)s->vertex_list.items;
+  s->named = (uint32_t *)s->named_list.items;
   s->corners = (uint16_t *)s->corner_list.items;
   s->ids = (uint32_t *)s->id_list.items;
   return 1;
@@ -5976,27 +6026,38 @@ static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s)
   const nsvcd__pieces *pieces = sorted->pieces;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
+  size_t named = s->named_count;
   size_t triangles = s->listed;
   s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
     nsvcd__describe_patch(sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
+    s->first_named[i] = (uint32_t)named;
     s->first_triangle[i] = (uint32_t)triangles;
+    size_t stored = sorted->met_count;
     // Where nothing is cut, and all points are the hull's, they have been counted.
-    if (pieces->corners.count == 0 && sorted->met_count == s->hull_counts[i])
+    const int whole = pieces->corners.count + pieces->region->cut_count == 0;
+    if (whole && stored == s->hull_counts[i]) {
       triangles += sorted->first[i - done + 1] - sorted->first[i - done];
-    else
-      triangles += nsvcd__number_vertices(sorted, i - done, s->hull_counts[i]);
-    vertices += sorted->met_count;
+      if (!s->coarse) named += stored;
+    } else {
+      triangles += nsvcd__number_vertices(sorted, i - done, s, &stored);
+      named += sorted->met_count - stored;
+    }
+    vertices += stored;
     if (sorted->met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
-    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT ||
+        named > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
   s->first_vertex[s->count] = (uint32_t)vertices;
+  s->first_named[s->count] = (uint32_t)named;
   s->first_triangle[s->count] = (uint32_t)triangles;
-  if (!nsvcd__surface_room(s, vertices - s->vertex_count, triangles - s->listed))
+  if (!nsvcd__surface_room(s, vertices - s->vertex_count, named - s->named_count,
+                           triangles - s->listed))
     return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
+  s->named_count = named;
   for (size_t i = done; i < s->count; i++) {
     if (s->hull_counts[i] > 0) nsvcd__store_patch(sorted, i - done, s);
   }
@@ -6336,7 +6397,7 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
-#define NSVCD__BODY_VERSION 7u
+#define NSVCD__BODY_VERSION 8u
 
 struct nsvcd_body {
   uint32_t magic, version;
@@ -6807,30 +6868,41 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
-//   counts          (4)      uint32: triangles listed L, vertices V, components C, bytes of
+//   counts          (4)      uint32: triangles listed L, points stored V, components C, bytes of
 //                            listings B
 //   round           (1)      float: metres that the body goes beyond its triangles
-//   zeros           (3)      uint32
+//   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
+//                            are listed in pieces K. 0, 0, 0: the body is coarse
 //   box             (2, 3)   float: least and greatest coordinates of the surface
-//   widest          (2)      float: the greatest of the quanta, and zero
+//   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
+//                            are off by: 0, but in a body that was scaled, or is coarse
 //   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high, and are no farther than `across` from the
 //                            line along n; c: centre of the patch's sphere
 //   group discs     (6, G)   float: the same over the members of each group; c: centre of the
 //                            group's sphere
-//   steps           (P)      float: metres per integer: a stored vertex is c + step (x, y, z)
-//   slacks          (P)      float: pieces are within this of the hull of the first vertices
-//   quanta          (P)      float: corners of triangles are within this of the stored vertices
-//   first_vertex, first_triangle, first_byte
-//                   (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
+//   steps           (P)      float: metres per integer: a stored point is c + step (x, y, z)
+//   slacks          (P)      float: pieces are within this of the hull of the first points
+//   quanta          (P)      float: corners that are stored points are within this of these
+//   first_vertex, first_own, first_reference, first_triangle, first_byte
+//                   (5, N + 1) uint32: where a patch's stored points, the vertices that it is the
+//                            first to have, references to others, triangles and listings begin
 //   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
 //                            padding
 //   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
-//   vertices        (3 V)    int16: patch by patch x, y, z; the hull's first
-//                   (16)     int16: so that 16 can be read from any vertex on
+//   places          (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
+//                            of each patch its own, then those of no patch
+//   cut             (K)      uint32: triangles of the caller's that are listed in pieces, in order
+//   cut_corners     (K, 3)   uint32: their corners, numbers of vertices
+//   references      (R)      uint32, or uint16 if W is 65536 at most: patch by patch, numbers of
+//                            vertices that a patch before it has
+//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: the hull's, then
+//                            corners of pieces
+//                   (16)     int16: so that 16 can be read from any point on
 //   listings        (B)      bytes: patch by patch, of its T triangles
-//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within
-//                            the patch
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256: points within the patch:
+//                            its stored ones, its own vertices, its references. A triangle of
+//                            vertices alone is one of the caller's; another is a piece of one
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
 
@@ -6841,19 +6913,24 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
   float round;
-  uint32_t zeros[3];
+  uint32_t places, references, cut;
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
   // of triangles
   const nsvcd_body *body;
   const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
-  const uint32_t *first_vertex, *first_triangle, *first_byte, *first_seed;
-  const float *seeds;
+  const uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
+  const uint32_t *first_seed;
+  const float *seeds, *places;
+  const uint32_t *cut, *cut_corners;
+  // of 16 bits or 32
+  const unsigned char *references;
   const int16_t *vertices;
   const unsigned char *listings;
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
+  size_t place_count, reference_count, cut_count;
   float round;
 } nsvcd__facets;
 
@@ -6877,6 +6954,10 @@ static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t co
   return out;
 }
 
+static size_t nsvcd__reference_bytes(const nsvcd__facets *f) {
+  return f->place_count <= 65536 ? 2 : 4;
+}
+
 // Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
 // its bytes; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
@@ -6890,6 +6971,9 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->components = counts->components;
   f->listings_size = counts->listings_size;
   f->round = counts->round;
+  f->place_count = counts->places;
+  f->reference_count = counts->references;
+  f->cut_count = counts->cut;
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -6897,10 +6981,17 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->slacks = NSVCD__PASS(float, padded);
   f->quanta = NSVCD__PASS(float, padded);
   f->first_vertex = NSVCD__PASS(uint32_t, starts);
+  f->first_own = NSVCD__PASS(uint32_t, starts);
+  f->first_reference = NSVCD__PASS(uint32_t, starts);
   f->first_triangle = NSVCD__PASS(uint32_t, starts);
   f->first_byte = NSVCD__PASS(uint32_t, starts);
   f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
   f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
+  f->places = NSVCD__PASS(float, (uint64_t)3 * f->place_count);
+  f->cut = NSVCD__PASS(uint32_t, f->cut_count);
+  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * f->cut_count);
+  const size_t wide = nsvcd__reference_bytes(f);
+  f->references = NSVCD__PASS(unsigned char, (uint64_t)wide * f->reference_count);
   f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
   f->listings = NSVCD__PASS(unsigned char, f->listings_size);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
@@ -6917,10 +7008,14 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
 static float nsvcd__widest_quantum(const nsvcd__facets *f) {
   return f->box[6];
 }
+// How far nsvcd__facet_triangle may be off the mesh's.
+static float nsvcd__off_mesh(const nsvcd__facets *f) {
+  return f->box[7];
+}
 
 // ---- one patch
 
-// The vertices of a patch: integers, in steps from its centre.
+// The stored points of a patch: integers, in steps from its centre.
 typedef struct nsvcd__vertices {
   // (count) each
   const int16_t *x, *y, *z;
@@ -6940,16 +7035,47 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// Bytes of a corner in a patch of so many vertices.
-static size_t nsvcd__corner_bytes(size_t vertices) {
-  return vertices <= 256 ? 1 : 2;
+// The points that corners of a patch can be, by their numbers in it: stored ones, from 0; its own
+// vertices; and references.
+typedef struct nsvcd__patch_points {
+  size_t stored, own, all;
+} nsvcd__patch_points;
+
+NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__facets *f, size_t patch) {
+  nsvcd__patch_points out;
+  out.stored = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  out.own = f->first_own[patch + 1] - f->first_own[patch];
+  out.all = out.stored + out.own + f->first_reference[patch + 1] - f->first_reference[patch];
+  return out;
 }
 
-// The vertex, of its patch, of corner k (0..2) of listing n.
+// Bytes of a corner in a patch of so many points.
+static size_t nsvcd__corner_bytes(size_t points) {
+  return points <= 256 ? 1 : 2;
+}
+
+// The place of point i of a patch, which is no stored one, (3).
+NSVCD__INLINE const float *nsvcd__place_of(const nsvcd__facets *f, size_t patch,
+                                           nsvcd__patch_points points, size_t i) {
+  i -= points.stored;
+  if (i < points.own) return f->places + 3 * (f->first_own[patch] + i);
+  const size_t at = f->first_reference[patch] + i - points.own;
+  uint32_t number = 0;
+  uint16_t narrow;
+  if (f->place_count > 65536) {
+    memcpy(&number, f->references + 4 * at, sizeof number);
+  } else {
+    memcpy(&narrow, f->references + 2 * at, sizeof narrow);
+    number = narrow;
+  }
+  return f->places + 3 * (size_t)number;
+}
+
+// The point, of its patch, of corner k (0..2) of listing n.
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
   const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
-  if (nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count) == 1) return corners[at];
+  if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
   memcpy(&corner, corners + 2 * at, sizeof corner);
   return corner;
@@ -6979,7 +7105,7 @@ typedef struct nsvcd__numbers {
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
-  const size_t bytes = nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count);
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
   out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
@@ -7021,16 +7147,37 @@ static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
 }
 
-// The corners (3) of listing n of a patch, exactly.
+// The corners (3) of a triangle that is listed in pieces, by its number in the caller's mesh.
+static void nsvcd__whole_triangle(const nsvcd__facets *f, uint32_t number,
+                                  nsvcd__d3 *corners) {
+  size_t first = 0;
+  for (size_t left = f->cut_count; left > 1;) {
+    const size_t half = left / 2;
+    if (f->cut[first + half] <= number) first += half;
+    left -= half;
+  }
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_row(f->places, f->cut_corners[3 * first + k]);
+}
+
+// The corners (3) of the caller's triangle that listing n of a patch is, or is a piece of. Of a
+// coarse body, those of the listing itself.
 static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
-  const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
-  const nsvcd__d3 origin = nsvcd__facet_origin(f, patch);
-  const double step = (double)f->steps[patch];
+  const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
-    const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-    corners[k] = nsvcd__d3_fma(step, vertex, origin);
+    if (i >= points.stored) {
+      corners[k] = nsvcd__d3_load(nsvcd__place_of(f, patch, points, i));
+    } else if (f->cut_count > 0) {
+      nsvcd__whole_triangle(f, nsvcd__facet_number(f, patch, n), corners);
+      return;
+    } else {
+      const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
+      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
+      corners[k] =
+          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__facet_origin(f, patch));
+    }
   }
 }
 
@@ -7144,8 +7291,9 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
 }
 
 // What is computed from the patches of a body of triangles, when these are in place: the spheres
-// above them, the box with the greatest of the quanta, and the groups' discs.
-static void nsvcd__facets_finish(nsvcd_body *b) {
+// above them, the box with the greatest of the quanta, and the groups' discs. off: metres that the
+// mesh's vertices are off by.
+static void nsvcd__facets_finish(nsvcd_body *b, float off) {
   const nsvcd__facets f = nsvcd__facets_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
   float *out = (float *)(b + 1) + groups.first;
@@ -7163,154 +7311,32 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
+  for (size_t n = 0; n < f.place_count; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(f.places, n));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(f.places, n));
+  }
   for (size_t i = 0; i < b->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const double quantum = (double)f.quanta[i];
-    nsvcd__d3 least = {32767, 32767, 32767};
-    nsvcd__d3 most = {-32767, -32767, -32767};
-    for (size_t k = 0; k < vertices.count; k++) {
-      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      least = nsvcd__d3_min(least, vertex);
-      most = nsvcd__d3_max(most, vertex);
-    }
-    if (vertices.count == 0) continue;
-    least = nsvcd__d3_fma((double)f.steps[i], least, origin);
-    most = nsvcd__d3_fma((double)f.steps[i], most, origin);
-    low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, least));
-    high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, most));
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
+    for (size_t k = 0; k < vertices.count && f.place_count == 0; k++) {
+      nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
+      vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, vertex));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, vertex));
+    }
   }
   // float rounding
-  const double margin = 1e-6 * (double)b->extent;
+  const double margin = 1e-6 * (double)b->extent + (double)off;
   float *box = (float *)nsvcd__writable(b, f.box);
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
   box[6] = widest;
-  box[7] = 0;
+  box[7] = f.place_count > 0 ? off : widest;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
-
-#ifndef NSVCD_NO_ENCODER
-// ---- writing
-
-// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
-static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
-  size_t size = 0;
-  uint32_t last = 0;
-  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
-    const uint32_t id = s->ids[n];
-    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
-    for (int more = 1; more; code >>= 7) {
-      more = code > 0x7f;
-      if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
-      size++;
-    }
-    last = id;
-  }
-  return size;
-}
-
-// The counts of the body of triangles that a surface makes.
-static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *s) {
-  nsvcd__facet_counts counts;
-  memset(&counts, 0, sizeof counts);
-  counts.listed = (uint32_t)s->listed;
-  counts.vertices = (uint32_t)s->vertex_count;
-  counts.components = (uint32_t)s->seed_count;
-  uint64_t bytes = 0;
-  for (size_t i = 0; i < s->count; i++) {
-    const size_t vertices = s->first_vertex[i + 1] - s->first_vertex[i];
-    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
-    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
-    bytes += nsvcd__numbers_write(s, i, NULL);
-  }
-  // then the body is refused as too large
-  counts.listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
-  return counts;
-}
-
-// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(const nsvcd__surface *s, size_t from, nsvcd_body *b,
-                               nsvcd__facets f, size_t to) {
-  const size_t padded = b->padded;
-  nsvcd__sphere ball = s->balls[from];
-  if (s->hull_counts[from] == 0) ball.radius = 0;
-  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
-  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
-  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
-  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
-
-  const size_t vertex = s->first_vertex[from];
-  const size_t vertices = s->first_vertex[from + 1] - vertex;
-  const size_t first = s->first_triangle[from];
-  const size_t end = s->first_triangle[from + 1];
-  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
-  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
-  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
-  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
-  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
-  unsigned char *at = begin;
-  const size_t bytes = nsvcd__corner_bytes(vertices);
-  for (size_t n = 3 * first; n < 3 * end; n++) {
-    const uint16_t corner = s->corners[n];
-    if (bytes == 1) at[0] = (unsigned char)corner;
-    if (bytes == 2) memcpy(at, &corner, 2);
-    at += bytes;
-  }
-  at += nsvcd__numbers_write(s, from, at);
-  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
-  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
-  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
-}
-
-// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
-  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
-  const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
-  for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
-    first_seed[g + 1]++;
-  }
-  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
-  for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
-    const size_t to = --first_seed[g + 1];
-    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
-  }
-  // Now first_seed[g + 1] is where group g begins.
-  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
-  first_seed[groups] = (uint32_t)s->seed_count;
-  memset(places, 0, b->patches * sizeof *places);
-}
-
-// Builds a body of triangles of `size` bytes in `memory`. triangles: of the mesh. order: (N) of the
-// patches. NUMBER if it would be too large, EMPTY if it would be too small.
-static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
-                                        const nsvcd__facet_counts *counts, size_t triangles,
-                                        const uint16_t *order, int open, void *memory,
-                                        size_t size) {
-  nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
-  b->triangles = (uint32_t)triangles;
-  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
-  nsvcd__seeds_write(s, order, b);
-  const nsvcd__facets f = nsvcd__facets_of(b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, f, i);
-  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
-    return NSVCD_ERROR_NUMBER;
-  nsvcd__facets_finish(b);
-  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
-}
-#endif
 #endif  // NSVCD_NO_PROOF
 
 // Of a sphere about a body, with what it goes beyond its triangles.
@@ -7420,20 +7446,25 @@ static int nsvcd__tips_are_sound(const nsvcd_body *b) {
 // Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
+  const uint32_t *own = f->first_own + i;
+  const uint32_t *reference = f->first_reference + i;
   const uint32_t *triangle = f->first_triangle + i;
   if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
+  if (own[1] < own[0] || own[1] > f->place_count) return 0;
+  if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
   if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
-  const size_t vertices = vertex[1] - vertex[0];
+  const nsvcd__patch_points points = nsvcd__points_of(f, i);
   const size_t triangles = triangle[1] - triangle[0];
   const size_t hull_count = f->hull_counts[i];
-  if (hull_count > NSVCD__HULL || hull_count > vertices) return 0;
-  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+  if (hull_count > NSVCD__HULL || hull_count > points.stored) return 0;
+  if ((hull_count == 0) != (triangles == 0)) return 0;
+  if ((hull_count == 0) != (points.all == 0)) return 0;
 
-  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
   if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices) return 0;
+    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
   }
   // Behind them are just as many codes, and all of triangles that there are.
   const unsigned char *at = f->listings + (size_t)corners_end;
@@ -7450,6 +7481,26 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   return at == end;
 }
 #endif  // NSVCD_NO_PROOF
+
+#ifndef NSVCD_NO_PROOF
+// Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
+static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
+  const size_t wide = nsvcd__reference_bytes(f);
+  for (size_t n = 0; n < f->reference_count; n++) {
+    uint32_t number = 0;
+    uint16_t narrow = 0;
+    if (wide == 4) memcpy(&number, f->references + 4 * n, 4);
+    if (wide == 2) memcpy(&narrow, f->references + 2 * n, 2);
+    if (number + narrow >= f->place_count) return 0;
+  }
+  for (size_t n = 0; n < f->cut_count; n++) {
+    if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
+    for (size_t k = 0; k < 3; k++)
+      if (f->cut_corners[3 * n + k] >= f->place_count) return 0;
+  }
+  return 1;
+}
+#endif
 
 // ---- whole bodies
 
@@ -7475,8 +7526,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t slots = nsvcd__group_slots(padded);
   const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
-  const uint32_t *zeros = counts->zeros;
-  if (zeros[0] || zeros[1] || zeros[2] || b->triangles == 0) return 0;
+  if (b->triangles == 0) return 0;
   if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
   if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
@@ -7484,6 +7534,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 
   f = nsvcd__facets_of(b);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
   if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
   for (size_t i = 0; i < patches; i++) {
     if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
@@ -7494,6 +7545,8 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
     return 0;
   if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+    return 0;
+  if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
     return 0;
 
   for (size_t g = 0; g < groups; g++) {
@@ -7514,6 +7567,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (!nsvcd__within(f.slacks, padded, most)) return 0;
   if (!nsvcd__within(f.quanta, padded, most)) return 0;
   if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
+  if (!nsvcd__within(f.places, 3 * f.place_count, most) || f.box[7] < 0) return 0;
   for (size_t i = 0; i < padded; i++) {
     const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
@@ -7612,7 +7666,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta.
+  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta,
+  // and is what the vertices are off by.
   const nsvcd__facets f = nsvcd__facets_of(b);
   const double by = (double)scale;
   float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
@@ -7624,20 +7679,28 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
   float *quanta = (float *)nsvcd__writable(b, f.quanta);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
+  float *places = (float *)nsvcd__writable(b, f.places);
+  double worst = off;
+  for (size_t i = 0; i < 3 * f.place_count; i++) {
+    const double whole = (double)places[i] * by;
+    places[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)places[i]) + off);
+  }
+  const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
     const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
     slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding);
+    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding + worst);
     disc.low = (float)((double)disc.low * by - rounding);
     disc.high = (float)((double)disc.high * by + rounding);
     disc.across = nsvcd__above((double)disc.across * by + rounding);
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  nsvcd__facets_finish(b);
+  nsvcd__facets_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 #endif
 }
 
@@ -7692,7 +7755,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
     facts.listings = f.listed;
-    facts.quantum = nsvcd__widest_quantum(&f);
+    facts.quantum = nsvcd__off_mesh(&f);
     facts.round = f.round;
   }
 #endif
@@ -7707,6 +7770,231 @@ NSVCDDEF int nsvcd_body_patch(const nsvcd_body *body, uint32_t patch, float cent
   *radius = sphere.radius + nsvcd__whole_radius(body) - body->radius;
   return 1;
 }
+
+// -------------------------------------------------------------------------------------- body/write
+// In: a surface, and the mesh it is of. Out: the body of triangles that body/facets reads.
+
+#if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
+// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
+static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
+  size_t size = 0;
+  uint32_t last = 0;
+  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
+    const uint32_t id = s->ids[n];
+    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
+    for (int more = 1; more; code >>= 7) {
+      more = code > 0x7f;
+      if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
+      size++;
+    }
+    last = id;
+  }
+  return size;
+}
+
+// What a body of triangles is written from.
+typedef struct nsvcd__facets_source {
+  nsvcd__surface *surface;
+  const nsvcd_mesh *mesh;
+  // (vertices of the mesh) the number of each in the body, from 1; 0: none yet
+  uint32_t *numbers;
+  // (triangles) 1: listed in pieces
+  uint8_t *cut;
+  nsvcd__facet_counts counts;
+} nsvcd__facets_source;
+
+static size_t nsvcd__source_corner(const nsvcd_mesh *mesh, size_t t, size_t k) {
+  return mesh->indices ? mesh->indices[3 * t + k] : t;
+}
+
+// Counts all that the body of a surface is to have, which is all there: fills in the source. 0
+// without memory.
+static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena) {
+  const nsvcd__surface *s = source->surface;
+  const nsvcd_mesh *mesh = source->mesh;
+  nsvcd__facet_counts *counts = &source->counts;
+  source->numbers = NSVCD__TAKE(arena, uint32_t, s->coarse ? 0 : mesh->vertex_count);
+  source->cut = NSVCD__TAKE(arena, uint8_t, s->coarse ? 0 : mesh->triangle_count);
+  if (arena->failed) return 0;
+  memset(counts, 0, sizeof *counts);
+  counts->listed = (uint32_t)s->listed;
+  counts->vertices = (uint32_t)s->vertex_count;
+  counts->components = (uint32_t)s->seed_count;
+  uint64_t bytes = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const size_t stored = s->first_vertex[i + 1] - s->first_vertex[i];
+    const size_t points = stored + s->first_named[i + 1] - s->first_named[i];
+    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
+    const size_t first = 3 * (size_t)s->first_triangle[i];
+    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
+    bytes += nsvcd__numbers_write(s, i, NULL);
+    for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
+      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & ~NSVCD__ENCLOSES] = 1;
+  }
+  for (size_t n = 0; n < s->named_count; n++) {
+    counts->places += !source->numbers[s->named[n]];
+    source->numbers[s->named[n]] = 1;
+  }
+  counts->references = (uint32_t)s->named_count - counts->places;
+  for (size_t n = 0; n < 3 * mesh->triangle_count && !s->coarse; n++) {
+    if (!source->cut[n / 3]) continue;
+    const size_t v = nsvcd__source_corner(mesh, n / 3, n % 3);
+    counts->places += !source->numbers[v];
+    source->numbers[v] = 1;
+    counts->cut += n % 3 == 0;
+  }
+  if (!s->coarse) memset(source->numbers, 0, mesh->vertex_count * sizeof *source->numbers);
+  // then the body is refused as too large
+  counts->listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
+  return 1;
+}
+
+// Gives a vertex the next number, and its place in the body. Returns the number, from 0.
+static uint32_t nsvcd__place_write(nsvcd__facets_source *source, nsvcd_body *b,
+                                   const nsvcd__facets *f, size_t vertex, uint32_t *count) {
+  float *places = (float *)nsvcd__writable(b, f->places);
+  const float *from = source->mesh->positions + 3 * vertex;
+  memcpy(places + 3 * (size_t)*count, from, 3 * sizeof *places);
+  source->numbers[vertex] = ++*count;
+  return *count - 1;
+}
+
+// Writes the places and references of patch `to`, from patch `from` of a surface, whose names
+// become numbers in the body's patch.
+static void nsvcd__named_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
+                               const nsvcd__facets *f, size_t to) {
+  nsvcd__surface *s = source->surface;
+  uint32_t *first_own = (uint32_t *)nsvcd__writable(b, f->first_own + to);
+  uint32_t *first_reference = (uint32_t *)nsvcd__writable(b, f->first_reference + to);
+  unsigned char *references = (unsigned char *)nsvcd__writable(b, f->references);
+  const size_t wide = nsvcd__reference_bytes(f);
+  uint32_t *named = s->named + s->first_named[from];
+  const size_t count = s->first_named[from + 1] - s->first_named[from];
+  uint32_t own = s->first_vertex[from + 1] - s->first_vertex[from];
+  uint32_t other = own;
+  first_own[1] = first_own[0];
+  first_reference[1] = first_reference[0];
+  for (size_t n = 0; n < count; n++) other += !source->numbers[named[n]];
+  for (size_t n = 0; n < count; n++) {
+    const uint32_t number = source->numbers[named[n]];
+    if (!number) {
+      (void)nsvcd__place_write(source, b, f, named[n], &first_own[1]);
+      named[n] = own++;
+      continue;
+    }
+    const uint32_t wanted = number - 1;
+    const uint16_t narrow = (uint16_t)wanted;
+    unsigned char *at = references + wide * first_reference[1]++;
+    if (wide == 2) memcpy(at, &narrow, 2);
+    if (wide == 4) memcpy(at, &wanted, 4);
+    named[n] = other++;
+  }
+}
+
+// Writes the triangles that are listed in pieces, once all patches are written.
+static void nsvcd__cut_write(nsvcd__facets_source *source, nsvcd_body *b,
+                             const nsvcd__facets *f) {
+  const nsvcd_mesh *mesh = source->mesh;
+  uint32_t *cut = (uint32_t *)nsvcd__writable(b, f->cut);
+  uint32_t *corners = (uint32_t *)nsvcd__writable(b, f->cut_corners);
+  uint32_t count = f->first_own[b->patches];
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    if (!source->cut[t]) continue;
+    *cut++ = (uint32_t)t;
+    for (size_t k = 0; k < 3; k++) {
+      const size_t v = nsvcd__source_corner(mesh, t, k);
+      const uint32_t known = source->numbers[v];
+      *corners++ = known ? known - 1 : nsvcd__place_write(source, b, f, v, &count);
+    }
+  }
+}
+
+// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
+static void nsvcd__patch_write(nsvcd__facets_source *source, size_t from, nsvcd_body *b,
+                               nsvcd__facets f, size_t to) {
+  const nsvcd__surface *s = source->surface;
+  const size_t padded = b->padded;
+  nsvcd__sphere ball = s->balls[from];
+  if (s->hull_counts[from] == 0) ball.radius = 0;
+  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
+  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
+  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
+  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
+  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
+  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
+
+  const size_t vertex = s->first_vertex[from];
+  const size_t vertices = s->first_vertex[from + 1] - vertex;
+  const size_t first = s->first_triangle[from];
+  const size_t end = s->first_triangle[from + 1];
+  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
+  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
+  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
+  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
+  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
+  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
+  unsigned char *at = begin;
+  nsvcd__named_write(source, from, b, &f, to);
+  const uint32_t *named = s->named + s->first_named[from];
+  const size_t points = vertices + s->first_named[from + 1] - s->first_named[from];
+  const size_t bytes = nsvcd__corner_bytes(points);
+  for (size_t n = 3 * first; n < 3 * end; n++) {
+    const size_t i = s->corners[n];
+    const uint16_t corner = (uint16_t)(i < vertices ? i : named[i - vertices]);
+    if (bytes == 1) at[0] = (unsigned char)corner;
+    if (bytes == 2) memcpy(at, &corner, 2);
+    at += bytes;
+  }
+  at += nsvcd__numbers_write(s, from, at);
+  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
+  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
+  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
+}
+
+// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
+static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
+  float *seeds = (float *)nsvcd__writable(b, f.seeds);
+  // Until the body is whole, the places of patches are kept where their first vertices will be.
+  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
+  const size_t groups = nsvcd__body_groups(b);
+  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
+  for (size_t n = 0; n < s->seed_count; n++) {
+    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    first_seed[g + 1]++;
+  }
+  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
+  for (size_t n = s->seed_count; n-- > 0;) {
+    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
+    const size_t to = --first_seed[g + 1];
+    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
+  }
+  // Now first_seed[g + 1] is where group g begins.
+  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
+  first_seed[groups] = (uint32_t)s->seed_count;
+  memset(places, 0, b->patches * sizeof *places);
+}
+
+// Builds a body of triangles of `size` bytes in `memory`. order: (N) of the patches. Afterwards the
+// source is of no use. NUMBER if it would be too large, EMPTY if it would be too small.
+static nsvcd_result nsvcd__facets_build(nsvcd__facets_source *source, const uint16_t *order,
+                                        int open, void *memory, size_t size) {
+  const nsvcd__surface *s = source->surface;
+  const nsvcd__facet_counts *counts = &source->counts;
+  nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
+  b->triangles = (uint32_t)source->mesh->triangle_count;
+  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
+  nsvcd__seeds_write(s, order, b);
+  const nsvcd__facets f = nsvcd__facets_of(b);
+  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(source, order[i], b, f, i);
+  if (!s->coarse) nsvcd__cut_write(source, b, &f);
+  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
+    return NSVCD_ERROR_NUMBER;
+  nsvcd__facets_finish(b, 0);
+  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
+}
+#endif  // NSVCD_NO_ENCODER, NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- body/encode
 // In: a mesh. Out: a body. Region by region the surface becomes patches, and these become latents
@@ -7734,7 +8022,7 @@ typedef struct nsvcd__parts {
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
-  nsvcd__facet_counts counts;
+  nsvcd__facets_source source;
 #endif
 } nsvcd__parts;
 
@@ -7803,9 +8091,10 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
   nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
   nsvcd__surface *surface = &parts->surface;
   nsvcd__curve curve;
-  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, &parts->arena, surface);
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
+                                &parts->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
-  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, triangles);
+  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->done) {
     const size_t left = runs - first;
@@ -7850,7 +8139,8 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!options->no_triangles)
-    (void)nsvcd__surface_begin(patches, regions.component_count, arena, &parts->surface);
+    (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
+                               &parts->surface);
 #endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
@@ -7885,10 +8175,12 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
 #ifndef NSVCD_NO_PROOF
   if (!result && !options->no_triangles) {
     nsvcd__facets none;
-    parts->counts = nsvcd__facets_count(&parts->surface);
-    parts->counts.round = options->round;
-    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->counts, &none);
-    if (!parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
+    parts->source.surface = &parts->surface;
+    parts->source.mesh = mesh;
+    if (!nsvcd__facets_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
+    parts->source.counts.round = options->round;
+    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->source.counts, &none);
+    if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
   if (result) nsvcd__arena_free(&parts->arena);
@@ -7925,8 +8217,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
 #ifndef NSVCD_NO_PROOF
   if (!result && parts->facets_size) {
     void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__facets_build(&parts->surface, &parts->counts, triangles, order, open, to,
-                                 parts->facets_size);
+    result = nsvcd__facets_build(&parts->source, order, open, to, parts->facets_size);
   }
 #endif
   if (result || !parts->latents_size || !parts->facets_size) return result;
@@ -10830,32 +11121,31 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
 //      all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
-//      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
-//      in double. No NaN comes into it: questions and bodies are checked to be finite and within
-//      bounds. Where floats could overflow all the same, in hulls, it is seen to that a NaN parts
-//      nothing.
+//      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
+//      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
+//      separated in double, whole and as the caller gave them, whatever pieces are listed. No NaN
+//      comes into it: questions and bodies are checked to be finite and within bounds. Where floats
+//      could overflow all the same, in hulls, it is seen to that a NaN parts nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
 //      their signs, the triangles of the other body's closed components that it leaves and enters
 //      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
-//      edge within the quanta is given up for another; open components enclose nothing. The stored
-//      triangles, about which this is, are as far from the true ones as the quanta say: so where a
-//      stored triangle is that near to the seed, the answer counts only if planes part all patches
-//      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
-//      side of a plane, and agree.
+//      edge within rounding, and what triangles are off the mesh's, is given up for another; open
+//      components enclose nothing. Where a triangle is that near to the seed, the answer counts
+//      only if planes separate all patches at t = 0: then the seed, the surface that was looked at
+//      and the true one are, patch by patch, on one side of a plane, and agree.
 //
-// A witness is a pair of stored triangles that share a point at the true pose, in double, or, where
-// a clearance is asked for, come within it; the mesh's own triangles are then within that and the
-// two quanta of each other. Faces that are parallel when
-// they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
-// of the other triangle at one time and on the other at another, and within its edges all the
-// while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
-// triangles come closer than their quanta and the tolerance without meeting, or the limit of work
-// was reached. After such a doubt only a contact can still decide, and flat on flat there are as
-// many doubts as triangles: so a share of the limit is all that is left then, more than a yes or no
-// takes on any problem of the sets.
+// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
+// where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
+// are those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they
+// meet do so at one time only, which rounded numbers miss: there, a corner that is on one side of
+// the other triangle at one time and on the other at another, and within its edges all the while,
+// has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
+// triangles come closer than NSVCD__TOO_NEAR and the tolerance without meeting, or the limit of
+// work was reached. After such a doubt only a contact can still decide, and flat on flat there are
+// as many doubts as triangles: so a share of the limit is all that is left then, more than a yes or
+// no takes on any problem of the sets.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
@@ -10896,6 +11186,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
+#define NSVCD__TOO_NEAR \
+  1e-9                     // of all lengths: it is not worth halving for a distance as short
+#define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
@@ -10910,7 +11203,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
+#define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
+#define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought,
 #define NSVCD__SUPPORTS 10    // and two across what these span,
 #define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
@@ -11260,7 +11554,13 @@ static float nsvcd__clearance(const nsvcd__proof *p) {
   return 1.000001f * (float)p->ask.clearance;
 }
 
-// What stored triangles of two patches may be off by, both together.
+// How far triangles may be off the meshes', both together.
+static double nsvcd__off_meshes(const nsvcd__proof *p) {
+  const double moving = (double)nsvcd__off_mesh(&p->moving);
+  return p->ask.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
+}
+
+// What stored points of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
 }
@@ -12206,20 +12506,23 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
-// Two listed triangles, one of each body, in their frames.
+// Two triangles, one of each body, in their frames: the caller's own, of which listings may be
+// pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, from its body's origin, in its body's units
   double reach;
-  // quanta, and rounding in double
+  // how far the meshes' own may be off, with rounding in double; and that
   double slack;
   double rounding;
+  // a part of the arc in which they come so near is not worth halving
+  double close;
 } nsvcd__couple;
 
 static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                       size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0};
   nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
   nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
   for (size_t k = 0; k < 3; k++) {
@@ -12228,9 +12531,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   }
   couple.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
-  couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
+  couple.slack = couple.rounding + nsvcd__off_meshes(p);
   couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  couple.close =
+      couple.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return couple;
 }
 
@@ -12446,6 +12750,48 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
   return nsvcd__nearest_of(posed, couple->fixed);
 }
 
+// How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
+// no more digits are lost than need be.
+static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0])));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(n, nsvcd__d3_sub(under[k], under[0])));
+  }
+  return lowest - highest;
+}
+
+// The direction that separates a couple at a time: that of its nearest points. It is off by their
+// roundings over their distance: where that is little, beside large triangles, a normal of one, or
+// across an edge of each, may separate them better.
+static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u, const nsvcd__nearest *nearest) {
+  const double distance = sqrt(nearest->square);
+  nsvcd__d3 *plane = &p->memo.parting;
+  *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
+  if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
+  const nsvcd__d3 none = {0, 0, 0};
+  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 guess = *plane;
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  double best = nsvcd__beyond(guess, posed, fixed);
+  for (size_t k = 0; k < 11; k++) {
+    nsvcd__d3 n = k == 0 ? nsvcd__face_direction(posed) : nsvcd__face_direction(fixed);
+    if (k > 1) {
+      const nsvcd__d3 a = nsvcd__d3_sub(posed[(k - 1) % 3], posed[(k - 2) % 3]);
+      const nsvcd__d3 b = nsvcd__d3_sub(fixed[((k - 2) / 3 + 1) % 3], fixed[(k - 2) / 3]);
+      n = nsvcd__d3_unit(nsvcd__d3_cross(a, b), none);
+    }
+    if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
+    const double beyond = nsvcd__beyond(n, posed, fixed);
+    if (nsvcd__d3_dot(n, guess) < 0.9 || !(beyond > best)) continue;
+    *plane = n;
+    best = beyond;
+  }
+}
+
 // A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
 // told whether it touches: a doubt. But where distances are measured, less is said, for certain:
 // these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
@@ -12459,7 +12805,7 @@ static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *
   const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  const double parted = distance - 2 * couple->close;
   p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
@@ -12497,7 +12843,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = couple->slack + p->given.tolerance;
+  const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double at = u0;
   int shrunk = 0;
@@ -12519,7 +12865,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+    nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
     const double room = above - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
@@ -12550,7 +12896,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
-  const double close = couple->slack + p->given.tolerance;
+  const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double *ends = p->couple_ends;
   size_t left = 1;
@@ -12575,7 +12921,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
         shrunk = 1;
         continue;
       }
-      *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+      nsvcd__aim_plane(p, couple, middle, &nearest);
       apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     }
     if (apart) {
@@ -12609,8 +12955,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
 // repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
 static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
-  const size_t bytes =
-      nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
   const size_t last = count - 1;
@@ -12622,33 +12967,32 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
     memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
 }
 
-// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
+// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
+// are off by no more than a quantum, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
                               nsvcd__block *out) {
-  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
-  const int16_t *y = x + all;
-  const int16_t *z = y + all;
+  const nsvcd__patch_points points = nsvcd__points_of(f, patch);
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
   const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const float step = f->steps[patch];
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
-    uint16_t vertices[NSVCD__LANES];
-    int16_t places[3][NSVCD__LANES];
-    nsvcd__block_corners(f, patch, first, count, k, vertices);
+    uint16_t corners[NSVCD__LANES];
+    float(*to)[NSVCD__LANES] = out->corners[k];
+    nsvcd__block_corners(f, patch, first, count, k, corners);
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      places[0][l] = x[vertices[l]];
-      places[1][l] = y[vertices[l]];
-      places[2][l] = z[vertices[l]];
-    }
-    NSVCD__EACH_SLICE(l) {
-      nsvcd__v3 integers;
-      integers.x = nsvcd__v_load_int16(places[0] + l);
-      integers.y = nsvcd__v_load_int16(places[1] + l);
-      integers.z = nsvcd__v_load_int16(places[2] + l);
-      const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-      const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre));
-      nsvcd__v3_store(out->corners[k], l, corner);
+      const size_t i = corners[l];
+      if (i < points.stored) {
+        to[0][l] = centre.x + step * (float)stored.x[i];
+        to[1][l] = centre.y + step * (float)stored.y[i];
+        to[2][l] = centre.z + step * (float)stored.z[i];
+        continue;
+      }
+      const float *place = nsvcd__place_of(f, patch, points, i);
+      to[0][l] = place[0];
+      to[1][l] = place[1];
+      to[2][l] = place[2];
     }
   }
   NSVCD__EACH_SLICE(l) {
@@ -13169,10 +13513,9 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
 // within the clearance; with a skin, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
-// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+// Nearer to each other than this nothing that is told in float is separate.
 static double nsvcd__hair(const nsvcd__proof *p) {
-  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+  return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
@@ -13371,7 +13714,8 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
-  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance(p);
+  const float margin =
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);
@@ -13937,13 +14281,13 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
-      const double margin = (double)f->quanta[i] + ray->margin;
+      const float about = 2 * (f->quanta[i] + (float)ray->margin);
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
         p->work++;
-        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
+        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
@@ -13951,7 +14295,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           if (!numbers.encloses) continue;
           p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
-          const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
           if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
         }
       }
@@ -13978,7 +14322,7 @@ static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   return met;
 }
 
-// Is a stored triangle so close to the place that the true surface may be on its other side?
+// Is a triangle so close to the place that the mesh's own may be on its other side?
 static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
                                   double tolerance) {
   const nsvcd_body *b = f->body;
@@ -14000,7 +14344,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double limit = 2 * (double)f->quanta[i] + tolerance;
+      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_PLACE * (double)remote;
+      const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
@@ -14033,7 +14378,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.margin =
+      NSVCD__SAME_PLACE * (double)p->given.lengths / unit + (double)nsvcd__off_mesh(f);
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
@@ -14180,9 +14526,9 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 }
 
 // Is a component of one body within the other at the start of the motion? Then p->enclosed is its
-// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
-// set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
-// patch by patch on one side of a plane, agree, and it is within.
+// point. Where that is so close to the surface that what that is off by matters, 0 is returned and
+// p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
+// looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
@@ -15038,10 +15384,10 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
-                                         nsvcd__d3 *normal) {
+static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
+                                         nsvcd__d3 way, double most, nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
-  const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
+  const double close = 16 * nsvcd__hair(p) / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
@@ -15098,7 +15444,14 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
+  return nsvcd__met_along(p, now, way, is_free ? HUGE_VAL : 1, &found->normal);
+}
+
+// Do two times, in ticks, fall into different arcs?
+static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
+  double u;
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
+  return first != nsvcd__arc_of(p->ask.motion, until, &u);
 }
 
 // Gives the contact that is known its normal.
@@ -15108,8 +15461,19 @@ static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   const double since = p->given.share > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
   nsvcd__approach now;
-  if (found->distance > 0) nsvcd__turn_back(p, since);
-  if (found->distance > 0 || nsvcd__normal_met(p, since, 0, &now)) return;
+  // what comes to a pose and goes back may have been found on the way back
+  const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
+  if (found->distance > 0 || has_turned) nsvcd__turn_back(p, since);
+  if (found->distance > 0) return;
+  if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
+    // these met on the way back alone: but others of the bodies on the way there
+    nsvcd__approach_at(p, found, since, &now);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(now.touch.moving, now.touch.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    found->normal = nsvcd__d3_unit(apart, found->normal);
+    return;
+  }
+  if (nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
     // it has turned since, and they may come apart again
     nsvcd__turn_back(p, since);
@@ -16452,7 +16816,7 @@ typedef char nsvcd__constants_hold
          : -1];
 #ifndef NSVCD_NO_PROOF
 typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
 typedef char
@@ -17233,8 +17597,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   double high = p->high;
   if (names) {
     const nsvcd__contact *found = &p->known.found;
-    const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
-    high = fmax(found->distance, p->given.round) + (double)quanta;
+    const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+    high = fmax(found->distance, p->given.round) + off;
     // the contact may have been moved to where it is nearer
     p->wide = p->wide && found->distance - p->low > p->given.width;
   }
@@ -18327,6 +18691,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
@@ -18349,6 +18714,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__begin_places NSVCD__AT(begin_places)
 #define nsvcd__bends NSVCD__AT(bends)
 #define nsvcd__best_lift NSVCD__AT(best_lift)
+#define nsvcd__beyond NSVCD__AT(beyond)
 #define nsvcd__block NSVCD__AT(block)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
 #define nsvcd__block_box NSVCD__AT(block_box)
@@ -18481,6 +18847,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__groups_nearest NSVCD__AT(groups_nearest)
 #define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
 #define nsvcd__hair NSVCD__AT(hair)
+#define nsvcd__has_turned NSVCD__AT(has_turned)
 #define nsvcd__height NSVCD__AT(height)
 #define nsvcd__held_again NSVCD__AT(held_again)
 #define nsvcd__hint NSVCD__AT(hint)
@@ -18599,6 +18966,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__not_parted_anew NSVCD__AT(not_parted_anew)
 #define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
+#define nsvcd__off_meshes NSVCD__AT(off_meshes)
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)

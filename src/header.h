@@ -86,8 +86,8 @@
 //   By proof, the default, FREE and HIT are facts, not opinions; the theorem stands in proof/proof.
 //   It is about the surfaces of the two meshes and the motion as described at nsvcd_sweep, and is
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
-//   surfaces come as close as the triangles are stored (nsvcd_body_facts.quantum of both bodies;
-//   with rounding, less than twice that), that of eight rays none could tell whether one is inside
+//   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
+//   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
 //   the other, or that the work allowed was not enough; then the network's opinion is added where
 //   it has one. A component of a mesh is closed if every edge has its reverse; what is open
 //   encloses nothing.
@@ -165,7 +165,7 @@
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
 //   facets            what a body stores for the proof: discs, hulls, listings
-//   quantum           how far a stored triangle may be off the mesh's
+//   quantum           how far a coarse triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
 //   knot, arc         when one of the poses given is reached; the motion from a knot to the next
 //   tick              the unit of a motion's time: every knot is at a whole number of ticks
@@ -253,6 +253,7 @@ extern "C" {
 #include "body/walk.h"    // a walk through the groups; load, scale, describe
 #include "body/facets.h"  // the blob of the proof: discs, hulls, triangles
 #include "body/trust.h"   // is a blob sound? load it, scale it, describe it
+#include "body/write.h"   // a surface -> the blob of the proof
 #include "body/encode.h"  // nsvcd_encode
 #include "body/shapes.h"  // spheres, capsules, boxes, clouds
 

@@ -188,11 +188,38 @@ static size_t proof_stored_number(const unsigned char *at, size_t bytes) {
   return number;
 }
 
+// Points of a patch: stored ones, its own vertices, references to others.
+static size_t proof_points(const nsvcd__facets *f, size_t i) {
+  const size_t stored = f->first_vertex[i + 1] - f->first_vertex[i];
+  const size_t own = f->first_own[i + 1] - f->first_own[i];
+  return stored + own + f->first_reference[i + 1] - f->first_reference[i];
+}
+
+// The place of one of them. Returns 1 if it is a vertex of the mesh.
+static int proof_point(const proof_body *b, const nsvcd__facets *f, size_t i, size_t number,
+                       double place[3]) {
+  const size_t stored = f->first_vertex[i + 1] - f->first_vertex[i];
+  const size_t own = f->first_own[i + 1] - f->first_own[i];
+  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+  const size_t bytes = f->place_count > 65536 ? 4 : 2;
+  if (number < stored) {
+    for (size_t k = 0; k < 3; k++)
+      place[k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * stored + number];
+    return 0;
+  }
+  size_t at = f->first_own[i] + number - stored;
+  if (number >= stored + own) {
+    at = f->first_reference[i] + number - stored - own;
+    at = proof_stored_number(f->references + bytes * at, bytes);
+  }
+  for (size_t k = 0; k < 3; k++) place[k] = (double)f->places[3 * at + k];
+  return 1;
+}
+
 // Where the numbers of a patch's triangles are: behind their corners.
 static const unsigned char *proof_numbers(const nsvcd__facets *f, size_t i) {
-  const size_t vertices = f->first_vertex[i + 1] - f->first_vertex[i];
   const size_t triangles = f->first_triangle[i + 1] - f->first_triangle[i];
-  return f->listings + f->first_byte[i] + (vertices <= 256 ? 3 : 6) * triangles;
+  return f->listings + f->first_byte[i] + (proof_points(f, i) <= 256 ? 3 : 6) * triangles;
 }
 
 // The number of the patch's n-th triangle: the sum of what n + 1 codes say, each in groups of seven
@@ -214,23 +241,19 @@ static size_t proof_triangle_number(const nsvcd__facets *f, size_t i, size_t n) 
 
 static void proof_read_listing(const proof_body *b, const nsvcd__facets *f, size_t i, size_t n,
                                proof_listing *out) {
-  const size_t all = f->first_vertex[i + 1] - f->first_vertex[i];
-  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[i];
+  const size_t bytes = proof_points(f, i) <= 256 ? 1 : 2;
   out->patch = i;
   out->triangle = proof_triangle_number(f, i, n - f->first_triangle[i]);
   proof_corners(b, out->triangle, out->corners);
   out->whole = 1;
   for (size_t c = 0; c < 3; c++) {
-    const size_t bytes = all <= 256 ? 1 : 2;
     const size_t corner = 3 * (n - f->first_triangle[i]) + c;
     const unsigned char *at = f->listings + f->first_byte[i] + bytes * corner;
-    const size_t vertex = proof_stored_number(at, bytes);
-    double off[3];
-    for (size_t k = 0; k < 3; k++) {
-      out->stored[c][k] = b->patches[i].centre[k] + (double)f->steps[i] * x[k * all + vertex];
-    }
-    oracle_sub(out->stored[c], out->corners[c], off);
-    if (oracle_length(off) > b->patches[i].quantum * (1 + 1e-9)) out->whole = 0;
+    const size_t number = proof_stored_number(at, bytes);
+    if (!proof_point(b, f, i, number, out->stored[c])) out->whole = 0;
+  }
+  for (size_t c = 0; c < 3 && out->whole && f->round <= 0; c++) {
+    for (size_t k = 0; k < 3; k++) CHECK_NEAR(out->stored[c][k], out->corners[c][k], 0);
   }
   if (!out->whole) memcpy(out->corners, out->stored, sizeof out->corners);
 }

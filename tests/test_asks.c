@@ -598,7 +598,8 @@ static void asks_contacts_at_the_ends(void) {
       }
       nsvcd_question question = question_of(piston, path, count, cylinder, NULL, NULL);
       const nsvcd_answer answer = asks(&question);
-      CHECK_EQ(status_of(&answer), STATUS_WITNESS);
+      // the plate has corners within the piston at the start
+      CHECK_EQ(answer.verdict, NSVCD_HIT);
       CHECK_LE(answer.work, 9000);
     }
   }
@@ -1079,8 +1080,8 @@ static void asks_first_of_short_ways(void) {
   for (int n = 0; n < 100; n++) {
     const nsvcd_body *table = asks_table(0, n % 2 ? 16 : 1);
     const nsvcd_body *box = asks_standing(8 + n % 8, &rng);
-    const double hair =
-        (double)nsvcd_body_describe(table).quantum + (double)nsvcd_body_describe(box).quantum;
+    // what is told in float is off by 1.2e-7 of all lengths
+    const double hair = 2.4e-7;
     const double way = hair * pow(10, shapes_uniform(&rng, 0.7, 2.5));
     const double share = shapes_uniform(&rng, 0.3, 0.9);
     const nsvcd_pose path[2] = {asks_pose(0.05, 0.02, 0.002 + share * way, 0.3),

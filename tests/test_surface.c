@@ -155,7 +155,7 @@ typedef struct reader {
   nsvcd__surface surface;
   // mean of the patches that it is made from; 0 where there are several regions
   double patch_radius;
-  vec *vertices;     // (V)
+  vec *vertices;     // patch by patch: points stored as integers, then vertices named
   size_t *listings;  // (T + 1) listings of a triangle
   uint32_t *sorted;  // (L) by triangle
   uint32_t *patch;   // (L) of a listing
@@ -166,21 +166,28 @@ static uint32_t reader_id(const reader *r, size_t listing) {
   return r->surface.ids[listing] & ~NSVCD__ENCLOSES;
 }
 
+// Where the points of a patch begin.
+static size_t reader_first(const nsvcd__surface *s, size_t patch) {
+  return (size_t)s->first_vertex[patch] + s->first_named[patch];
+}
+
 static void reader_index(reader *r) {
   const nsvcd__surface *s = &r->surface;
-  r->vertices = (vec *)malloc(s->vertex_count * sizeof(vec));
+  r->vertices = (vec *)malloc((s->vertex_count + s->named_count) * sizeof(vec));
   r->listings = (size_t *)calloc(r->mesh->triangle_count + 1, sizeof(size_t));
   r->sorted = (uint32_t *)malloc(4 * s->listed);
   r->patch = (uint32_t *)malloc(4 * s->listed);
   for (uint32_t i = 0; i < s->count; i++) {
-    const size_t first = s->first_vertex[i];
-    const size_t n = s->first_vertex[i + 1] - first;
-    const int16_t *q = s->vertices + 3 * first;
+    vec *points = r->vertices + reader_first(s, i);
+    const size_t n = s->first_vertex[i + 1] - s->first_vertex[i];
+    const int16_t *q = s->vertices + 3 * (size_t)s->first_vertex[i];
     for (size_t j = 0; j < n; j++) {
       const vec offset = vec_of(q[j], q[n + j], q[2 * n + j]);
       const vec centre = vec_load(&s->balls[i].centre.x);
-      r->vertices[first + j] = vec_add(centre, vec_scale(offset, (double)s->steps[i]));
+      *points++ = vec_add(centre, vec_scale(offset, (double)s->steps[i]));
     }
+    for (size_t j = s->first_named[i]; j < s->first_named[i + 1]; j++)
+      *points++ = vec_load(r->mesh->positions + 3 * (size_t)s->named[j]);
     for (size_t l = s->first_triangle[i]; l < s->first_triangle[i + 1]; l++) {
       r->patch[l] = i;
       r->listings[reader_id(r, l)]++;
@@ -233,8 +240,8 @@ static void reader_close(reader *r) {
 static void reader_corners(const reader *r, size_t listing, vec *corners) {
   const nsvcd__surface *s = &r->surface;
   for (size_t k = 0; k < 3; k++) {
-    const size_t vertex = s->first_vertex[r->patch[listing]] + (size_t)s->corners[3 * listing + k];
-    corners[k] = r->vertices[vertex];
+    const size_t number = s->corners[3 * listing + k];
+    corners[k] = r->vertices[reader_first(s, r->patch[listing]) + number];
   }
 }
 
@@ -246,6 +253,9 @@ static int check_ranges(const reader *r) {
   CHECK_EQ(s->first_triangle[0], 0);
   CHECK_EQ(s->first_vertex[s->count], s->vertex_count);
   CHECK_EQ(s->first_triangle[s->count], s->listed);
+  CHECK_EQ(s->first_named[0], 0);
+  CHECK_EQ(s->first_named[s->count], s->named_count);
+  for (size_t n = 0; n < s->named_count; n++) bad += s->named[n] >= r->mesh->vertex_count;
   for (size_t i = 0; i < 3 * s->vertex_count; i++) bad += s->vertices[i] < -32767;
   for (size_t i = 0; i < s->count; i++) {
     const float *ball = &s->balls[i].centre.x;
@@ -262,11 +272,16 @@ static int check_ranges(const reader *r) {
     const vec normal = vec_load(disc);
     bad += s->hull_counts[i] < 1 || s->hull_counts[i] > NSVCD__HULL || s->hull_counts[i] > n;
     bad += vec_length(normal) > 1 || vec_length(normal) < 1 - 1e-6;
-    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->slacks[i] > 0) || !(s->quanta[i] > 0);
+    bad += !(ball[3] > 0) || !(s->steps[i] > 0) || !(s->slacks[i] > 0) || !(s->quanta[i] >= 0);
+    const size_t named = s->first_named[i + 1] - s->first_named[i];
+    size_t stored = 0;
     bad += !(disc[3] <= disc[4]) || !(disc[5] >= 0);
     for (size_t k = 3 * s->first_triangle[i]; k < 3 * s->first_triangle[i + 1]; k++) {
-      bad += s->corners[k] >= n;
+      bad += s->corners[k] >= n + named;
+      stored += s->corners[k] < n;
     }
+    // what is the caller's own is exact
+    bad += stored ? !(s->quanta[i] > 0) : s->quanta[i] > 0;
   }
   for (size_t l = 0; l < s->listed; l++) bad += reader_id(r, l) >= r->mesh->triangle_count;
   CHECK_EQ(bad, 0);
@@ -295,7 +310,7 @@ static int patch_holds(const reader *r, size_t i, vec x, misses *m) {
     m->disc++;
     return 0;
   }
-  const vec *hull = r->vertices + s->first_vertex[i];
+  const vec *hull = r->vertices + reader_first(s, i);
   const double reach = (double)s->slacks[i] + r->tolerance;
   if (hull_reaches(hull, s->hull_counts[i], x, reach)) return 1;
   m->hull++;
@@ -313,9 +328,9 @@ static void check_point(const reader *r, size_t t, vec x, misses *m) {
     vec corners[3];
     reader_corners(r, l, corners);
     const double quantum = (double)r->surface.quanta[r->patch[l]];
-    // Tolerances in the triangle's own plane are only as good as its shape; a millionth of the
-    // quantum is none.
-    if (triangle_distance(corners, x) > quantum * (1 + 1e-6) + 10 * r->tolerance) continue;
+    // Tolerances in the triangle's own plane are only as good as its shape.
+    const double rounding = 1e-6 * (double)r->surface.balls[r->patch[l]].radius;
+    if (triangle_distance(corners, x) > quantum + rounding + 10 * r->tolerance) continue;
     listed = 1;
     if (patch_holds(r, r->patch[l], x, &tried)) return;
   }

@@ -88,7 +88,7 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(encode_options), FIELD(encode_options, patches), FIELD(encode_options, patch_radius),
     FIELD(encode_options, round),
     FIELD(encode_options, open), FIELD(encode_options, latents),
-    FIELD(encode_options, no_triangles), FIELD(encode_options, progress), FIELD(encode_options, user),
+    FIELD(encode_options, no_triangles), FIELD(encode_options, coarse), FIELD(encode_options, progress), FIELD(encode_options, user),
     STRUCT(body_facts), FIELD(body_facts, size), FIELD(body_facts, patches),
     FIELD(body_facts, centre), FIELD(body_facts, radius), FIELD(body_facts, mean_patch_radius),
     FIELD(body_facts, triangles), FIELD(body_facts, listings), FIELD(body_facts, quantum),

@@ -750,7 +750,8 @@ class Bodies(unittest.TestCase):
         self.assertEqual((facts.triangles, facts.latents, facts.size), (12, False, len(bytes(BOX))))
         self.assertTrue(3**0.5 <= facts.radius and max(map(abs, facts.centre)) < 0.1)
         self.assertLess(Body(CUBE, FACES, patches=192).facts.radius, 2)
-        self.assertTrue(facts.listings >= 12 and 0 < facts.quantum < 1e-3 and facts.mean_patch_radius > 0)
+        self.assertTrue(facts.listings >= 12 and facts.quantum == 0 and facts.mean_patch_radius > 0)
+        self.assertTrue(0 < Body(CUBE, FACES, coarse=True).facts.quantum < 1e-3)
         self.assertEqual(Body(CUBE, FACES, patches=50).facts.patches, 50)
         self.assertGreater(Body(CUBE, FACES, patch_radius=0.1).facts.patches, 192)
         alone = Body(CUBE, FACES, no_triangles=True).facts

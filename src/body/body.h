@@ -45,7 +45,7 @@
 #define NSVCD__MAX_LENGTH 1.6e7f
 #define NSVCD__BODY_MAGIC 0x4256534eu  // "NSVB", or "BVSN": the mark of the byte order
 #define NSVCD__OTHER_MAGIC 0x4e535642u
-#define NSVCD__BODY_VERSION 7u
+#define NSVCD__BODY_VERSION 8u
 
 struct nsvcd_body {
   uint32_t magic, version;

@@ -4,6 +4,7 @@
 #include "../surface/surface.h"
 #include "../encoder/encoder.h"
 #include "trust.h"
+#include "write.h"
 
 #ifndef NSVCD_NO_ENCODER
 // What a body is built of.
@@ -27,7 +28,7 @@ typedef struct nsvcd__parts {
 #endif
 #ifndef NSVCD_NO_PROOF
   nsvcd__surface surface;
-  nsvcd__facet_counts counts;
+  nsvcd__facets_source source;
 #endif
 } nsvcd__parts;
 
@@ -96,9 +97,10 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
   nsvcd__arena spare = nsvcd__arena_of(parts->arena.allocator);
   nsvcd__surface *surface = &parts->surface;
   nsvcd__curve curve;
-  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, &parts->arena, surface);
+  int ok = nsvcd__surface_begin(runs, mesh->vertex_count, parts->options->coarse,
+                                &parts->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
-  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, triangles);
+  ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->done) {
     const size_t left = runs - first;
@@ -143,7 +145,8 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
 #endif
 #ifndef NSVCD_NO_PROOF
   if (!options->no_triangles)
-    (void)nsvcd__surface_begin(patches, regions.component_count, arena, &parts->surface);
+    (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
+                               &parts->surface);
 #endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
@@ -178,10 +181,12 @@ static nsvcd_result nsvcd__parts_build(const nsvcd_mesh *mesh,
 #ifndef NSVCD_NO_PROOF
   if (!result && !options->no_triangles) {
     nsvcd__facets none;
-    parts->counts = nsvcd__facets_count(&parts->surface);
-    parts->counts.round = options->round;
-    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->counts, &none);
-    if (!parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
+    parts->source.surface = &parts->surface;
+    parts->source.mesh = mesh;
+    if (!nsvcd__facets_count(&parts->source, &parts->arena)) result = NSVCD_ERROR_MEMORY;
+    parts->source.counts.round = options->round;
+    parts->facets_size = nsvcd__facets_lay(NULL, parts->count, &parts->source.counts, &none);
+    if (!result && !parts->facets_size) result = NSVCD_ERROR_TOO_LARGE;
   }
 #endif
   if (result) nsvcd__arena_free(&parts->arena);
@@ -218,8 +223,7 @@ static nsvcd_result nsvcd__parts_write(nsvcd__parts *parts, void *memory) {
 #ifndef NSVCD_NO_PROOF
   if (!result && parts->facets_size) {
     void *to = (char *)memory + parts->latents_size;
-    result = nsvcd__facets_build(&parts->surface, &parts->counts, triangles, order, open, to,
-                                 parts->facets_size);
+    result = nsvcd__facets_build(&parts->source, order, open, to, parts->facets_size);
   }
 #endif
   if (result || !parts->latents_size || !parts->facets_size) return result;

@@ -3,30 +3,41 @@
 // The body of triangles. Its spheres are the least about each patch's pieces of the surface. Behind
 // them stand
 //
-//   counts          (4)      uint32: triangles listed L, vertices V, components C, bytes of
+//   counts          (4)      uint32: triangles listed L, points stored V, components C, bytes of
 //                            listings B
 //   round           (1)      float: metres that the body goes beyond its triangles
-//   zeros           (3)      uint32
+//   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
+//                            are listed in pieces K. 0, 0, 0: the body is coarse
 //   box             (2, 3)   float: least and greatest coordinates of the surface
-//   widest          (2)      float: the greatest of the quanta, and zero
+//   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
+//                            are off by: 0, but in a body that was scaled, or is coarse
 //   discs           (6, P)   float: normal n, low, high, across: points x of a piece have
 //                            low <= n.(x - c) <= high, and are no farther than `across` from the
 //                            line along n; c: centre of the patch's sphere
 //   group discs     (6, G)   float: the same over the members of each group; c: centre of the
 //                            group's sphere
-//   steps           (P)      float: metres per integer: a stored vertex is c + step (x, y, z)
-//   slacks          (P)      float: pieces are within this of the hull of the first vertices
-//   quanta          (P)      float: corners of triangles are within this of the stored vertices
-//   first_vertex, first_triangle, first_byte
-//                   (3, N + 1) uint32: where a patch's vertices, triangles and listings begin
+//   steps           (P)      float: metres per integer: a stored point is c + step (x, y, z)
+//   slacks          (P)      float: pieces are within this of the hull of the first points
+//   quanta          (P)      float: corners that are stored points are within this of these
+//   first_vertex, first_own, first_reference, first_triangle, first_byte
+//                   (5, N + 1) uint32: where a patch's stored points, the vertices that it is the
+//                            first to have, references to others, triangles and listings begin
 //   first_seed      (G' + 1) uint32: where the seeds of a group begin; G': groups, without the
 //                            padding
 //   seeds           (C, 3)   float: a point of each component, group by group, within its sphere
-//   vertices        (3 V)    int16: patch by patch x, y, z; the hull's first
-//                   (16)     int16: so that 16 can be read from any vertex on
+//   places          (W, 3)   float: the mesh's vertices as the caller gave them, each place once:
+//                            of each patch its own, then those of no patch
+//   cut             (K)      uint32: triangles of the caller's that are listed in pieces, in order
+//   cut_corners     (K, 3)   uint32: their corners, numbers of vertices
+//   references      (R)      uint32, or uint16 if W is 65536 at most: patch by patch, numbers of
+//                            vertices that a patch before it has
+//   vertices        (3 V)    int16: patch by patch x, y, z of its stored points: the hull's, then
+//                            corners of pieces
+//                   (16)     int16: so that 16 can be read from any point on
 //   listings        (B)      bytes: patch by patch, of its T triangles
-//     corners       (T, 3)   uint8, or uint16 in patches of more than 256 vertices: vertices within
-//                            the patch
+//     corners       (T, 3)   uint8, or uint16 in patches of more than 256: points within the patch:
+//                            its stored ones, its own vertices, its references. A triangle of
+//                            vertices alone is one of the caller's; another is a piece of one
 //     numbers       (T)      each in 1 to 5 bytes: see nsvcd__read_code
 //   hull_counts     (N)      uint8: vertices of the hull, 16 at most; 0: the patch has no surface
 #pragma once
@@ -40,19 +51,24 @@
 typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
   float round;
-  uint32_t zeros[3];
+  uint32_t places, references, cut;
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
   // of triangles
   const nsvcd_body *body;
   const float *box, *discs, *group_discs, *steps, *slacks, *quanta;
-  const uint32_t *first_vertex, *first_triangle, *first_byte, *first_seed;
-  const float *seeds;
+  const uint32_t *first_vertex, *first_own, *first_reference, *first_triangle, *first_byte;
+  const uint32_t *first_seed;
+  const float *seeds, *places;
+  const uint32_t *cut, *cut_corners;
+  // of 16 bits or 32
+  const unsigned char *references;
   const int16_t *vertices;
   const unsigned char *listings;
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
+  size_t place_count, reference_count, cut_count;
   float round;
 } nsvcd__facets;
 
@@ -76,6 +92,10 @@ static const void *nsvcd__pass(const nsvcd_body *body, uint64_t *at, uint64_t co
   return out;
 }
 
+static size_t nsvcd__reference_bytes(const nsvcd__facets *f) {
+  return f->place_count <= 65536 ? 2 : 4;
+}
+
 // Where all is in a body of so many patches. body: NULL to know only how large it is to be. Returns
 // its bytes; 0 if they cannot be counted in 32 bits.
 static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
@@ -89,6 +109,9 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->components = counts->components;
   f->listings_size = counts->listings_size;
   f->round = counts->round;
+  f->place_count = counts->places;
+  f->reference_count = counts->references;
+  f->cut_count = counts->cut;
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -96,10 +119,17 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->slacks = NSVCD__PASS(float, padded);
   f->quanta = NSVCD__PASS(float, padded);
   f->first_vertex = NSVCD__PASS(uint32_t, starts);
+  f->first_own = NSVCD__PASS(uint32_t, starts);
+  f->first_reference = NSVCD__PASS(uint32_t, starts);
   f->first_triangle = NSVCD__PASS(uint32_t, starts);
   f->first_byte = NSVCD__PASS(uint32_t, starts);
   f->first_seed = NSVCD__PASS(uint32_t, padded / NSVCD__GROUP + 1);
   f->seeds = NSVCD__PASS(float, (uint64_t)3 * f->components);
+  f->places = NSVCD__PASS(float, (uint64_t)3 * f->place_count);
+  f->cut = NSVCD__PASS(uint32_t, f->cut_count);
+  f->cut_corners = NSVCD__PASS(uint32_t, (uint64_t)3 * f->cut_count);
+  const size_t wide = nsvcd__reference_bytes(f);
+  f->references = NSVCD__PASS(unsigned char, (uint64_t)wide * f->reference_count);
   f->vertices = NSVCD__PASS(int16_t, (uint64_t)3 * f->vertex_count + NSVCD__LANES);
   f->listings = NSVCD__PASS(unsigned char, f->listings_size);
   f->hull_counts = NSVCD__PASS(uint8_t, patches);
@@ -116,10 +146,14 @@ static nsvcd__facets nsvcd__facets_of(const nsvcd_body *body) {
 static float nsvcd__widest_quantum(const nsvcd__facets *f) {
   return f->box[6];
 }
+// How far nsvcd__facet_triangle may be off the mesh's.
+static float nsvcd__off_mesh(const nsvcd__facets *f) {
+  return f->box[7];
+}
 
 // ---- one patch
 
-// The vertices of a patch: integers, in steps from its centre.
+// The stored points of a patch: integers, in steps from its centre.
 typedef struct nsvcd__vertices {
   // (count) each
   const int16_t *x, *y, *z;
@@ -139,16 +173,47 @@ static nsvcd__d3 nsvcd__vertex_at(const nsvcd__vertices *vertices, size_t i) {
   return nsvcd__d3_of(vertices->x[i], vertices->y[i], vertices->z[i]);
 }
 
-// Bytes of a corner in a patch of so many vertices.
-static size_t nsvcd__corner_bytes(size_t vertices) {
-  return vertices <= 256 ? 1 : 2;
+// The points that corners of a patch can be, by their numbers in it: stored ones, from 0; its own
+// vertices; and references.
+typedef struct nsvcd__patch_points {
+  size_t stored, own, all;
+} nsvcd__patch_points;
+
+NSVCD__INLINE nsvcd__patch_points nsvcd__points_of(const nsvcd__facets *f, size_t patch) {
+  nsvcd__patch_points out;
+  out.stored = f->first_vertex[patch + 1] - f->first_vertex[patch];
+  out.own = f->first_own[patch + 1] - f->first_own[patch];
+  out.all = out.stored + out.own + f->first_reference[patch + 1] - f->first_reference[patch];
+  return out;
 }
 
-// The vertex, of its patch, of corner k (0..2) of listing n.
+// Bytes of a corner in a patch of so many points.
+static size_t nsvcd__corner_bytes(size_t points) {
+  return points <= 256 ? 1 : 2;
+}
+
+// The place of point i of a patch, which is no stored one, (3).
+NSVCD__INLINE const float *nsvcd__place_of(const nsvcd__facets *f, size_t patch,
+                                           nsvcd__patch_points points, size_t i) {
+  i -= points.stored;
+  if (i < points.own) return f->places + 3 * (f->first_own[patch] + i);
+  const size_t at = f->first_reference[patch] + i - points.own;
+  uint32_t number = 0;
+  uint16_t narrow;
+  if (f->place_count > 65536) {
+    memcpy(&number, f->references + 4 * at, sizeof number);
+  } else {
+    memcpy(&narrow, f->references + 2 * at, sizeof narrow);
+    number = narrow;
+  }
+  return f->places + 3 * (size_t)number;
+}
+
+// The point, of its patch, of corner k (0..2) of listing n.
 static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n, size_t k) {
   const unsigned char *corners = f->listings + f->first_byte[patch];
   const size_t at = 3 * (n - f->first_triangle[patch]) + k;
-  if (nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count) == 1) return corners[at];
+  if (nsvcd__corner_bytes(nsvcd__points_of(f, patch).all) == 1) return corners[at];
   uint16_t corner;
   memcpy(&corner, corners + 2 * at, sizeof corner);
   return corner;
@@ -178,7 +243,7 @@ typedef struct nsvcd__numbers {
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
-  const size_t bytes = nsvcd__corner_bytes(nsvcd__vertices_of(f, patch).count);
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t triangles = f->first_triangle[patch + 1] - f->first_triangle[patch];
   nsvcd__numbers out;
   out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
@@ -220,16 +285,37 @@ static nsvcd__d3 nsvcd__facet_origin(const nsvcd__facets *f, size_t patch) {
   return nsvcd__d3_widen(nsvcd__facet_centre(f, patch));
 }
 
-// The corners (3) of listing n of a patch, exactly.
+// The corners (3) of a triangle that is listed in pieces, by its number in the caller's mesh.
+static void nsvcd__whole_triangle(const nsvcd__facets *f, uint32_t number,
+                                  nsvcd__d3 *corners) {
+  size_t first = 0;
+  for (size_t left = f->cut_count; left > 1;) {
+    const size_t half = left / 2;
+    if (f->cut[first + half] <= number) first += half;
+    left -= half;
+  }
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_row(f->places, f->cut_corners[3 * first + k]);
+}
+
+// The corners (3) of the caller's triangle that listing n of a patch is, or is a piece of. Of a
+// coarse body, those of the listing itself.
 static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n,
                                   nsvcd__d3 *corners) {
-  const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
-  const nsvcd__d3 origin = nsvcd__facet_origin(f, patch);
-  const double step = (double)f->steps[patch];
+  const nsvcd__patch_points points = nsvcd__points_of(f, patch);
   for (size_t k = 0; k < 3; k++) {
     const size_t i = nsvcd__facet_corner(f, patch, n, k);
-    const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
-    corners[k] = nsvcd__d3_fma(step, vertex, origin);
+    if (i >= points.stored) {
+      corners[k] = nsvcd__d3_load(nsvcd__place_of(f, patch, points, i));
+    } else if (f->cut_count > 0) {
+      nsvcd__whole_triangle(f, nsvcd__facet_number(f, patch, n), corners);
+      return;
+    } else {
+      const nsvcd__vertices vertices = nsvcd__vertices_of(f, patch);
+      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, i);
+      corners[k] =
+          nsvcd__d3_fma((double)f->steps[patch], vertex, nsvcd__facet_origin(f, patch));
+    }
   }
 }
 
@@ -343,8 +429,9 @@ static nsvcd__spheres nsvcd__hull_spheres(const nsvcd__hulls *hulls) {
 }
 
 // What is computed from the patches of a body of triangles, when these are in place: the spheres
-// above them, the box with the greatest of the quanta, and the groups' discs.
-static void nsvcd__facets_finish(nsvcd_body *b) {
+// above them, the box with the greatest of the quanta, and the groups' discs. off: metres that the
+// mesh's vertices are off by.
+static void nsvcd__facets_finish(nsvcd_body *b, float off) {
   const nsvcd__facets f = nsvcd__facets_of(b);
   const nsvcd__level groups = nsvcd__level_of(b->padded, 0);
   float *out = (float *)(b + 1) + groups.first;
@@ -362,154 +449,32 @@ static void nsvcd__facets_finish(nsvcd_body *b) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   float widest = 0;
+  for (size_t n = 0; n < f.place_count; n++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(f.places, n));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(f.places, n));
+  }
   for (size_t i = 0; i < b->patches; i++) {
     const nsvcd__vertices vertices = nsvcd__vertices_of(&f, i);
     const nsvcd__d3 origin = nsvcd__facet_origin(&f, i);
     const double quantum = (double)f.quanta[i];
-    nsvcd__d3 least = {32767, 32767, 32767};
-    nsvcd__d3 most = {-32767, -32767, -32767};
-    for (size_t k = 0; k < vertices.count; k++) {
-      const nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
-      least = nsvcd__d3_min(least, vertex);
-      most = nsvcd__d3_max(most, vertex);
-    }
-    if (vertices.count == 0) continue;
-    least = nsvcd__d3_fma((double)f.steps[i], least, origin);
-    most = nsvcd__d3_fma((double)f.steps[i], most, origin);
-    low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, least));
-    high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, most));
     widest = f.quanta[i] > widest ? f.quanta[i] : widest;
+    for (size_t k = 0; k < vertices.count && f.place_count == 0; k++) {
+      nsvcd__d3 vertex = nsvcd__vertex_at(&vertices, k);
+      vertex = nsvcd__d3_fma((double)f.steps[i], vertex, origin);
+      low = nsvcd__d3_min(low, nsvcd__d3_fma(-quantum, all, vertex));
+      high = nsvcd__d3_max(high, nsvcd__d3_fma(quantum, all, vertex));
+    }
   }
   // float rounding
-  const double margin = 1e-6 * (double)b->extent;
+  const double margin = 1e-6 * (double)b->extent + (double)off;
   float *box = (float *)nsvcd__writable(b, f.box);
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(-margin, all, low)), box);
   nsvcd__f3_store(nsvcd__d3_narrow(nsvcd__d3_fma(margin, all, high)), box + 3);
   box[6] = widest;
-  box[7] = 0;
+  box[7] = f.place_count > 0 ? off : widest;
   for (size_t g = 0; g < nsvcd__body_groups(b); g++) nsvcd__finish_group(b, g);
   b->checksum = nsvcd__body_checksum(b);
 }
-
-#ifndef NSVCD_NO_ENCODER
-// ---- writing
-
-// Writes the numbers of patch i as codes; NULL: only counts their bytes. Returns how many.
-static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned char *to) {
-  size_t size = 0;
-  uint32_t last = 0;
-  for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
-    const uint32_t id = s->ids[n];
-    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
-    for (int more = 1; more; code >>= 7) {
-      more = code > 0x7f;
-      if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
-      size++;
-    }
-    last = id;
-  }
-  return size;
-}
-
-// The counts of the body of triangles that a surface makes.
-static nsvcd__facet_counts nsvcd__facets_count(const nsvcd__surface *s) {
-  nsvcd__facet_counts counts;
-  memset(&counts, 0, sizeof counts);
-  counts.listed = (uint32_t)s->listed;
-  counts.vertices = (uint32_t)s->vertex_count;
-  counts.components = (uint32_t)s->seed_count;
-  uint64_t bytes = 0;
-  for (size_t i = 0; i < s->count; i++) {
-    const size_t vertices = s->first_vertex[i + 1] - s->first_vertex[i];
-    const size_t triangles = s->first_triangle[i + 1] - s->first_triangle[i];
-    bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
-    bytes += nsvcd__numbers_write(s, i, NULL);
-  }
-  // then the body is refused as too large
-  counts.listings_size = bytes < 0xffffffffu ? (uint32_t)bytes : 0xffffffffu;
-  return counts;
-}
-
-// Writes patch `to`, from patch `from` of a surface. One without surface is a point.
-static void nsvcd__patch_write(const nsvcd__surface *s, size_t from, nsvcd_body *b,
-                               nsvcd__facets f, size_t to) {
-  const size_t padded = b->padded;
-  nsvcd__sphere ball = s->balls[from];
-  if (s->hull_counts[from] == 0) ball.radius = 0;
-  nsvcd__sphere_store(ball, (float *)(b + 1), padded, to);
-  nsvcd__disc_store(s->discs[from], (float *)nsvcd__writable(b, f.discs), padded, to);
-  *(float *)nsvcd__writable(b, f.steps + to) = s->steps[from];
-  *(float *)nsvcd__writable(b, f.slacks + to) = s->slacks[from];
-  *(float *)nsvcd__writable(b, f.quanta + to) = s->quanta[from];
-  *(uint8_t *)nsvcd__writable(b, f.hull_counts + to) = s->hull_counts[from];
-
-  const size_t vertex = s->first_vertex[from];
-  const size_t vertices = s->first_vertex[from + 1] - vertex;
-  const size_t first = s->first_triangle[from];
-  const size_t end = s->first_triangle[from + 1];
-  uint32_t *first_vertex = (uint32_t *)nsvcd__writable(b, f.first_vertex + to);
-  uint32_t *first_triangle = (uint32_t *)nsvcd__writable(b, f.first_triangle + to);
-  uint32_t *first_byte = (uint32_t *)nsvcd__writable(b, f.first_byte + to);
-  void *integers = nsvcd__writable(b, f.vertices + 3 * (size_t)first_vertex[0]);
-  memcpy(integers, s->vertices + 3 * vertex, 6 * vertices);
-  unsigned char *begin = (unsigned char *)nsvcd__writable(b, f.listings + first_byte[0]);
-  unsigned char *at = begin;
-  const size_t bytes = nsvcd__corner_bytes(vertices);
-  for (size_t n = 3 * first; n < 3 * end; n++) {
-    const uint16_t corner = s->corners[n];
-    if (bytes == 1) at[0] = (unsigned char)corner;
-    if (bytes == 2) memcpy(at, &corner, 2);
-    at += bytes;
-  }
-  at += nsvcd__numbers_write(s, from, at);
-  first_vertex[1] = first_vertex[0] + (uint32_t)vertices;
-  first_triangle[1] = first_triangle[0] + (uint32_t)(end - first);
-  first_byte[1] = first_byte[0] + (uint32_t)(at - begin);
-}
-
-// Writes the seeds of a body of triangles, group by group (counting sort). order: of the patches.
-static void nsvcd__seeds_write(const nsvcd__surface *s, const uint16_t *order, nsvcd_body *b) {
-  const nsvcd__facets f = nsvcd__facets_of(b);
-  uint32_t *first_seed = (uint32_t *)nsvcd__writable(b, f.first_seed);
-  float *seeds = (float *)nsvcd__writable(b, f.seeds);
-  // Until the body is whole, the places of patches are kept where their first vertices will be.
-  uint32_t *places = (uint32_t *)nsvcd__writable(b, f.first_vertex);
-  const size_t groups = nsvcd__body_groups(b);
-  for (size_t i = 0; i < b->patches; i++) places[order[i]] = (uint32_t)i;
-  for (size_t n = 0; n < s->seed_count; n++) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
-    first_seed[g + 1]++;
-  }
-  for (size_t g = 0; g < groups; g++) first_seed[g + 1] += first_seed[g];
-  for (size_t n = s->seed_count; n-- > 0;) {
-    const size_t g = places[s->seed_patches[n]] / NSVCD__GROUP;
-    const size_t to = --first_seed[g + 1];
-    nsvcd__f3_store(s->seeds[n], seeds + 3 * to);
-  }
-  // Now first_seed[g + 1] is where group g begins.
-  memmove(first_seed, first_seed + 1, groups * sizeof *first_seed);
-  first_seed[groups] = (uint32_t)s->seed_count;
-  memset(places, 0, b->patches * sizeof *places);
-}
-
-// Builds a body of triangles of `size` bytes in `memory`. triangles: of the mesh. order: (N) of the
-// patches. NUMBER if it would be too large, EMPTY if it would be too small.
-static nsvcd_result nsvcd__facets_build(const nsvcd__surface *s,
-                                        const nsvcd__facet_counts *counts, size_t triangles,
-                                        const uint16_t *order, int open, void *memory,
-                                        size_t size) {
-  nsvcd_body *b = nsvcd__body_begin(memory, size, s->count, open);
-  b->triangles = (uint32_t)triangles;
-  memcpy(nsvcd__writable(b, nsvcd__counts_of(b)), counts, sizeof *counts);
-  nsvcd__seeds_write(s, order, b);
-  const nsvcd__facets f = nsvcd__facets_of(b);
-  for (size_t i = 0; i < s->count; i++) nsvcd__patch_write(s, order[i], b, f, i);
-  if (!nsvcd__within(nsvcd__body_r(b), b->patches, 4 * NSVCD_MAX_COORDINATE))
-    return NSVCD_ERROR_NUMBER;
-  nsvcd__facets_finish(b);
-  return b->radius + counts->round < NSVCD_MIN_RADIUS ? NSVCD_ERROR_EMPTY : NSVCD_OK;
-}
-#endif
 #endif  // NSVCD_NO_PROOF
 
 // Of a sphere about a body, with what it goes beyond its triangles.

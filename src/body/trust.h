@@ -97,20 +97,25 @@ static int nsvcd__tips_are_sound(const nsvcd_body *b) {
 // Are counts and indices of a patch right? Those of the patches before it are.
 static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   const uint32_t *vertex = f->first_vertex + i;
+  const uint32_t *own = f->first_own + i;
+  const uint32_t *reference = f->first_reference + i;
   const uint32_t *triangle = f->first_triangle + i;
   if (vertex[1] < vertex[0] || vertex[1] > f->vertex_count) return 0;
+  if (own[1] < own[0] || own[1] > f->place_count) return 0;
+  if (reference[1] < reference[0] || reference[1] > f->reference_count) return 0;
   if (triangle[1] < triangle[0] || triangle[1] > f->listed) return 0;
-  const size_t vertices = vertex[1] - vertex[0];
+  const nsvcd__patch_points points = nsvcd__points_of(f, i);
   const size_t triangles = triangle[1] - triangle[0];
   const size_t hull_count = f->hull_counts[i];
-  if (hull_count > NSVCD__HULL || hull_count > vertices) return 0;
-  if ((hull_count == 0) != (vertices == 0) || (vertices == 0) != (triangles == 0)) return 0;
+  if (hull_count > NSVCD__HULL || hull_count > points.stored) return 0;
+  if ((hull_count == 0) != (triangles == 0)) return 0;
+  if ((hull_count == 0) != (points.all == 0)) return 0;
 
-  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(vertices);
+  const uint64_t corners = (uint64_t)3 * triangles * nsvcd__corner_bytes(points.all);
   const uint64_t corners_end = f->first_byte[i] + corners;
   if (corners_end > f->first_byte[i + 1] || f->first_byte[i + 1] > f->listings_size) return 0;
   for (size_t n = 0; n < 3 * triangles; n++) {
-    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= vertices) return 0;
+    if (nsvcd__facet_corner(f, i, triangle[0] + n / 3, n % 3) >= points.all) return 0;
   }
   // Behind them are just as many codes, and all of triangles that there are.
   const unsigned char *at = f->listings + (size_t)corners_end;
@@ -127,6 +132,26 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
   return at == end;
 }
 #endif  // NSVCD_NO_PROOF
+
+#ifndef NSVCD_NO_PROOF
+// Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
+static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
+  const size_t wide = nsvcd__reference_bytes(f);
+  for (size_t n = 0; n < f->reference_count; n++) {
+    uint32_t number = 0;
+    uint16_t narrow = 0;
+    if (wide == 4) memcpy(&number, f->references + 4 * n, 4);
+    if (wide == 2) memcpy(&narrow, f->references + 2 * n, 2);
+    if (number + narrow >= f->place_count) return 0;
+  }
+  for (size_t n = 0; n < f->cut_count; n++) {
+    if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
+    for (size_t k = 0; k < 3; k++)
+      if (f->cut_corners[3 * n + k] >= f->place_count) return 0;
+  }
+  return 1;
+}
+#endif
 
 // ---- whole bodies
 
@@ -152,8 +177,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const size_t slots = nsvcd__group_slots(padded);
   const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
-  const uint32_t *zeros = counts->zeros;
-  if (zeros[0] || zeros[1] || zeros[2] || b->triangles == 0) return 0;
+  if (b->triangles == 0) return 0;
   if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
   if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
@@ -161,6 +185,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 
   f = nsvcd__facets_of(b);
   if (f.first_vertex[0] != 0 || f.first_triangle[0] != 0) return 0;
+  if (f.first_own[0] != 0 || f.first_reference[0] != 0) return 0;
   if (f.first_byte[0] != 0 || f.first_seed[0] != 0) return 0;
   for (size_t i = 0; i < patches; i++) {
     if (!nsvcd__patch_is_laid_out(&f, i)) return 0;
@@ -171,6 +196,8 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (f.first_vertex[patches] != f.vertex_count || f.first_triangle[patches] != f.listed)
     return 0;
   if (f.first_byte[patches] != f.listings_size || f.first_seed[groups] != f.components)
+    return 0;
+  if (f.first_reference[patches] != f.reference_count || !nsvcd__numbers_are_sound(&f))
     return 0;
 
   for (size_t g = 0; g < groups; g++) {
@@ -191,6 +218,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   if (!nsvcd__within(f.slacks, padded, most)) return 0;
   if (!nsvcd__within(f.quanta, padded, most)) return 0;
   if (!nsvcd__within(f.seeds, 3 * f.components, most)) return 0;
+  if (!nsvcd__within(f.places, 3 * f.place_count, most) || f.box[7] < 0) return 0;
   for (size_t i = 0; i < padded; i++) {
     const nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     if (disc.across < 0 || f.steps[i] < 0 || f.slacks[i] < 0 || f.quanta[i] < 0) return 0;
@@ -289,7 +317,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
     return;
   }
 #ifndef NSVCD_NO_PROOF
-  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta.
+  // What rounding does to a vertex, and to how round the body is, goes to the slacks and quanta,
+  // and is what the vertices are off by.
   const nsvcd__facets f = nsvcd__facets_of(b);
   const double by = (double)scale;
   float *round = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->round);
@@ -301,20 +330,28 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
   float *quanta = (float *)nsvcd__writable(b, f.quanta);
   float *seeds = (float *)nsvcd__writable(b, f.seeds);
+  float *places = (float *)nsvcd__writable(b, f.places);
+  double worst = off;
+  for (size_t i = 0; i < 3 * f.place_count; i++) {
+    const double whole = (double)places[i] * by;
+    places[i] *= scale;
+    worst = nsvcd__max(worst, 1.8 * fabs(whole - (double)places[i]) + off);
+  }
+  const double off_mesh = worst + (double)nsvcd__off_mesh(&f) * by;
   for (size_t i = 0; i < b->patches; i++) {
     const double distance = (double)nsvcd__f3_length(nsvcd__facet_centre(&f, i));
     nsvcd__disc disc = nsvcd__disc_at(f.discs, padded, i);
     steps[i] *= scale;
     const double rounding = 2e-7 * (distance + 6e4 * (double)steps[i]) + off;
     slacks[i] = nsvcd__above((double)slacks[i] * by + rounding);
-    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding);
+    quanta[i] = nsvcd__above((double)quanta[i] * by + rounding + worst);
     disc.low = (float)((double)disc.low * by - rounding);
     disc.high = (float)((double)disc.high * by + rounding);
     disc.across = nsvcd__above((double)disc.across * by + rounding);
     nsvcd__disc_store(disc, discs, padded, i);
   }
   for (size_t i = 0; i < 3 * f.components; i++) seeds[i] *= scale;
-  nsvcd__facets_finish(b);
+  nsvcd__facets_finish(b, off_mesh > 0 ? nsvcd__above(off_mesh) : 0);
 #endif
 }
 
@@ -369,7 +406,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
     facts.listings = f.listed;
-    facts.quantum = nsvcd__widest_quantum(&f);
+    facts.quantum = nsvcd__off_mesh(&f);
     facts.round = f.round;
   }
 #endif

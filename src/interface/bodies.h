@@ -20,8 +20,7 @@ typedef struct nsvcd_body nsvcd_body;
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
 // fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
-// of more is a level, with a patch for each 12 triangles. What is stored of a patch is as exact as
-// it is small: of what is large and has few triangles, ask for more.
+// of more is a level, with a patch for each 12 triangles.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
 #define NSVCD_FEW_TRIANGLES 32768
@@ -58,6 +57,10 @@ typedef struct nsvcd_encode_options {
   int latents;
   // 1: for the network alone, in fewer bytes; then there is no proof
   int no_triangles;
+  // 1: for flash that is scarce: the proof's triangles in 16 bits a coordinate, in some 5 % fewer
+  // bytes, 10 to 40 % of a fine mesh. Verdicts are then about these, which are within
+  // nsvcd_body_facts.quantum of the mesh's own: HIT says that the mesh comes as near as that
+  int coarse;
   // NULL, or told how much is done
   nsvcd_progress *progress;
   // handed to progress
@@ -172,7 +175,8 @@ typedef struct nsvcd_body_facts {
   size_t triangles;
   // triangles and parts of them that are stored, patch by patch
   size_t listings;
-  // metres: stored triangles are within this of the mesh's
+  // metres: the triangles that verdicts are about are within this of the mesh's. 0: they are the
+  // mesh's own floats. Else the body is coarse, or nsvcd_body_scale has rounded it
   float quantum;
   // metres that the body goes beyond its mesh
   float round;

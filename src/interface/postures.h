@@ -31,8 +31,7 @@ typedef struct nsvcd_gap {
 typedef struct nsvcd_gap_options {
   // metres: pairs that are as near as this are told; 0.05
   float within;
-  // metres: how wide a bracket of a distance may be, beside both bodies' quanta and what poses in
-  // float are off; 20 um
+  // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
   float to;
   // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
   float deepest;

@@ -154,8 +154,8 @@ typedef enum nsvcd_by {
 typedef enum nsvcd_why {
   // all of it is
   NSVCD_WHY_NOTHING = 0,
-  // surfaces come nearer than the quanta of both bodies and the tolerance, and do not meet; or, of
-  // eight rays, none could tell whether one is inside the other
+  // surfaces come within the tolerance, or 1e-9 of all lengths, and do not meet; or, of eight rays,
+  // none could tell whether one is inside the other
   NSVCD_WHY_TOO_NEAR,
   // question.work was not enough
   NSVCD_WHY_WORK
@@ -298,9 +298,11 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 //   source     the proof: this library, proof/proof; the network: NeuralSVCD, algorithm 1
 //
 // What a proof says is about the surfaces of the two meshes, scaled and posed exactly as described.
-// FREE, and a HIT of what is inside, hold for the meshes themselves. The triangles of any other HIT
-// meet to within the two bodies' quanta (nsvcd_body_facts, times the scale). UNDECIDED are surfaces
-// that come as close as that without meeting, or more work than was allowed. More work never leaves
+// FREE and HIT hold for the meshes' own floats: the triangles of a HIT meet, or come within the
+// clearance, to 1e-12 of all lengths (both extents and how far the bodies are apart). UNDECIDED are
+// surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
+// whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
+// it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
 // undecided what less decides, but for luck: FIRST with a few hundred units.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
@@ -326,7 +328,7 @@ NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspac
   (1088 + 704 * (segments) + 8 * NSVCD__GROUPS_OF(patches_a) * NSVCD__GROUPS_OF(patches_b) + \
    ((patches_a) > 512 || (patches_b) > 512 ? 1024 : 0))
 #define NSVCD_PROOF_WORKSPACE_BYTES(patches_a, patches_b, segments) \
-  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24576 + 168 * (segments))
+  (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 24832 + 168 * (segments))
 #define NSVCD_NETWORK_WORKSPACE_BYTES(patches_a, patches_b, segments, pairs) \
   (NSVCD__SEARCH_BYTES(patches_a, patches_b, segments) + 576 + 32 * (segments) + 112 * (pairs))
 

@@ -154,8 +154,8 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 //   source     this library: robot/stray; slerps and lines against joints, by second derivatives
 //
 // What FREE says holds for the joints' own motion, with all joint values and frames exact, and
-// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to both bodies' quanta and
-// to what a pose in float is off: 1e-7 of the distance between the two parts' origins and of the
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is
+// off: 1e-7 of the distance between the two parts' origins and of the
 // bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
 // is asked about in the frame of one of its parts.
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,

@@ -63,7 +63,8 @@ typedef struct nsvcd__region {
   size_t cut_count;
   // (vertices)
   uint8_t *seeds;
-  // (vertices) their numbers among the points of all regions; NULL: the same
+  // (vertices) their numbers among the points of all regions, which begin with the caller's
+  // vertices; NULL: the same
   uint32_t *vertices;
 } nsvcd__region;
 

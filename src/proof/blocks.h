@@ -7,8 +7,7 @@
 // repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
 static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
-  const size_t bytes =
-      nsvcd__corner_bytes(f->first_vertex[patch + 1] - f->first_vertex[patch]);
+  const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
   const size_t last = count - 1;
@@ -20,33 +19,32 @@ static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t fi
     memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
 }
 
-// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated.
+// Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
+// are off by no more than a quantum, and what NSVCD__ROUNDING allows.
 static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first, size_t count,
                               nsvcd__block *out) {
-  const size_t all = f->first_vertex[patch + 1] - f->first_vertex[patch];
-  const int16_t *x = f->vertices + 3 * (size_t)f->first_vertex[patch];
-  const int16_t *y = x + all;
-  const int16_t *z = y + all;
+  const nsvcd__patch_points points = nsvcd__points_of(f, patch);
+  const nsvcd__vertices stored = nsvcd__vertices_of(f, patch);
   const nsvcd__f3 centre = nsvcd__facet_centre(f, patch);
+  const float step = f->steps[patch];
   out->first = first;
   out->count = count;
   for (size_t k = 0; k < 3; k++) {
-    uint16_t vertices[NSVCD__LANES];
-    int16_t places[3][NSVCD__LANES];
-    nsvcd__block_corners(f, patch, first, count, k, vertices);
+    uint16_t corners[NSVCD__LANES];
+    float(*to)[NSVCD__LANES] = out->corners[k];
+    nsvcd__block_corners(f, patch, first, count, k, corners);
     for (size_t l = 0; l < NSVCD__LANES; l++) {
-      places[0][l] = x[vertices[l]];
-      places[1][l] = y[vertices[l]];
-      places[2][l] = z[vertices[l]];
-    }
-    NSVCD__EACH_SLICE(l) {
-      nsvcd__v3 integers;
-      integers.x = nsvcd__v_load_int16(places[0] + l);
-      integers.y = nsvcd__v_load_int16(places[1] + l);
-      integers.z = nsvcd__v_load_int16(places[2] + l);
-      const nsvcd__v step = nsvcd__v_set(f->steps[patch]);
-      const nsvcd__v3 corner = nsvcd__v3_fma(step, integers, nsvcd__v3_set(centre));
-      nsvcd__v3_store(out->corners[k], l, corner);
+      const size_t i = corners[l];
+      if (i < points.stored) {
+        to[0][l] = centre.x + step * (float)stored.x[i];
+        to[1][l] = centre.y + step * (float)stored.y[i];
+        to[2][l] = centre.z + step * (float)stored.z[i];
+        continue;
+      }
+      const float *place = nsvcd__place_of(f, patch, points, i);
+      to[0][l] = place[0];
+      to[1][l] = place[1];
+      to[2][l] = place[2];
     }
   }
   NSVCD__EACH_SLICE(l) {

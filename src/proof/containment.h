@@ -122,13 +122,13 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
     for (; patches && !*unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
-      const double margin = (double)f->quanta[i] + ray->margin;
+      const float about = 2 * (f->quanta[i] + (float)ray->margin);
       const size_t end = f->first_triangle[i + 1];
       nsvcd__numbers numbers = nsvcd__numbers_of(f, i);
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
         p->work++;
-        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, (float)(2 * margin), rounding);
+        uint32_t lanes = nsvcd__lanes_on_ray(block, ray, about, rounding);
         for (; lanes; lanes &= lanes - 1) {
           const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
@@ -136,7 +136,7 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           if (!numbers.encloses) continue;
           p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
-          const int crossing = nsvcd__ray_crosses(ray, corners, margin, unclear);
+          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
           if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
         }
       }
@@ -163,7 +163,7 @@ static uint32_t nsvcd__is_around(const void *what, nsvcd__spheres all) {
   return met;
 }
 
-// Is a stored triangle so close to the place that the true surface may be on its other side?
+// Is a triangle so close to the place that the mesh's own may be on its other side?
 static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd__d3 place,
                                   double tolerance) {
   const nsvcd_body *b = f->body;
@@ -185,7 +185,8 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
     for (uint32_t met = nsvcd__is_around(&here, members); met; met &= met - 1) {
       const size_t i = first + nsvcd__low_bit(met);
       if (i >= b->patches) break;
-      const double limit = 2 * (double)f->quanta[i] + tolerance;
+      const double off = (double)nsvcd__off_mesh(f) + NSVCD__SAME_PLACE * (double)remote;
+      const double limit = 2 * off + tolerance;
       const size_t end = f->first_triangle[i + 1];
       for (size_t n = f->first_triangle[i]; n < end; n += NSVCD__LANES) {
         nsvcd__block_load(f, i, n, end - n < NSVCD__LANES ? end - n : NSVCD__LANES, block);
@@ -218,7 +219,8 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.margin =
+      NSVCD__SAME_PLACE * (double)p->given.lengths / unit + (double)nsvcd__off_mesh(f);
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
@@ -365,9 +367,9 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 }
 
 // Is a component of one body within the other at the start of the motion? Then p->enclosed is its
-// point. Where that is so close to the surface that quanta matter, 0 is returned and p->within is
-// set: if planes then part all patches at t = 0, the point, the stored surface and the true one,
-// patch by patch on one side of a plane, agree, and it is within.
+// point. Where that is so close to the surface that what that is off by matters, 0 is returned and
+// p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
+// looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
 static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
   moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);

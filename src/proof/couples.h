@@ -137,20 +137,23 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
-// Two listed triangles, one of each body, in their frames.
+// Two triangles, one of each body, in their frames: the caller's own, of which listings may be
+// pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, from its body's origin, in its body's units
   double reach;
-  // quanta, and rounding in double
+  // how far the meshes' own may be off, with rounding in double; and that
   double slack;
   double rounding;
+  // a part of the arc in which they come so near is not worth halving
+  double close;
 } nsvcd__couple;
 
 static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                       size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0};
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0};
   nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
   nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
   for (size_t k = 0; k < 3; k++) {
@@ -159,9 +162,10 @@ static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j,
   }
   couple.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  const double moving_quantum = p->arc.scale * (double)p->moving.quanta[i];
-  couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;
+  couple.slack = couple.rounding + nsvcd__off_meshes(p);
   couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  couple.close =
+      couple.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
   return couple;
 }
 
@@ -377,6 +381,48 @@ static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple
   return nsvcd__nearest_of(posed, couple->fixed);
 }
 
+// How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
+// no more digits are lost than need be.
+static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 *under) {
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, nsvcd__d3_sub(over[k], under[0])));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(n, nsvcd__d3_sub(under[k], under[0])));
+  }
+  return lowest - highest;
+}
+
+// The direction that separates a couple at a time: that of its nearest points. It is off by their
+// roundings over their distance: where that is little, beside large triangles, a normal of one, or
+// across an edge of each, may separate them better.
+static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u, const nsvcd__nearest *nearest) {
+  const double distance = sqrt(nearest->square);
+  nsvcd__d3 *plane = &p->memo.parting;
+  *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
+  if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
+  const nsvcd__d3 none = {0, 0, 0};
+  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 guess = *plane;
+  nsvcd__d3 posed[3];
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  double best = nsvcd__beyond(guess, posed, fixed);
+  for (size_t k = 0; k < 11; k++) {
+    nsvcd__d3 n = k == 0 ? nsvcd__face_direction(posed) : nsvcd__face_direction(fixed);
+    if (k > 1) {
+      const nsvcd__d3 a = nsvcd__d3_sub(posed[(k - 1) % 3], posed[(k - 2) % 3]);
+      const nsvcd__d3 b = nsvcd__d3_sub(fixed[((k - 2) / 3 + 1) % 3], fixed[(k - 2) / 3]);
+      n = nsvcd__d3_unit(nsvcd__d3_cross(a, b), none);
+    }
+    if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
+    const double beyond = nsvcd__beyond(n, posed, fixed);
+    if (nsvcd__d3_dot(n, guess) < 0.9 || !(beyond > best)) continue;
+    *plane = n;
+    best = beyond;
+  }
+}
+
 // A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
 // told whether it touches: a doubt. But where distances are measured, less is said, for certain:
 // these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
@@ -390,7 +436,7 @@ static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *
   const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * (couple->slack + p->given.tolerance);
+  const double parted = distance - 2 * couple->close;
   p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
@@ -428,7 +474,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = couple->slack + p->given.tolerance;
+  const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double at = u0;
   int shrunk = 0;
@@ -450,7 +496,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+    nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
     const double room = above - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
@@ -481,7 +527,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
   const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
-  const double close = couple->slack + p->given.tolerance;
+  const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double *ends = p->couple_ends;
   size_t left = 1;
@@ -506,7 +552,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
         shrunk = 1;
         continue;
       }
-      *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest.on_a, nearest.on_b), 1 / distance);
+      nsvcd__aim_plane(p, couple, middle, &nearest);
       apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     }
     if (apart) {

@@ -88,10 +88,10 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__approach *a, nsvcd__d3 way, double most,
-                                         nsvcd__d3 *normal) {
+static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
+                                         nsvcd__d3 way, double most, nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
-  const double close = 16 * a->couple.slack / nsvcd__d3_length(way);
+  const double close = 16 * nsvcd__hair(p) / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
@@ -148,7 +148,14 @@ static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
-  return nsvcd__met_along(now, way, is_free ? HUGE_VAL : 1, &found->normal);
+  return nsvcd__met_along(p, now, way, is_free ? HUGE_VAL : 1, &found->normal);
+}
+
+// Do two times, in ticks, fall into different arcs?
+static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) {
+  double u;
+  const uint32_t first = nsvcd__arc_of(p->ask.motion, since, &u);
+  return first != nsvcd__arc_of(p->ask.motion, until, &u);
 }
 
 // Gives the contact that is known its normal.
@@ -158,8 +165,19 @@ static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   const double since = p->given.share > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
   nsvcd__approach now;
-  if (found->distance > 0) nsvcd__turn_back(p, since);
-  if (found->distance > 0 || nsvcd__normal_met(p, since, 0, &now)) return;
+  // what comes to a pose and goes back may have been found on the way back
+  const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
+  if (found->distance > 0 || has_turned) nsvcd__turn_back(p, since);
+  if (found->distance > 0) return;
+  if (has_turned && nsvcd__has_turned(p, since, found->tick)) {
+    // these met on the way back alone: but others of the bodies on the way there
+    nsvcd__approach_at(p, found, since, &now);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(now.touch.moving, now.touch.fixed);
+    const nsvcd__d3 apart = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    found->normal = nsvcd__d3_unit(apart, found->normal);
+    return;
+  }
+  if (nsvcd__normal_met(p, since, 0, &now)) return;
   if (is_free) {
     // it has turned since, and they may come apart again
     nsvcd__turn_back(p, since);

@@ -24,32 +24,31 @@
 //      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
 //      all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
-//      computation: that is `rounding`, in spans and segments alike. Stored vertices are off by the
-//      patch's slack or quantum, which every plane allows for too. Couples of triangles are parted
-//      in double. No NaN comes into it: questions and bodies are checked to be finite and within
-//      bounds. Where floats could overflow all the same, in hulls, it is seen to that a NaN parts
-//      nothing.
+//      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
+//      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
+//      separated in double, whole and as the caller gave them, whatever pieces are listed. No NaN
+//      comes into it: questions and bodies are checked to be finite and within bounds. Where floats
+//      could overflow all the same, in hulls, it is seen to that a NaN parts nothing.
 //   6. Containment is decided at t = 0, component by component: a component that is inside of the
 //      other body then, and not later, or the other way about, has crossed a surface in between. A
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
 //      their signs, the triangles of the other body's closed components that it leaves and enters
 //      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
-//      edge within the quanta is given up for another; open components enclose nothing. The stored
-//      triangles, about which this is, are as far from the true ones as the quanta say: so where a
-//      stored triangle is that near to the seed, the answer counts only if planes part all patches
-//      at t = 0: then the seed, the stored surface and the true one are, patch by patch, on one
-//      side of a plane, and agree.
+//      edge within rounding, and what triangles are off the mesh's, is given up for another; open
+//      components enclose nothing. Where a triangle is that near to the seed, the answer counts
+//      only if planes separate all patches at t = 0: then the seed, the surface that was looked at
+//      and the true one are, patch by patch, on one side of a plane, and agree.
 //
-// A witness is a pair of stored triangles that share a point at the true pose, in double, or, where
-// a clearance is asked for, come within it; the mesh's own triangles are then within that and the
-// two quanta of each other. Faces that are parallel when
-// they meet do so at one time only, which rounded numbers miss: there, a corner that is on one side
-// of the other triangle at one time and on the other at another, and within its edges all the
-// while, has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
-// triangles come closer than their quanta and the tolerance without meeting, or the limit of work
-// was reached. After such a doubt only a contact can still decide, and flat on flat there are as
-// many doubts as triangles: so a share of the limit is all that is left then, more than a yes or no
-// takes on any problem of the sets.
+// A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
+// where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
+// are those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they
+// meet do so at one time only, which rounded numbers miss: there, a corner that is on one side of
+// the other triangle at one time and on the other at another, and within its edges all the while,
+// has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
+// triangles come closer than NSVCD__TOO_NEAR and the tolerance without meeting, or the limit of
+// work was reached. After such a doubt only a contact can still decide, and flat on flat there are
+// as many doubts as triangles: so a share of the limit is all that is left then, more than a yes or
+// no takes on any problem of the sets.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
@@ -93,6 +92,9 @@
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
+#define NSVCD__TOO_NEAR \
+  1e-9                     // of all lengths: it is not worth halving for a distance as short
+#define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
@@ -107,7 +109,8 @@
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__HAIRS 3        // both bodies' quanta: so far before a contact a safe place is
+#define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
+#define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
 #define NSVCD__AROUND 8       // directions along which contact points are sought,
 #define NSVCD__SUPPORTS 10    // and two across what these span,
 #define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
@@ -457,7 +460,13 @@ static float nsvcd__clearance(const nsvcd__proof *p) {
   return 1.000001f * (float)p->ask.clearance;
 }
 
-// What stored triangles of two patches may be off by, both together.
+// How far triangles may be off the meshes', both together.
+static double nsvcd__off_meshes(const nsvcd__proof *p) {
+  const double moving = (double)nsvcd__off_mesh(&p->moving);
+  return p->ask.motion->ratio * moving + (double)nsvcd__off_mesh(&p->fixed);
+}
+
+// What stored points of two patches may be off by, both together.
 static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
 }

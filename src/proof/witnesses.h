@@ -5,10 +5,9 @@
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
-// The two bodies' widest quanta: nearer to each other than this nothing is parted.
+// Nearer to each other than this nothing that is told in float is separate.
 static double nsvcd__hair(const nsvcd__proof *p) {
-  const float moving = p->ask.motion->scale * nsvcd__widest_quantum(&p->moving);
-  return (double)(moving + nsvcd__widest_quantum(&p->fixed));
+  return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
@@ -207,7 +206,8 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   const nsvcd__placement at = nsvcd__placement_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
-  const float margin = NSVCD__ROUNDING * lengths + nsvcd__clearance(p);
+  const float margin =
+      NSVCD__ROUNDING * lengths + nsvcd__clearance(p) + nsvcd__quanta_of(p, i, j);
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   NSVCD__TALLY(tries, 1);

@@ -385,8 +385,8 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   double high = p->high;
   if (names) {
     const nsvcd__contact *found = &p->known.found;
-    const float quanta = nsvcd__quanta_of(p, found->moving_patch, found->fixed_patch);
-    high = fmax(found->distance, p->given.round) + (double)quanta;
+    const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
+    high = fmax(found->distance, p->given.round) + off;
     // the contact may have been moved to where it is nearer
     p->wide = p->wide && found->distance - p->low > p->given.width;
   }

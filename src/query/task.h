@@ -129,7 +129,7 @@ typedef char nsvcd__constants_hold
          : -1];
 #ifndef NSVCD_NO_PROOF
 typedef char nsvcd__proof_constants_hold
-    [sizeof(nsvcd__proof) <= 24576 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
+    [sizeof(nsvcd__proof) <= 24832 && sizeof(nsvcd__span) <= 168 ? 1 : -1];
 #endif
 #ifndef NSVCD_NO_NETWORK
 typedef char

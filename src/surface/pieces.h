@@ -70,8 +70,11 @@ typedef struct nsvcd__surface {
   size_t done;   // so many are described by now
   // L, triangles listed, over all patches
   size_t listed;
-  // V, vertices stored, over all patches
+  // V, points stored as integers, over all patches; and vertices of the mesh that are named
   size_t vertex_count;
+  size_t named_count;
+  // 1: corners are stored as integers too, and none is named
+  int coarse;
   // C, connected components (vertices at the same place are one vertex)
   size_t component_count;
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
@@ -83,16 +86,20 @@ typedef struct nsvcd__surface {
   // (N) metres: every point of a piece is within this of the convex hull of the first
   // hull_counts[i] stored vertices
   float *slacks;
-  // (N) metres: every corner listed is within this of its stored vertex
+  // (N) metres: every corner that is stored as integers is within this of them
   float *quanta;
   // (N) 1..NSVCD__HULL; 0 where empty
   uint8_t *hull_counts;
   // (N + 1)
   uint32_t *first_vertex;
+  uint32_t *first_named;
   uint32_t *first_triangle;  // (N + 1)
-  // patch i: x of its vertices, then y, then z, at 3 * first_vertex[i]
+  // patch i: x of its points, then y, then z, at 3 * first_vertex[i]: the hull's, then corners that
+  // cuts have made
   int16_t *vertices;
-  // (L, 3) numbers of vertices within the patch
+  // patch i, from first_named[i] on: the caller's vertices that are corners
+  uint32_t *named;
+  // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
   uint16_t *corners;
   // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a closed component
   uint32_t *ids;
@@ -102,8 +109,8 @@ typedef struct nsvcd__surface {
   nsvcd__f3 *seeds;
   // (C) a patch with a piece that has it for a corner
   uint32_t *seed_patches;
-  // where vertices, corners and ids are
-  nsvcd__list vertex_list, corner_list, id_list;
+  // where vertices, names, corners and ids are
+  nsvcd__list vertex_list, named_list, corner_list, id_list;
 } nsvcd__surface;
 
 // ---- pieces: triangles cut by the cells of the centres

@@ -150,7 +150,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
   block->mesh.positions = NSVCD__TAKE(arena, float, 3 * most);
   block->mesh.indices = NSVCD__TAKE(arena, uint32_t, 3 * count);
   block->ids = NSVCD__TAKE(arena, uint32_t, count);
-  uint32_t *origins = NSVCD__TAKE(arena, uint32_t, most);
+  block->vertices = NSVCD__TAKE(arena, uint32_t, most);
   block->seeds = NSVCD__TAKE(arena, uint8_t, most);
   block->greatest = curve->greatest;
   patches->count = last - first;
@@ -179,7 +179,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     }
   }
   if (!mesh->indices) {
-    memcpy(origins, block->ids, count * sizeof *origins);
+    memcpy(block->vertices, block->ids, count * sizeof *block->vertices);
     memset(block->seeds, 1, count);
     block->mesh.vertex_count = count;
   }
@@ -189,13 +189,13 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     if (*met <= before) {
       block->seeds[block->mesh.vertex_count] =
           n % 3 == 0 && !curve->met[face[0]] && !curve->met[face[1]] && !curve->met[face[2]];
-      origins[block->mesh.vertex_count++] = block->mesh.indices[n];
+      block->vertices[block->mesh.vertex_count++] = block->mesh.indices[n];
       *met = ++curve->met_count;
     }
     block->mesh.indices[n] = *met - 1 - before;
   }
   for (size_t i = 0; i < block->mesh.vertex_count; i++) {
-    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, origins[i]);
+    const nsvcd__f3 at = nsvcd__f3_row(mesh->positions, block->vertices[i]);
     nsvcd__f3_store(at, block->mesh.positions + 3 * i);
   }
   return 1;

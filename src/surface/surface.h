@@ -82,32 +82,57 @@ static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_
   return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
 }
 
-// Numbers the vertices of patch i: the hull's, then others of what it lists. Returns how many
-// triangles it lists.
-static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, size_t hull_count) {
+// Is a point a vertex of the caller's mesh, which is named, and not stored as integers?
+static int nsvcd__is_named(const nsvcd__sorted *sorted, const nsvcd__surface *s,
+                           uint32_t point) {
+  const nsvcd__region *region = sorted->pieces->region;
+  return !s->coarse && point < region->mesh.vertex_count - region->cut_count;
+}
+
+// Numbers the points of patch i: the hull's, then corners that are not named, then, from *stored
+// on, those that are. Returns how many triangles it lists.
+static size_t nsvcd__number_vertices(nsvcd__sorted *sorted, size_t i, const nsvcd__surface *s,
+                                     size_t *stored) {
+  const size_t hull_count = s->hull_counts[s->done + i];
   size_t listed = 0;
   sorted->pass++;
   sorted->met_count = 0;
   for (size_t k = 0; k < hull_count; k++)
     nsvcd__number_point(sorted, sorted->hulls[NSVCD__HULL * i + k]);
-  for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
-    const uint32_t *corners;
-    const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
-    for (size_t j = 0; j < count; j++) nsvcd__number_point(sorted, corners[j]);
-    listed += count ? count - 2 : 0;
+  for (int named = 0; named < 2; named++) {
+    listed = 0;
+    // what is in the hull is met again
+    sorted->pass += (uint32_t)named;
+    if (named) *stored = sorted->met_count;
+    for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
+      const uint32_t *corners;
+      const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
+      for (size_t j = 0; j < count; j++) {
+        if (nsvcd__is_named(sorted, s, corners[j]) == named)
+          nsvcd__number_point(sorted, corners[j]);
+      }
+      listed += count ? count - 2 : 0;
+    }
   }
   return listed;
 }
 
-// Writes the vertices of patch i as integers, and its triangles.
+// Writes the points of patch i, of which so many are stored as integers, and its triangles.
 static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *s) {
   const size_t to = s->done + i;
   const size_t hull_count = s->hull_counts[to];
-  (void)nsvcd__number_vertices(sorted, i, hull_count);
+  const nsvcd__region *region = sorted->pieces->region;
+  size_t stored;
+  (void)nsvcd__number_vertices(sorted, i, s, &stored);
   const nsvcd__d3 centre = nsvcd__d3_widen(s->balls[to].centre);
   const nsvcd__points points = nsvcd__place_points(sorted, centre);
+  uint32_t *named = s->named + s->first_named[to];
+  for (size_t j = stored; j < points.count; j++) {
+    const uint32_t point = sorted->met[j];
+    *named++ = region->vertices ? region->vertices[point] : point;
+  }
   double greatest = NSVCD__SURFACE_TINY;
-  for (size_t j = 0; j < points.count; j++) {
+  for (size_t j = 0; j < stored; j++) {
     for (size_t k = 0; k < 3; k++)
       greatest = nsvcd__max(greatest, fabs(nsvcd__d3_axis(points.at[j], k)));
   }
@@ -116,21 +141,20 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
   int16_t *vertices = s->vertices + 3 * (size_t)s->first_vertex[to];
   double worst = 0;
   double worst_of_hull = 0;
-  for (size_t j = 0; j < points.count; j++) {
-    nsvcd__d3 stored = {0, 0, 0};
+  int has_stored = 0;  // corners
+  for (size_t j = 0; j < stored; j++) {
+    nsvcd__d3 rounded = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
       const double nearest = floor(nsvcd__d3_axis(points.at[j], k) / metres + 0.5);
       const double integer = nsvcd__min(nsvcd__max(nearest, -32767), 32767);
-      vertices[k * points.count + j] = (int16_t)integer;
-      nsvcd__d3_set_axis(&stored, k, metres * integer);
+      vertices[k * stored + j] = (int16_t)integer;
+      nsvcd__d3_set_axis(&rounded, k, metres * integer);
     }
-    worst = nsvcd__max(worst, nsvcd__d3_length(nsvcd__d3_sub(points.at[j], stored)));
-    if (j < hull_count) worst_of_hull = worst;
+    sorted->bounds[j] = nsvcd__d3_length(nsvcd__d3_sub(points.at[j], rounded));
+    if (j < hull_count) worst_of_hull = nsvcd__max(worst_of_hull, sorted->bounds[j]);
   }
-  s->quanta[to] = nsvcd__float_above(worst + sorted->pieces->margin);
   // Each point of the hull is off by no more than its vertices are.
-  const double slack = (double)s->slacks[to] + worst_of_hull;
-  s->slacks[to] = nsvcd__float_above(slack);
+  s->slacks[to] = nsvcd__float_above((double)s->slacks[to] + worst_of_hull);
 
   for (size_t k = sorted->first[i]; k < sorted->first[i + 1]; k++) {
     const uint32_t triangle = nsvcd__sorted_piece(sorted, k)->triangle;
@@ -138,21 +162,29 @@ static void nsvcd__store_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surface *
     const size_t count = nsvcd__listed_corners(sorted, i, k, &corners);
     for (size_t j = 2; j < count; j++) {
       uint16_t *out = s->corners + 3 * s->listed;
-      out[0] = (uint16_t)sorted->numbers[corners[0]];
-      out[1] = (uint16_t)sorted->numbers[corners[j - 1]];
-      out[2] = (uint16_t)sorted->numbers[corners[j]];
-      s->ids[s->listed++] = sorted->pieces->region->ids[triangle];
+      for (size_t n = 0; n < 3; n++) {
+        const uint32_t number = sorted->numbers[corners[n ? j - 2 + n : 0]];
+        out[n] = (uint16_t)number;
+        if (number >= stored) continue;
+        worst = nsvcd__max(worst, sorted->bounds[number]);
+        has_stored = 1;
+      }
+      s->ids[s->listed++] = region->ids[triangle];
     }
   }
+  worst += sorted->pieces->margin;
+  s->quanta[to] = has_stored ? nsvcd__float_above(worst) : 0;
 }
 
 // ---- all of it
 
-// A surface of up to n patches, none of which is described yet. 0 without memory.
-static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena,
+// A surface of up to n patches, none of which is described yet. coarse: 1 if corners are to be
+// stored as integers. 0 without memory.
+static int nsvcd__surface_begin(size_t n, size_t components, int coarse, nsvcd__arena *arena,
                                 nsvcd__surface *s) {
   memset(s, 0, sizeof *s);
   s->arena = arena;
+  s->coarse = coarse;
   s->component_count = components;
   s->balls = NSVCD__TAKE(arena, nsvcd__sphere, n);
   s->discs = NSVCD__TAKE(arena, nsvcd__disc, n);
@@ -161,22 +193,26 @@ static int nsvcd__surface_begin(size_t n, size_t components, nsvcd__arena *arena
   s->quanta = NSVCD__TAKE(arena, float, n);
   s->hull_counts = NSVCD__TAKE(arena, uint8_t, n);
   s->first_vertex = NSVCD__TAKE(arena, uint32_t, n + 1);
+  s->first_named = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->first_triangle = NSVCD__TAKE(arena, uint32_t, n + 1);
   s->seeds = NSVCD__TAKE(arena, nsvcd__f3, components);
   s->seed_patches = NSVCD__TAKE(arena, uint32_t, components);
   return !arena->failed;
 }
 
-// Makes room for more vertices and listings. 0 without memory.
-static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t triangles) {
-  nsvcd__list *lists[] = {&s->vertex_list, &s->corner_list, &s->id_list};
-  for (size_t k = 0; k < 3; k++) {
-    const size_t more = k == 0 ? vertices : triangles;
-    const size_t size = k < 2 ? 3 * sizeof(int16_t) : sizeof(uint32_t);
-    lists[k]->count = k == 0 ? s->vertex_count : s->listed;
-    if (!nsvcd__list_reserve(lists[k], more, size, s->arena)) return 0;
+// Makes room for more points, stored and named, and listings. 0 without memory.
+static int nsvcd__surface_room(nsvcd__surface *s, size_t vertices, size_t named,
+                               size_t triangles) {
+  nsvcd__list *lists[] = {&s->vertex_list, &s->named_list, &s->corner_list, &s->id_list};
+  const size_t counts[] = {s->vertex_count, s->named_count, s->listed, s->listed};
+  const size_t more[] = {vertices, named, triangles, triangles};
+  for (size_t k = 0; k < 4; k++) {
+    const size_t size = k % 2 ? sizeof(uint32_t) : 3 * sizeof(int16_t);
+    lists[k]->count = counts[k];
+    if (!nsvcd__list_reserve(lists[k], more[k], size, s->arena)) return 0;
   }
   s->vertices = (int16_t *)s->vertex_list.items;
+  s->named = (uint32_t *)s->named_list.items;
   s->corners = (uint16_t *)s->corner_list.items;
   s->ids = (uint32_t *)s->id_list.items;
   return 1;
@@ -190,27 +226,38 @@ static nsvcd_result nsvcd__surface_add(nsvcd__sorted *sorted, nsvcd__surface *s)
   const nsvcd__pieces *pieces = sorted->pieces;
   const size_t done = s->done;
   size_t vertices = s->vertex_count;
+  size_t named = s->named_count;
   size_t triangles = s->listed;
   s->count = done + pieces->patches->count;
   for (size_t i = done; i < s->count; i++) {
     nsvcd__describe_patch(sorted, i - done, s);
     s->first_vertex[i] = (uint32_t)vertices;
+    s->first_named[i] = (uint32_t)named;
     s->first_triangle[i] = (uint32_t)triangles;
+    size_t stored = sorted->met_count;
     // Where nothing is cut, and all points are the hull's, they have been counted.
-    if (pieces->corners.count == 0 && sorted->met_count == s->hull_counts[i])
+    const int whole = pieces->corners.count + pieces->region->cut_count == 0;
+    if (whole && stored == s->hull_counts[i]) {
       triangles += sorted->first[i - done + 1] - sorted->first[i - done];
-    else
-      triangles += nsvcd__number_vertices(sorted, i - done, s->hull_counts[i]);
-    vertices += sorted->met_count;
+      if (!s->coarse) named += stored;
+    } else {
+      triangles += nsvcd__number_vertices(sorted, i - done, s, &stored);
+      named += sorted->met_count - stored;
+    }
+    vertices += stored;
     if (sorted->met_count > NSVCD__PATCH_VERTICES) return NSVCD_ERROR_TOO_LARGE;
-    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+    if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT ||
+        named > NSVCD__MAX_COUNT)
       return NSVCD_ERROR_TOO_LARGE;
   }
   s->first_vertex[s->count] = (uint32_t)vertices;
+  s->first_named[s->count] = (uint32_t)named;
   s->first_triangle[s->count] = (uint32_t)triangles;
-  if (!nsvcd__surface_room(s, vertices - s->vertex_count, triangles - s->listed))
+  if (!nsvcd__surface_room(s, vertices - s->vertex_count, named - s->named_count,
+                           triangles - s->listed))
     return NSVCD_ERROR_MEMORY;
   s->vertex_count = vertices;
+  s->named_count = named;
   for (size_t i = done; i < s->count; i++) {
     if (s->hull_counts[i] > 0) nsvcd__store_patch(sorted, i - done, s);
   }

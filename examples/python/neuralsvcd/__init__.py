@@ -222,7 +222,7 @@ def _struct(name: str, /, **kinds: Any) -> Any:
 _Mesh = _struct("nsvcd_mesh", positions=c_void_p, indices=c_void_p, vertex_count=c_size_t, triangle_count=c_size_t)
 _EncodeOptions = _struct(
     "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, latents=c_int,
-    no_triangles=c_int, progress=_PROGRESS, user=c_void_p)
+    no_triangles=c_int, coarse=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
@@ -637,7 +637,7 @@ class Facts(NamedTuple):
     mean_patch_radius  metres
     triangles          of the mesh; 0: none are stored
     listings           triangles and parts of them that are stored
-    quantum            stored triangles are within this of the mesh's, metres
+    quantum            0: answers are about the mesh's own floats; else triangles are within this of its, metres
     round              how far it goes beyond its mesh, metres
     latents            the network can answer
     """
@@ -666,6 +666,7 @@ class Body:
     open          the mesh is not closed: nothing counts as inside it
     latents       for the network, the planner and gradients too
     no_triangles  for them alone
+    coarse        in fewer bytes: answers are then about triangles within facts.quantum of the mesh's
     progress      called now and then with what is done, in [0, 1]. If it returns something true, Error(CANCELLED);
                   what it raises ends the encoding
     """
@@ -676,7 +677,7 @@ class Body:
 
     def __init__(self, vertices: Union[ArrayLike, os.PathLike[str]], triangles: Optional[ArrayLike] = None, *,
                  scale: float = 1, origin: Optional[ArrayLike] = None, patches: int = 0, patch_radius: float = 0, round: float = 0, open: bool = False,
-                 latents: bool = False, no_triangles: bool = False,
+                 latents: bool = False, no_triangles: bool = False, coarse: bool = False,
                  progress: Optional[Callable[[float], Any]] = None) -> None:
         if isinstance(vertices, (str, os.PathLike)):
             if triangles is not None:
@@ -690,7 +691,7 @@ class Body:
         else:
             mesh = _c_mesh(vertices, triangles)
         options = _filled(_EncodeOptions, patches=patches, patch_radius=patch_radius, round=round, open=open,
-                          latents=latents, no_triangles=no_triangles)
+                          latents=latents, no_triangles=no_triangles, coarse=coarse)
         caught: list[BaseException] = []
         if progress:
             options.progress = _PROGRESS(functools.partial(_cancels, progress, caught))
