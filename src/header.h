@@ -233,6 +233,7 @@ extern "C" {
 #include "patches/clusters.h"  // farthest point sampling, then Lloyd's algorithm
 #include "patches/covering.h"  // balls that cover the surface; patches as a whole
 #include "patches/topology.h"  // welded vertices, components, which of them are closed
+#include "patches/solids.h"    // what flaws leave of the others
 #include "patches/regions.h"   // a large mesh in regions, each with its own patches
 
 // ====================================================== surface: each patch described from outside

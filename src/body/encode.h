@@ -101,6 +101,7 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
                                 &parts->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
+  if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->done) {
     const size_t left = runs - first;
@@ -147,6 +148,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   if (!options->no_triangles)
     (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
                                &parts->surface);
+  parts->surface.solids = regions.solids;
 #endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;

@@ -8,6 +8,10 @@
 //   round           (1)      float: metres that the body goes beyond its triangles
 //   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
 //                            are listed in pieces K. 0, 0, 0: the body is coarse
+//   solids          (4)      uint32: components as they are told, how many of these are open, open
+//                            edges; 1: listings have kinds of two bits
+//   gap             (1)      float: metres: corners no farther apart count as one, where it is asked
+//                            what is closed
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
 //                            are off by: 0, but in a body that was scaled, or is coarse
@@ -52,6 +56,8 @@ typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
   float round;
   uint32_t places, references, cut;
+  uint32_t solids, open_solids, open_edges, is_mixed;
+  float gap;
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
@@ -70,6 +76,9 @@ typedef struct nsvcd__facets {
   size_t listed, vertex_count, components, listings_size;
   size_t place_count, reference_count, cut_count;
   float round;
+  float round, gap;
+  // bits of a listing's code that are its kind
+  unsigned kind_bits;
 } nsvcd__facets;
 
 // The body of triangles in a body, or NULL.
@@ -112,6 +121,8 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->place_count = counts->places;
   f->reference_count = counts->references;
   f->cut_count = counts->cut;
+  f->gap = counts->gap;
+  f->kind_bits = 1 + (counts->is_mixed != 0);
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -219,10 +230,11 @@ static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n
   return corner;
 }
 
-// The numbers of a patch's triangles in the caller's mesh follow each other as codes: twice what
-// the number is more than the one before, modulo 2^31, the lowest bit set if the triangle belongs
-// to a closed component. A code is stored 7 bits a byte, the lowest first; the top bit says that
-// there are more. Most take one byte, for neighbours have near numbers.
+// The numbers of a patch's triangles in the caller's mesh follow each other as codes: what the
+// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong to
+// a closed component? Where there are other kinds than closed ones and sheets, two bits: the kind. A
+// code is stored 7 bits a byte, the lowest first; the top bit says that there are more. Most take
+// one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -238,8 +250,8 @@ typedef struct nsvcd__numbers {
   const unsigned char *at;
   size_t next;      // listing
   uint32_t number;  // of the one before
-  // does it belong to a closed component?
-  int encloses;
+  uint32_t kind;
+  unsigned kind_bits;
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
@@ -249,7 +261,8 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
   out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
-  out.encloses = 0;
+  out.kind = NSVCD__SHEET;
+  out.kind_bits = f->kind_bits;
   return out;
 }
 
@@ -257,8 +270,9 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
 static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   for (; numbers->next <= n; numbers->next++) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
-    numbers->number = (numbers->number + (code >> 1)) & ~NSVCD__ENCLOSES;
-    numbers->encloses = (int)(code & 1);
+    const unsigned bits = numbers->kind_bits;
+    numbers->number = (numbers->number + (code >> bits)) & NSVCD__NUMBER;
+    numbers->kind = bits == 1 ? (code & 1) * NSVCD__CLOSED : code & 3;
     NSVCD__TALLY(numbers, 1);
   }
 }
@@ -274,7 +288,7 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
 static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
-  return numbers.encloses && !f->body->open;
+  return numbers.kind >= NSVCD__CLOSED && !f->body->open;
 }
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {

@@ -126,7 +126,7 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
     size_t bytes = 1;
     while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80) bytes++;
     if (at >= end || at[bytes - 1] & 0x80) return 0;
-    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
+    number = (number + (nsvcd__read_code(&at) >> f->kind_bits)) & NSVCD__NUMBER;
     if (number >= f->body->triangles) return 0;
   }
   return at == end;
@@ -178,6 +178,8 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   if (b->triangles == 0) return 0;
+  if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
+  if (!nsvcd__within(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
   if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
   if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
@@ -325,6 +327,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
   const double exact = (double)*round * by;
   *round *= scale;
   const double off = fabs(exact - (double)*round);
+  float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
+  if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
   float *discs = (float *)nsvcd__writable(b, f.discs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
@@ -408,6 +412,9 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     facts.listings = f.listed;
     facts.quantum = nsvcd__off_mesh(&f);
     facts.round = f.round;
+    facts.components = nsvcd__counts_of(triangles)->solids;
+    facts.open_components = nsvcd__counts_of(triangles)->open_solids;
+    facts.open_edges = nsvcd__counts_of(triangles)->open_edges;
   }
 #endif
   return facts;

@@ -9,7 +9,9 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
   uint32_t last = 0;
   for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
     const uint32_t id = s->ids[n];
-    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
+    const uint32_t kind = id >> NSVCD__KIND_SHIFT;
+    uint32_t code = (id - last) & NSVCD__NUMBER;
+    code = s->solids.is_mixed ? code << 2 | kind : code << 1 | (kind == NSVCD__CLOSED);
     for (int more = 1; more; code >>= 7) {
       more = code > 0x7f;
       if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
@@ -48,6 +50,14 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
   counts->listed = (uint32_t)s->listed;
   counts->vertices = (uint32_t)s->vertex_count;
   counts->components = (uint32_t)s->seed_count;
+  const nsvcd__solids *solids = &s->solids;
+  // none is counted of points alone
+  counts->solids = counts->components;
+  if (solids->components > 0) counts->solids = (uint32_t)solids->components;
+  counts->open_solids = (uint32_t)solids->open_components;
+  counts->open_edges = (uint32_t)solids->open_edges;
+  counts->is_mixed = (uint32_t)solids->is_mixed;
+  if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
     const size_t stored = s->first_vertex[i + 1] - s->first_vertex[i];
@@ -57,7 +67,7 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
     bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
     bytes += nsvcd__numbers_write(s, i, NULL);
     for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
-      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & ~NSVCD__ENCLOSES] = 1;
+      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
     counts->places += !source->numbers[s->named[n]];

@@ -11,8 +11,12 @@
 // it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
-// of a listing: its triangle belongs to a closed component
-#define NSVCD__ENCLOSES 0x80000000u
+// What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one
+// by how many of its triangles a ray crosses, whichever way; or what is nearly a solid. Beside the
+// triangle's number, which has the lower bits, they are the upper ones.
+enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_WAY };
+#define NSVCD__KIND_SHIFT 30
+#define NSVCD__NUMBER 0x3fffffffu
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY

@@ -182,6 +182,11 @@ typedef struct nsvcd_body_facts {
   float round;
   // 1: the network can answer
   int latents;
+  // parts of the surface, and how many of these are not closed: see WHAT AN ANSWER IS WORTH. Of a
+  // body without triangles it is not known
+  size_t components, open_components;
+  // of these: edges with a triangle on one side alone, or another odd number
+  size_t open_edges;
 } nsvcd_body_facts;
 
 // What a body is; all 0 where it is none.

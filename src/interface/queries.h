@@ -158,7 +158,10 @@ typedef enum nsvcd_why {
   // none could tell whether one is inside the other
   NSVCD_WHY_TOO_NEAR,
   // question.work was not enough
-  NSVCD_WHY_WORK
+  NSVCD_WHY_WORK,
+  // at the start a part of one seems to be inside the other, which is nearly a solid but not closed
+  // (nsvcd_body_facts.open_components): encode that as `open`, if nothing is inside of it
+  NSVCD_WHY_OPEN
 } nsvcd_why;
 
 // What is known of a number: it is no less than `low`, and no more than `high`.

@@ -5,7 +5,7 @@
 #pragma once
 #include "../ground/slices.h"
 #include "covering.h"
-#include "topology.h"
+#include "solids.h"
 
 #ifndef NSVCD_NO_ENCODER
 // patches of a region, where there are several
@@ -23,13 +23,14 @@ typedef struct nsvcd__regions {
   // of all coordinates
   double greatest;
   size_t component_count;  // C
+  nsvcd__solids solids;
   // (vertices) 1: of its component the least vertex, which no patch has been given yet
   uint8_t *seeds;
   size_t count;           // R
   size_t triangle_count;  // T, halves and all
   // (T, 3) points
   uint32_t *corners;
-  // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
+  // (T) in the caller's mesh, with what it belongs to
   uint32_t *ids;
   size_t cut_count;
   size_t most_cuts;
@@ -197,7 +198,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
     r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
   }
 
-  const int known = nsvcd__topology_build(mesh, &scratch, &topology);
+  const int known = nsvcd__topology_build(mesh, &scratch, &topology) &&
+                    nsvcd__solids_build(&topology, arena, &r->solids);
   const size_t most_triangles = mesh->triangle_count + r->most_cuts;
   r->component_count = topology.component_count;
   r->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
@@ -215,8 +217,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
   for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
     uint32_t face[3];
     nsvcd__welded_face(&topology, t, face);
-    const int open = topology.open[topology.parents[face[0]]];
-    nsvcd__regions_add(r, face, (uint32_t)t | (open ? 0 : NSVCD__ENCLOSES));
+    const uint32_t kind = r->solids.kinds[t];
+    nsvcd__regions_add(r, face, (uint32_t)t | kind << NSVCD__KIND_SHIFT);
   }
   nsvcd__arena_free(&scratch);
   if (!ok || r->count == 1) return ok;

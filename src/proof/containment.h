@@ -93,8 +93,14 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return nsvcd__block_lanes(block) & ~missed;
 }
 
-// How often the surface of the closed components winds about a point, by one ray; *unclear if it
-// cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+// What a ray crosses: how often the closed surfaces wind about its place; and of those whose winding
+// does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot tell.
+typedef struct nsvcd__crossings {
+  int winds, either_way, nearly, unclear;
+} nsvcd__crossings;
+
+// Of one ray. A triangle counts once, whatever patches list it, or parts of it. No ray counts that
+// comes as near to an edge as gaps are wide that were closed: so it passes through none.
 //
 // How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
 // and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
@@ -103,23 +109,23 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 // than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
 // volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
 // 1.5e-6 E R. NSVCD__ROUNDING is more.
-static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
-                            int *unclear) {
+static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f,
+                                         const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
-  int sum = 0;
+  nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_beam, &beam);
-  while (!*unclear && nsvcd__walk_next(&walk, &g)) {
+  while (!sum.unclear && nsvcd__walk_next(&walk, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
-    for (; patches && !*unclear; patches &= patches - 1) {
+    for (; patches && !sum.unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
       const float about = 2 * (f->quanta[i] + (float)ray->margin);
@@ -133,11 +139,14 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
-          if (!numbers.encloses) continue;
+          if (numbers.kind == NSVCD__SHEET) continue;
           p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
-          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
-          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
+          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
+          if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
+          if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
+          sum.either_way += numbers.kind == NSVCD__EITHER_WAY;
+          sum.nearly += numbers.kind == NSVCD__NEARLY;
         }
       }
     }
@@ -205,7 +214,9 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 
 // Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
 // directions that no mesh is likely to be aligned with, the first one on the side of the body on
-// which the place is. unit: of its frame.
+// which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
+// which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
+// known to be outside. unit: of its frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
                               nsvcd__d3 place) {
   static const double directions[8][3] = {
@@ -219,19 +230,26 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin =
-      NSVCD__SAME_PLACE * (double)p->given.lengths / unit + (double)nsvcd__off_mesh(f);
+  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
+  int clear = 0;
+  int odd = 0;
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
-    int unclear = 0;
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
-    const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
-    if (unclear) continue;
-    return crossings != 0;
+    const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
+    if (sum.unclear) continue;
+    if (sum.winds != 0 && sum.either_way % 2 == 0) return 1;
+    if (sum.winds == 0 && sum.either_way % 2 != 0) return 1;
+    if (f->kind_bits == 1) return 0;
+    // in a hollow the one may undo the other
+    odd += sum.nearly % 2 != 0 || sum.winds != 0;
+    clear++;
   }
-  p->unclear = 1;
+  if (clear == 0 || 2 * odd > clear) p->unclear = 1;
+  p->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
 
@@ -336,7 +354,8 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, p->given.tolerance / e->unit)) return 1;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
   return 0;
 }
@@ -347,8 +366,8 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
-  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
-    return 0;
+  const int is_one = e->inner->components == 1 && e->outer->kind_bits == 1;
+  if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->components <= NSVCD__LANES)
     return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
   const nsvcd__f3 centre =

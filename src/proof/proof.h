@@ -359,6 +359,8 @@ typedef struct nsvcd__proof {
   int within;
   nsvcd__d3 enclosed;
   int unclear;
+  // it could not, since the other is nearly a solid, but not closed
+  int in_open;
   // the least distance is not known as narrowly as was asked for
   int wide;
   // FIRST: nothing of the motion is proven free but its start

@@ -90,6 +90,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
   p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
+  p->in_open = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
@@ -396,6 +397,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
   if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
+  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);

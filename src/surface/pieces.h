@@ -77,6 +77,7 @@ typedef struct nsvcd__surface {
   int coarse;
   // C, connected components (vertices at the same place are one vertex)
   size_t component_count;
+  nsvcd__solids solids;
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
   nsvcd__sphere *balls;
   // (N) about c
@@ -101,7 +102,7 @@ typedef struct nsvcd__surface {
   uint32_t *named;
   // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
   uint16_t *corners;
-  // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a closed component
+  // (L) triangle of the mesh, with what it belongs to
   uint32_t *ids;
   // so many of the C components are known by now
   size_t seed_count;

@@ -63,30 +63,28 @@ static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
 // A mesh along a curve that fills space (Morton 1966).
 typedef struct nsvcd__curve {
   const nsvcd_mesh *mesh;
-  // (triangles) each number of a triangle below its code, with NSVCD__ENCLOSES where it belongs to
-  // a closed component
+  // (triangles) each number of a triangle below its code, with what it belongs to
   uint64_t *keys;
   // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
   // None of a cloud, which has each once
   uint32_t *met;
   uint32_t met_count;
+  nsvcd__solids solids;
   double greatest;  // coordinate of the mesh
   double round;     // metres
 } nsvcd__curve;
 
-// Marks the triangles of closed components. 0 without memory.
-static int nsvcd__curve_mark(nsvcd__curve *curve, const nsvcd_allocator *allocator) {
+// Marks what the triangles belong to. 0 without memory.
+static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
   const nsvcd_mesh *mesh = curve->mesh;
   // points and segments alone enclose nothing
   if (!mesh->indices || !(nsvcd__mesh_area(mesh) > 0)) return 1;
   nsvcd__topology topology;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  const int known = nsvcd__topology_build(mesh, &arena, &topology);
-  for (size_t t = 0; known && t < mesh->triangle_count; t++) {
-    uint32_t face[3];
-    nsvcd__welded_face(&topology, t, face);
-    if (!topology.open[topology.parents[face[0]]]) curve->keys[t] |= NSVCD__ENCLOSES;
-  }
+  nsvcd__arena arena = nsvcd__arena_of(kept->allocator);
+  const int known = nsvcd__topology_build(mesh, &arena, &topology) &&
+                    nsvcd__solids_build(&topology, kept, &curve->solids);
+  for (size_t t = 0; known && t < mesh->triangle_count; t++)
+    curve->keys[t] |= (uint64_t)curve->solids.kinds[t] << NSVCD__KIND_SHIFT;
   nsvcd__arena_free(&arena);
   return known;
 }
@@ -120,7 +118,7 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena 
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
     curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  if (!nsvcd__curve_mark(curve, arena->allocator)) return 0;
+  if (!nsvcd__curve_mark(curve, arena)) return 0;
   nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
   return 1;
 }
@@ -172,7 +170,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
     block->ids[k] = (uint32_t)curve->keys[begin + k];
-    const size_t id = block->ids[k] & ~NSVCD__ENCLOSES;
+    const size_t id = block->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
       block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;

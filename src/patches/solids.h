@@ -1,0 +1,602 @@
+// In: a mesh's topology. Out: what each triangle is a part of: a sheet, a closed surface, one that
+// only its winding keeps from being closed, or a solid with a hole.
+//
+// What closed components enclose is known by how often they wind about a place. That needs a cycle:
+// each directed edge with its reverse. Of a component that is none, a part may be, once what does
+// no harm to it is set aside. In this order:
+//   1. Corners at edges where a triangle is missing are joined to others that are near enough.
+//   2. Of triangles with the same three corners one stays, of those with two in one place none.
+//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave; so
+//      are walls within: of those that meet at edges of three, the one of the least area.
+//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an even
+//      number of triangles: then a ray from inside crosses the part an odd number of times,
+//      however it is wound. Of a sheet nothing is left. A part of the latter kind that is less than
+//      half of all that its edges join is left alone: rooms on a terrain are not turned round.
+//   5. What is not closed after that is a sheet, or nearly a solid: see nsvcd__judge_holes.
+// The caller's triangles stay as they are, and all are proven apart: this decides only which of
+// them a ray counts.
+#pragma once
+#include "../ground/slices.h"
+#include "samples.h"
+#include "topology.h"
+
+#ifndef NSVCD_NO_ENCODER
+// Corners are joined if they are no farther apart than this, of the diagonal of the mesh's box, and
+// of the longest edge at either.
+#define NSVCD__JOINED 1e-4
+#define NSVCD__JOINED_OF_EDGE 0.01
+// that are looked at in a cell
+#define NSVCD__JOIN_TRIES 64
+// Of nearly a solid: holes, of the area; one of three edges counts for less. How far the surface
+// goes on in the plane of a hole: the mean cosine. A hole is a slit if its area is less than this
+// of its edge's length squared.
+#define NSVCD__HOLES 0.02
+#define NSVCD__HOLE_OF_THREE 0.04
+#define NSVCD__FLUSH 0.25
+#define NSVCD__SLIT 1e-3
+
+typedef struct nsvcd__solids {
+  // (triangles) NSVCD__SHEET and so on
+  uint8_t *kinds;
+  size_t components, open_components, open_edges;
+  // metres: gaps that were closed are no wider
+  double gap;
+  // is there any kind but SHEET and CLOSED?
+  int is_mixed;
+} nsvcd__solids;
+
+// The triangles of components that are not closed, without those that are points or segments.
+typedef struct nsvcd__mending {
+  const nsvcd__topology *topology;
+  size_t count;         // T
+  uint32_t *triangles;  // (T) of the mesh
+  uint32_t *joined;     // (vertices) where a welded vertex was joined to; else itself
+  uint8_t *alive;       // (T) not set aside
+  // (3 T) edges, k-th of triangle n 3 n + k, by their ends; and to which of E groups each belongs
+  uint32_t *order, *groups;
+  size_t group_count;
+  // (E) how many alive triangles have this edge, and the exclusive or of their numbers
+  uint32_t *degrees, *others;
+  // (T) of union-find forests: of all that edges join, and of what is alive
+  uint32_t *wholes, *parts;
+  // (vertices + 1), to sort with; (3 T) to work with
+  size_t *first;
+  uint32_t *spare;
+} nsvcd__mending;
+
+static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
+  nsvcd__welded_face(m->topology, m->triangles[n], face);
+  for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
+}
+
+static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
+  return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
+}
+
+static int nsvcd__has_area(const uint32_t *face) {
+  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
+
+// The ends of edge e, the lesser first. Returns 1 if the triangle goes from that to the other.
+static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends) {
+  uint32_t face[3];
+  nsvcd__mending_face(m, e / 3, face);
+  const uint32_t from = face[e % 3];
+  const uint32_t to = face[(e + 1) % 3];
+  ends[0] = from < to ? from : to;
+  ends[1] = from < to ? to : from;
+  return from < to;
+}
+
+// Sorts the edges of all triangles by one of their ends (counting sort); equal ones keep their
+// order.
+static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
+                              size_t which) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  uint32_t ends[2];
+  memset(m->first, 0, (vertices + 1) * sizeof *m->first);
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    (void)nsvcd__mending_edge(m, e, ends);
+    m->first[ends[which] + 1]++;
+  }
+  for (size_t v = 0; v < vertices; v++) m->first[v + 1] += m->first[v];
+  for (size_t i = 0; i < 3 * m->count; i++) {
+    (void)nsvcd__mending_edge(m, from[i], ends);
+    to[m->first[ends[which]]++] = from[i];
+  }
+}
+
+// Counts the alive triangles at each edge.
+static void nsvcd__count_degrees(nsvcd__mending *m) {
+  memset(m->degrees, 0, m->group_count * sizeof *m->degrees);
+  memset(m->others, 0, m->group_count * sizeof *m->others);
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    if (!m->alive[e / 3]) continue;
+    m->degrees[m->groups[e]]++;
+    m->others[m->groups[e]] ^= (uint32_t)(e / 3);
+  }
+}
+
+// Finds which edges are the same, and sets aside what is there twice or has no area. spare: of the
+// triangles at an edge, by their third corner, the first; 0: none, else its number + 1.
+static void nsvcd__group_edges(nsvcd__mending *m) {
+  uint32_t *seen = m->parts;
+  uint32_t last[2] = {0, 0};
+  m->group_count = 0;
+  for (size_t n = 0; n < m->count; n++) {
+    uint32_t face[3];
+    nsvcd__mending_face(m, n, face);
+    m->alive[n] = (uint8_t)nsvcd__has_area(face);
+  }
+  for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
+  nsvcd__sort_edges(m, m->order, m->spare, 1);
+  nsvcd__sort_edges(m, m->spare, m->order, 0);
+  for (size_t i = 0; i < 3 * m->count; i++) {
+    uint32_t ends[2];
+    (void)nsvcd__mending_edge(m, m->order[i], ends);
+    m->group_count += i == 0 || ends[0] != last[0] || ends[1] != last[1];
+    memcpy(last, ends, sizeof last);
+    m->groups[m->order[i]] = (uint32_t)(m->group_count - 1);
+  }
+  // By their edge of the two least corners: where that is the same, the third tells.
+  memset(m->first, 0, m->topology->mesh->vertex_count * sizeof *m->first);
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    size_t met = 0;
+    for (end = i; end < 3 * m->count; end++) {
+      const size_t n = m->order[end] / 3;
+      uint32_t ends[2], face[3];
+      if (m->groups[m->order[end]] != m->groups[m->order[i]]) break;
+      (void)nsvcd__mending_edge(m, m->order[end], ends);
+      nsvcd__mending_face(m, n, face);
+      const uint32_t third = face[(m->order[end] + 2) % 3];
+      if (!m->alive[n] || third < ends[1]) continue;
+      m->alive[n] = m->first[third] == 0;
+      m->first[third] = 1;
+      seen[met++] = third;
+    }
+    while (met > 0) m->first[seen[--met]] = 0;
+  }
+  nsvcd__count_degrees(m);
+}
+
+// ---- corners that are near each other
+
+typedef struct nsvcd__cells {
+  const nsvcd__mending *m;
+  nsvcd__d3 low;
+  double width;
+  // (slots) 0: none, else the last vertex + 1; (vertices) the one before, likewise
+  uint32_t *heads, *before;
+  size_t slots;
+  // (vertices) metres; 0: it is at no edge where a triangle is missing
+  float *reach;
+} nsvcd__cells;
+
+static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
+  uint32_t hash = 0;
+  for (size_t k = 0; k < 3; k++) {
+    hash = (hash ^ (uint32_t)(int64_t)cell[k]) * 0x9e3779b1u;
+    hash ^= hash >> 15;
+  }
+  return &c->heads[(hash * 0x85ebca6bu) & (c->slots - 1)];
+}
+
+// Joins a vertex to the nearest one near enough that has not been joined, or keeps it for others.
+// Returns how far apart they are.
+static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
+  const float *positions = c->m->topology->mesh->positions;
+  const nsvcd__d3 at = nsvcd__d3_row(positions, v);
+  const nsvcd__d3 off = nsvcd__d3_scale(nsvcd__d3_sub(at, c->low), 1 / c->width);
+  double own[3], side[3];
+  double best = HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    const double x = nsvcd__d3_axis(off, k);
+    own[k] = floor(x);
+    side[k] = x - own[k] < 0.5 ? -1 : 1;
+  }
+  for (int corner = 0; corner < 8; corner++) {
+    double cell[3];
+    for (int k = 0; k < 3; k++) cell[k] = own[k] + (corner >> k & 1 ? side[k] : 0);
+    uint32_t w = *nsvcd__cell_of(c, cell);
+    for (size_t tries = 0; w && tries < NSVCD__JOIN_TRIES; tries++) {
+      const double least = (double)fminf(c->reach[v], c->reach[w - 1]);
+      const double square = nsvcd__d3_distance2(at, nsvcd__d3_row(positions, w - 1));
+      if (square <= least * least && square < best) {
+        best = square;
+        c->m->joined[v] = w - 1;
+      }
+      w = c->before[w - 1];
+    }
+  }
+  if (best < HUGE_VAL) return sqrt(best);
+  uint32_t *head = nsvcd__cell_of(c, own);
+  c->before[v] = *head;
+  *head = v + 1;
+  return 0;
+}
+
+// How far each vertex may be joined: those at edges of an odd number of triangles. Returns how many
+// there are.
+static size_t nsvcd__find_reaches(const nsvcd__mending *m, double most, float *reach) {
+  size_t count = 0;
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
+    uint32_t ends[2];
+    (void)nsvcd__mending_edge(m, e, ends);
+    if (m->degrees[m->groups[e]] % 2 == 0) continue;
+    const double edge = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
+    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * edge);
+    for (size_t k = 0; k < 2; k++) {
+      count += reach[ends[k]] <= 0;
+      reach[ends[k]] = fmaxf(own, reach[ends[k]]);
+    }
+  }
+  return count;
+}
+
+// Joins what is near enough to each other. Returns the greatest distance; below 0 without memory.
+static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = m->topology->mesh;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
+  nsvcd__d3 high = low;
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[i]));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[i]));
+  }
+  const double most = NSVCD__JOINED * sqrt(nsvcd__d3_distance2(low, high));
+  double widest = 0;
+  nsvcd__cells c;
+  memset(&c, 0, sizeof c);
+  c.m = m;
+  c.low = low;
+  c.width = 2 * most;
+  c.reach = NSVCD__TAKE(&arena, float, mesh->vertex_count);
+  size_t left = c.reach ? nsvcd__find_reaches(m, most, c.reach) : 0;
+  for (c.slots = 16; c.slots / 2 < left;) c.slots *= 2;
+  c.heads = NSVCD__TAKE(&arena, uint32_t, c.slots);
+  c.before = NSVCD__TAKE(&arena, uint32_t, mesh->vertex_count);
+  for (uint32_t v = 0; !arena.failed && v < mesh->vertex_count; v++) {
+    if (c.reach[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
+  }
+  nsvcd__arena_free(&arena);
+  return arena.failed ? -1 : widest;
+}
+
+// ---- parts
+
+// A forest of the alive triangles: those at an edge, if there are no more than `most`, belong
+// together.
+static void nsvcd__join_triangles(const nsvcd__mending *m, uint32_t most, uint32_t *forest) {
+  for (size_t n = 0; n < m->count; n++) forest[n] = (uint32_t)n;
+  for (size_t i = 0, last = 0; i < 3 * m->count; i++) {
+    const size_t e = m->order[i];
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] > most) continue;
+    if (m->groups[e] == m->groups[last]) {
+      const uint32_t a = nsvcd__root(forest, (uint32_t)(e / 3));
+      const uint32_t b = nsvcd__root(forest, (uint32_t)(last / 3));
+      forest[a > b ? a : b] = a < b ? a : b;
+    }
+    last = e;
+  }
+  for (size_t n = 0; n < m->count; n++) forest[n] = nsvcd__root(forest, (uint32_t)n);
+}
+
+// Sets aside triangles with an edge that no other has, and again what these leave.
+static void nsvcd__peel(nsvcd__mending *m) {
+  uint32_t *waiting = m->spare;
+  size_t count = 0;
+  for (size_t n = 0; n < m->count; n++) {
+    // one of these is as good as all
+    for (size_t k = 0; k < 3 && m->alive[n]; k++) {
+      if (m->degrees[m->groups[3 * n + k]] != 1) continue;
+      m->alive[n] = 0;
+      waiting[count++] = (uint32_t)n;
+    }
+  }
+  while (count > 0) {
+    const uint32_t n = waiting[--count];
+    for (size_t k = 0; k < 3; k++) {
+      const uint32_t g = m->groups[3 * (size_t)n + k];
+      m->others[g] ^= n;
+      if (--m->degrees[g] != 1) continue;
+      const uint32_t next = m->others[g];
+      if (m->alive[next]) waiting[count++] = next;
+      m->alive[next] = 0;
+    }
+  }
+}
+
+// What is known of a part, of a whole, or of a wall.
+typedef struct nsvcd__part {
+  double area;
+  // of its parts that enclose; and one of its parts does not
+  double closed;
+  int fails;
+  // edges: of an odd number of triangles; not as often one way as the other
+  uint32_t odd, turned;
+  // of a whole: of a sheet, by its holes; and their area
+  int is_sheet;
+  double holes, volume;
+  nsvcd__d3 centre;  // times the area
+} nsvcd__part;
+
+// Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
+static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
+                               nsvcd__part *parts) {
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    const size_t group = m->groups[m->order[i]];
+    size_t any = m->count;
+    int sum = 0;
+    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
+      uint32_t ends[2];
+      if (!m->alive[m->order[end] / 3]) continue;
+      any = m->order[end] / 3;
+      sum += nsvcd__mending_edge(m, m->order[end], ends) ? 1 : -1;
+    }
+    if (any == m->count) continue;
+    parts[forest[any]].odd += m->degrees[group] % 2;
+    parts[forest[any]].turned += sum != 0;
+  }
+}
+
+// Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
+// area. Returns how many triangles. walls: (T) zeros, and so they are again.
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
+  size_t dropped = 0;
+  nsvcd__join_triangles(m, 2, m->parts);
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    if (m->alive[n]) walls[m->parts[n]].area += nsvcd__triangle_area(&t);
+  }
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    const size_t group = m->groups[m->order[i]];
+    size_t least = m->count;
+    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
+      const size_t n = m->order[end] / 3;
+      if (!m->alive[n] || m->degrees[group] < 3) continue;
+      const size_t wall = m->parts[n];
+      walls[wall].odd++;
+      if (least == m->count || walls[wall].area < walls[least].area) least = wall;
+    }
+    if (least < m->count) walls[least].turned += m->degrees[group] % 2;
+  }
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__part *wall = &walls[m->parts[n]];
+    if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
+    m->alive[n] = 0;
+    dropped++;
+  }
+  memset(walls, 0, m->count * sizeof *walls);
+  if (dropped > 0) nsvcd__count_degrees(m);
+  return dropped;
+}
+
+// ---- holes
+
+// Edges that have one triangle alone, joined at their ends.
+typedef struct nsvcd__hole {
+  nsvcd__d3 centre, normal;
+  double length, area, flush;
+  size_t edges;
+  uint32_t whole;
+} nsvcd__hole;
+
+// Three passes over the edges at holes: where they are; the cone over them, its area and normal;
+// and whether the triangles at them go on in its plane.
+static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
+                                 nsvcd__hole *holes, int pass) {
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
+    uint32_t ends[2];
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    (void)nsvcd__mending_edge(m, e, ends);
+    nsvcd__hole *hole = &holes[numbers[ends[0]] - 1];
+    const nsvcd__d3 from = t.at[e % 3];
+    const nsvcd__d3 to = t.at[(e + 1) % 3];
+    const double length = sqrt(nsvcd__d3_distance2(from, to));
+    if (pass == 0) {
+      const nsvcd__d3 twice = nsvcd__d3_add(from, to);
+      hole->centre = nsvcd__d3_fma(0.5 * length, twice, hole->centre);
+      hole->length += length;
+      hole->edges++;
+      hole->whole = m->wholes[e / 3];
+      continue;
+    }
+    // what would close it goes the other way
+    const nsvcd__d3 centre = nsvcd__d3_scale(hole->centre, 1 / hole->length);
+    const nsvcd__d3 a = nsvcd__d3_sub(to, centre);
+    const nsvcd__d3 b = nsvcd__d3_sub(from, centre);
+    const nsvcd__d3 n = nsvcd__d3_scale(nsvcd__d3_cross(a, b), 0.5);
+    if (pass == 1) {
+      hole->normal = nsvcd__d3_add(hole->normal, n);
+      hole->area += nsvcd__d3_length(n);
+      continue;
+    }
+    const nsvcd__d3 along = nsvcd__area_vector(&t);
+    const double size = nsvcd__d3_length(along) * nsvcd__d3_length(hole->normal);
+    const double cosine = nsvcd__d3_dot(along, hole->normal);
+    hole->flush += size > 0 ? length * cosine / size : 0;
+  }
+}
+
+// What holes say of the wholes that they are in. One is a sheet where the surface does not go on
+// across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
+// makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
+// that is wound outwards is nearly a solid's, for else it is a room that has a door.
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
+                              const nsvcd_allocator *allocator) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
+  uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
+  uint32_t count = 0;
+  uint32_t ends[2];
+  for (uint32_t v = 0; forest && v < vertices; v++) forest[v] = v;
+  for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    (void)nsvcd__mending_edge(m, e, ends);
+    const uint32_t a = nsvcd__root(forest, ends[0]);
+    const uint32_t b = nsvcd__root(forest, ends[1]);
+    forest[a > b ? a : b] = a < b ? a : b;
+    numbers[ends[0]] = numbers[ends[1]] = 1;
+  }
+  for (uint32_t v = 0; !arena.failed && v < vertices; v++) {
+    if (!numbers[v]) continue;
+    const uint32_t root = nsvcd__root(forest, v);
+    numbers[v] = root == v ? ++count : numbers[root];
+  }
+  nsvcd__hole *holes = NSVCD__TAKE(&arena, nsvcd__hole, count);
+  for (int pass = 0; !arena.failed && pass < 3; pass++)
+    nsvcd__measure_holes(m, numbers, holes, pass);
+  for (size_t h = 0; !arena.failed && h < count; h++) {
+    const nsvcd__hole *hole = &holes[h];
+    nsvcd__part *whole = &wholes[hole->whole];
+    const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
+    const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
+    const int is_three = hole->edges == 3;
+    whole->holes += (is_three ? NSVCD__HOLE_OF_THREE : 1) * hole->area;
+    if (!is_slit && !is_flush) whole->is_sheet = 1;
+    if (!is_slit && !is_three && !(whole->volume > 0)) whole->is_sheet = 1;
+  }
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+
+// ---- all of it
+
+// Areas of wholes, and what they hold as seen from their middle.
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+  for (size_t i = 0; i < 2 * m->count; i++) {
+    const size_t n = i % m->count;
+    if (!m->alive[n]) continue;
+    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const nsvcd__d3 normal = nsvcd__area_vector(&t);
+    if (i == n) {
+      const double area = nsvcd__d3_length(normal);
+      whole->area += area;
+      whole->centre = nsvcd__d3_fma(area, t.at[0], whole->centre);
+    } else if (whole->area > 0) {
+      const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
+      whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
+    }
+  }
+}
+
+// Which parts of what is left after peeling enclose something? Their triangles are marked.
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
+                              nsvcd__solids *out) {
+  nsvcd__judge_edges(m, m->parts, parts);
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    if (m->alive[n]) parts[m->parts[n]].area += nsvcd__triangle_area(&t);
+  }
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__part *part = &parts[m->parts[n]];
+    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const int is_most = part->area >= 0.5 * whole->area;
+    const int kind = part->turned == 0                ? NSVCD__CLOSED
+                     : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
+                                                      : NSVCD__SHEET;
+    out->kinds[m->triangles[n]] = (uint8_t)kind;
+    if (kind == NSVCD__SHEET) whole->fails = 1;
+    if (kind != NSVCD__SHEET && m->parts[n] == n) whole->closed += part->area;
+    for (size_t k = 0; kind != NSVCD__SHEET && k < 3; k++) {
+      const float *at = m->topology->mesh->positions;
+      const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
+      const uint32_t w = m->joined[m->topology->welded[v]];
+      const double square =
+          nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
+      out->gap = nsvcd__max(out->gap, sqrt(square));
+    }
+  }
+}
+
+// Counts the wholes, and marks what is nearly a solid. alive: before peeling.
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
+                               nsvcd__solids *out) {
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__part *whole = &wholes[m->wholes[n]];
+    uint8_t *kind = &out->kinds[m->triangles[n]];
+    const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
+    const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
+    if (m->wholes[n] == n) {
+      out->components++;
+      out->open_components += !is_closed;
+      out->open_edges += is_closed ? 0 : whole->odd;
+    }
+    if (!is_closed && is_nearly && *kind == NSVCD__SHEET) *kind = NSVCD__NEARLY;
+    out->is_mixed |= *kind == NSVCD__EITHER_WAY || *kind == NSVCD__NEARLY;
+  }
+}
+
+// 0 without memory.
+static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t count = m->count;
+  m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
+  m->alive = NSVCD__TAKE(arena, uint8_t, count);
+  m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->wholes = NSVCD__TAKE(arena, uint32_t, count);
+  m->parts = NSVCD__TAKE(arena, uint32_t, count);
+  m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
+  m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
+  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
+  if (arena->failed) return 0;
+  for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
+  nsvcd__group_edges(m);
+  const double widest = nsvcd__join_corners(m, arena->allocator);
+  if (widest < 0) return 0;
+  if (widest > 0) nsvcd__group_edges(m);
+  memcpy(distinct, m->alive, count);
+  nsvcd__join_triangles(m, UINT32_MAX, m->wholes);
+  nsvcd__measure_wholes(m, wholes);
+  nsvcd__peel(m);
+  for (int pass = 0; pass < 8 && nsvcd__drop_walls(m, parts) > 0; pass++) nsvcd__peel(m);
+  nsvcd__join_triangles(m, UINT32_MAX, m->parts);
+  nsvcd__mark_parts(m, wholes, parts, out);
+  memcpy(m->alive, distinct, count);
+  nsvcd__count_degrees(m);
+  nsvcd__judge_edges(m, m->wholes, wholes);
+  if (!nsvcd__judge_holes(m, wholes, arena->allocator)) return 0;
+  nsvcd__mark_wholes(m, wholes, out);
+  return 1;
+}
+
+// 0 without memory.
+static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *arena,
+                               nsvcd__solids *out) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
+  nsvcd__mending m;
+  memset(&m, 0, sizeof m);
+  memset(out, 0, sizeof *out);
+  m.topology = topology;
+  out->kinds = NSVCD__TAKE(arena, uint8_t, mesh->triangle_count);
+  m.triangles = NSVCD__TAKE(&spare, uint32_t, mesh->triangle_count);
+  if (!out->kinds || !m.triangles) {
+    nsvcd__arena_free(&spare);
+    return 0;
+  }
+  for (size_t v = 0; v < mesh->vertex_count; v++)
+    out->components += topology->seen[v] && !topology->open[v];
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    uint32_t face[3];
+    nsvcd__welded_face(topology, t, face);
+    const int open = topology->open[topology->parents[face[0]]];
+    out->kinds[t] = open ? NSVCD__SHEET : NSVCD__CLOSED;
+    if (open && nsvcd__has_area(face)) m.triangles[m.count++] = (uint32_t)t;
+  }
+  const int known = m.count == 0 || nsvcd__mend(&m, &spare, out);
+  nsvcd__arena_free(&spare);
+  return known;
+}
+#endif  // NSVCD_NO_ENCODER
