@@ -1958,7 +1958,7 @@ static void proof_knows_what_is_within(void) {
   for (int k = 0; k < 3; k++) proof_free(&outer[k]);
 }
 
-// As nsvcd__crossings, but all triangles of a patch whose sphere the ray meets are asked in double.
+// As nsvcd__cross_all, of closed surfaces, but all triangles of a patch whose sphere the ray meets are asked in double.
 static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *unclear) {
   static uint32_t crossed[1000];
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
@@ -1973,7 +1973,7 @@ static int proof_crossings(const nsvcd__facets *f, const nsvcd__ray *ray, int *u
     for (size_t n = f->first_triangle[i]; n < f->first_triangle[i + 1]; n++) {
       nsvcd__d3 corners[3];
       nsvcd__read_number(&numbers, n);
-      if (!numbers.encloses) continue;
+      if (numbers.kind != NSVCD__CLOSED) continue;
       nsvcd__facet_triangle(f, i, n, corners);
       const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
       size_t known = 0;
@@ -2024,12 +2024,12 @@ static void proof_rays_miss_nothing(void) {
     const nsvcd__facets f = nsvcd__facets_of(nsvcd__triangles_of(ball.body));
     for (int trial = 0; trial < 6000; trial++) {
       const nsvcd__ray ray = proof_ray_at_edge(&rng, &f, 1e-13);
-      int unclear = 0;
       int unclear_in_double = 0;
-      const int sum = nsvcd__crossings(query->proof, &f, &ray, &unclear);
+      const nsvcd__crossings sum = nsvcd__cross_all(query->proof, &f, &ray);
       const int in_double = proof_crossings(&f, &ray, &unclear_in_double);
       clear += !unclear_in_double;
-      wrong += unclear != unclear_in_double || (!unclear && sum != in_double);
+      wrong += sum.unclear != unclear_in_double;
+      wrong += !sum.unclear && sum.winds != in_double;
     }
     printf("  %zu rays of 6000 clear of edges, %zu wrong\n", clear, wrong);
     CHECK_EQ(wrong, 0);

@@ -63,7 +63,8 @@ static size_t enclosing(const nsvcd_mesh *mesh, size_t *components) {
   size_t count = 0;
   CHECK(nsvcd__regions_build(mesh, 17, &arena, &r));
   CHECK_EQ(r.triangle_count, mesh->triangle_count);
-  for (size_t t = 0; t < r.triangle_count; t++) count += (r.ids[t] & NSVCD__ENCLOSES) != 0;
+  for (size_t t = 0; t < r.triangle_count; t++)
+    count += r.ids[t] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
   *components = r.component_count;
   nsvcd__arena_free(&arena);
   return count;
@@ -78,7 +79,8 @@ static void regions_open_and_closed(void) {
   CHECK_LE(enclosing(&mesh, &components), whole - 2);
   nsvcd_mesh_free(&mesh, NULL);
 
-  // Two boxes side by side; then one of them without its last triangle, then with that turned over.
+  // Two boxes side by side; then one of them without its last triangle, then with that turned over,
+  // which does no harm.
   shapes_mesh shape;
   memset(&shape, 0, sizeof shape);
   shapes_box(&shape, 1, 1, 1, 2);
@@ -96,7 +98,7 @@ static void regions_open_and_closed(void) {
   const uint32_t swap = last[0];
   last[0] = last[1];
   last[1] = swap;
-  CHECK_EQ(enclosing(&mesh, &components), first);
+  CHECK_EQ(enclosing(&mesh, &components), both);
   // A triangle with two corners in one closes nothing and opens nothing, in either box.
   for (size_t k = 0; k < 3; k++) {
     memcpy(last, mesh.indices + 3 * (k % 2 ? first : 0), 3 * sizeof *last);
@@ -196,8 +198,8 @@ static void regions_add_triangles(const nsvcd__region *region, const shells *par
   const double limit = sum->regions->longest_edge * (1 + 1e-9);
   size_t last = 0;
   for (size_t t = 0; t < region->mesh.triangle_count; t++) {
-    const size_t id = region->ids[t] & ~NSVCD__ENCLOSES;
-    const int encloses = (region->ids[t] & NSVCD__ENCLOSES) != 0;
+    const size_t id = region->ids[t] & NSVCD__NUMBER;
+    const int encloses = region->ids[t] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
     double part[3][3], whole[3][3], vector[3];
     sum->bad += id >= sum->mesh->triangle_count || id < last;
     if (sum->bad) return;
@@ -329,7 +331,7 @@ static void regions_allocation_fails(void) {
     if (ok) break;
     failures++;
   }
-  CHECK(failures > 10 && failures < 30);
+  CHECK(failures > 10 && failures < 60);
   nsvcd_mesh_free(&mesh, NULL);
 }
 

@@ -163,7 +163,7 @@ typedef struct reader {
 } reader;
 
 static uint32_t reader_id(const reader *r, size_t listing) {
-  return r->surface.ids[listing] & ~NSVCD__ENCLOSES;
+  return r->surface.ids[listing] & NSVCD__NUMBER;
 }
 
 // Where the points of a patch begin.
@@ -431,7 +431,7 @@ static void check_enclosing(const reader *r) {
     for (size_t k = r->listings[t]; k < r->listings[t + 1] && !whole; k++) {
       const size_t l = r->sorted[k];
       vec part[3];
-      flags += (r->surface.ids[l] & NSVCD__ENCLOSES) != 0;
+      flags += r->surface.ids[l] >> NSVCD__KIND_SHIFT >= NSVCD__CLOSED;
       if (!closed || is_listed_before(r, r->listings[t], k)) continue;
       reader_corners(r, l, part);
       const double quantum = (double)r->surface.quanta[r->patch[l]];

@@ -497,9 +497,9 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
     const nsvcd__part *part = &parts[m->parts[n]];
     nsvcd__part *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
-    const int kind = part->turned == 0                ? NSVCD__CLOSED
+    const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
-                                                      : NSVCD__SHEET;
+                                                 : NSVCD__SHEET;
     out->kinds[m->triangles[n]] = (uint8_t)kind;
     if (kind == NSVCD__SHEET) whole->fails = 1;
     if (kind != NSVCD__SHEET && m->parts[n] == n) whole->closed += part->area;
@@ -507,8 +507,7 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
       const float *at = m->topology->mesh->positions;
       const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
       const uint32_t w = m->joined[m->topology->welded[v]];
-      const double square =
-          nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
+      const double square = nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
       out->gap = nsvcd__max(out->gap, sqrt(square));
     }
   }
