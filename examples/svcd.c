@@ -75,6 +75,8 @@ static const option options[] = {
      "for the network too, not for the proof alone"},
     {"--no-triangles", ENCODE, OPTION_FLAG, AT(encode.no_triangles), 0, 0, NULL, NULL,
      "for the network alone"},
+    {"--open", ALL, OPTION_FLAG, AT(encode.open), 0, 0, NULL, NULL,
+     "a mesh that is not closed is a sheet: nothing is inside of it"},
     {"--pairs", CHECK, OPTION_COUNT, AT(sweep.network.pairs), 1, NSVCD_MAX_PAIRS, "NSVCD_MAX_PAIRS",
      "K", "pairs of patches that the network looks at, up to " DIGITS(NSVCD_MAX_PAIRS) " (8)"},
     {"--model", CHECK, OPTION_WORD, AT(sweep.network.model), NSVCD_MODEL_TINY, 0, "tiny|small|base",

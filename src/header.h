@@ -88,9 +88,14 @@
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
 //   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, or that the work allowed was not enough; then the network's opinion is added where
-//   it has one. A component of a mesh is closed if every edge has its reverse; what is open
-//   encloses nothing.
+//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open), or
+//   that the work allowed was not enough; then the network's opinion is added where it has one.
+//   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
+//   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
+//   or turned round, fins, walls within, slivers, and gaps between corners that are no farther apart
+//   than a ten-thousandth of the diagonal of the mesh's box, nor than a hundredth of the longest
+//   edge at either. (What is thinner than such a gap may slip through it.) What is still open
+//   encloses nothing for certain: nsvcd_body_facts tells of it.
 //   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
 //   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to six
 //   of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a

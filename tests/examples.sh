@@ -182,14 +182,14 @@ says() {
 }
 says cube 0 'cube.obj: an OBJ: 12 triangles, 8 vertices' 'box: 1 x 1 x 1 m' 'components: 1, 1 of them closed$' \
   'area: 6 m2, volume of what is closed: 1 m3' 'nothing is wrong with it' 'as a body: 12 points'
-says open 1 'wrong: 4 open edges' 'components: 1, 0 of them closed' 'area: 5 m2$'
+says open 1 'wrong: not a closed surface: 4 open edges in 1 of 1 component' 'components: 1, 0 of them closed' 'area: 5 m2$'
 says inside_out 1 'wrong: inside out: its volume is -1 m3' '1 of these turned inwards'
 says mm 1 'wrong: a body of 184 m: are these millimetres? try --scale 0.001'
 says two 0 'components: 2, 2 of them closed$' 'volume of what is closed: 2 m3'
 says cavity 0 'components: 2, 2 of them closed, 1 of these turned inwards' 'volume of what is closed: 63 m3'
 says degenerate 1 'wrong: 1 degenerate triangle:'
-says fin 2 'wrong: 2 open edges' 'wrong: 1 non-manifold edge:' 'components: 1, 0 of them closed'
-says turned 1 'wrong: 4 edges of inconsistent winding' 'components: 1, 0 of them closed'
+says fin 1 'wrong: 1 non-manifold edge:' 'components: 1, 1 of them closed'
+says turned 1 'wrong: 4 edges of inconsistent winding' 'components: 1, 1 of them closed'
 says flat 1 'wrong: flat' 'components: 1, 1 of them closed'
 expect 0 '' build/svcd info --scale 0.001 "$dir/mm.obj"
 grep -q 'box: 0.184 x 0.184 x 0.184 m' "$dir/out" || fail "info --scale: $(cat "$dir/out")"

@@ -39,6 +39,7 @@ void test_broad_phase(void);
 void test_proof(void);
 void test_asks(void);
 void test_normals(void);
+void test_solids(void);
 void test_winding_number(void);
 void test_decoder(void);
 void test_query(void);
@@ -77,6 +78,7 @@ static const test_file files[] = {
     OF(proof),
     OF(asks),
     OF(normals),
+    OF(solids),
     OF(round),
     OF(robot),
     OF(postures),

@@ -394,7 +394,48 @@ static void solids_of_sheets(void) {
   }
 }
 
+// ------------------------------------------------------------------------------------------ gaps
+
+// Two halves of a box, apart by a share of its diagonal: joined up to a ten-thousandth. Inside, close
+// to the gap as well, nothing is free; and what is in front of it is.
+static void solids_with_gaps(void) {
+  shapes_rng rng = {48};
+  for (int n = 0; n < 40; n++) {
+    shapes_mesh mesh, ball;
+    const int is_joined = n % 2;
+    const double gap = sqrt(12) * (is_joined ? shapes_uniform(&rng, 1e-6, 9e-5) : 2e-4);
+    memset(&mesh, 0, sizeof mesh);
+    memset(&ball, 0, sizeof ball);
+    for (int half = 0; half < 2; half++) {
+      const size_t first = mesh.vertices;
+      shapes_box(&mesh, 2, 2, 1, 2);
+      shapes_place(&mesh, first, NULL, 0, 0, half ? 0.5 + gap : -0.5);
+    }
+    for (size_t t = mesh.triangles; t-- > 0;) {  // the sides where they face each other
+      int is_within = 1;
+      for (size_t k = 0; k < 3; k++)
+        is_within &= fabs(solids_corner(&mesh, t, k)[2]) < 0.5 * gap + 1e-3;
+      if (is_within) solids_drop(&mesh, t, 1);
+    }
+    shapes_ellipsoid(&ball, 0.01, 0.01, 0.01, 6);
+    const nsvcd_body *small = solids_encode(&ball, 0);
+    const nsvcd_body *body = solids_encode(&mesh, 0);
+    for (int k = 0; k < 4; k++) {
+      const double z = k % 2 ? shapes_uniform(&rng, -0.5, 0.5) : 0.5 * gap;
+      const double at[3] = {k < 2 ? 0.9 : 1.1, shapes_uniform(&rng, -0.9, 0.9), z};
+      const nsvcd_verdict said = solids_ask(small, at, at, body).verdict;
+      CHECK_EQ(said, k < 2 && is_joined ? NSVCD_HIT : NSVCD_FREE);
+    }
+    CHECK_EQ(nsvcd_body_describe(body).open_components, is_joined ? 0 : 2);
+    nsvcd_body_free(body, NULL);
+    nsvcd_body_free(small, NULL);
+    shapes_free(&mesh);
+    shapes_free(&ball);
+  }
+}
+
 void test_solids(void) {
+  RUN(solids_with_gaps);
   RUN(solids_with_a_flaw);
   RUN(solids_of_sheets);
 }

@@ -191,6 +191,7 @@ static int make_pair_proof(const robot_in_room *in, const char *id,
                   robot_name(in, parts->b), nsvcd_verdict_string(made->verdict),
                   made->why == NSVCD_WHY_WORK       ? ", for want of --visits"
                   : made->why == NSVCD_WHY_TOO_NEAR ? ", they come too near each other"
+                  : made->why == NSVCD_WHY_OPEN     ? ", one seems to be inside the other"
                                                     : "");
 }
 

@@ -99,13 +99,24 @@ static progress_bar tell_encoding(const char *path, size_t triangles) {
   return working;
 }
 
-// Loads and encodes one mesh; nsvcd_body_free gives the body back.
+// Loads and encodes one mesh; nsvcd_body_free gives the body back. With options->open it is a sheet
+// if it is not closed, and only then.
 static const nsvcd_body *encode_mesh(const char *from, const char *path, const nsvcd_mesh *mesh,
                                      const nsvcd_encode_options *options, double *taken) {
   const nsvcd_body *body = NULL;
   const progress_bar working = tell_encoding(path, mesh->triangle_count);
   const double start = seconds();
-  const nsvcd_result result = nsvcd_encode(mesh, options, NULL, NULL, 0, &body);
+  nsvcd_encode_options asked;
+  memset(&asked, 0, sizeof asked);
+  if (options) asked = *options;
+  asked.open = 0;
+  nsvcd_result result = nsvcd_encode(mesh, &asked, NULL, NULL, 0, &body);
+  if (!result && options && options->open && nsvcd_body_describe(body).open_components > 0) {
+    nsvcd_body_free(body, NULL);
+    body = NULL;
+    asked.open = 1;
+    result = nsvcd_encode(mesh, &asked, NULL, NULL, 0, &body);
+  }
   *taken = seconds() - start;
   progress_end(&working);
   if (result) complain("%s%s: %s", from, path, reason_of(result));
@@ -167,6 +178,10 @@ static const nsvcd_body *encode_named(const char *from, const char *file, const 
   if (!load_mesh(from, path, &mesh)) return NULL;
   if (scale) scale_mesh(&mesh, scale);
   const nsvcd_body *body = encode_mesh(from, path, &mesh, options, taken);
+  const nsvcd_body_facts facts = nsvcd_body_describe(body);
+  char line[MESH_LINE];
+  if (!(options && options->open) && mesh_find_open(&facts, line))
+    complain("warning: %s: %s", path, line);
   nsvcd_mesh_free(&mesh, NULL);
   return body;
 }
@@ -287,7 +302,17 @@ static int encode_thing(thing *t, const nsvcd_encode_options *options) {
   t->body = encode_mesh("", t->path, &t->mesh, options, &t->taken);
   if (!t->body) return 0;
   const nsvcd_body_facts facts = nsvcd_body_describe(t->body);
+  char line[MESH_LINE];
+  if (!options->open && mesh_find_open(&facts, line)) {
+    const size_t after = (size_t)(t->fault_count++ - t->grave);
+    memmove(t->faults[t->grave + 1], t->faults[t->grave], after * MESH_LINE);
+    memcpy(t->faults[t->grave++], line, sizeof line);
+  }
   t->fault_count += mesh_find_large(&t->mesh, &facts, t->faults[t->fault_count]);
+  if (facts.components > 0) {
+    t->report.components = facts.components;
+    t->report.closed = facts.components - facts.open_components;
+  }
   return 1;
 }
 

@@ -9,7 +9,7 @@
 //       puts(lines[i]);
 //
 // Vertices at the same place are one, and a component is closed if each of its edges has its
-// reverse, as in the library. Include neuralsvcd.h first.
+// reverse. Include neuralsvcd.h first.
 #ifndef NSVCD_SCENERY_MESH_CHECK_H
 #define NSVCD_SCENERY_MESH_CHECK_H
 
@@ -210,7 +210,7 @@ MESH_DEF double mesh_extent(const mesh_report *report) {
 // ---------------------------------------------------------------------------------------- findings
 
 #define MESH_FINDINGS 8
-#define MESH_LINE 160  // characters
+#define MESH_LINE 200  // characters
 // metres: bodies beyond these are hardly meant
 #define MESH_SMALL 0.001
 
@@ -275,15 +275,23 @@ MESH_DEF int mesh_find_large(const nsvcd_mesh *mesh, const nsvcd_body_facts *fac
                          "more --points",
                          line);
 }
+// Is the surface of the body that was made of it closed, but for what the library mends?
+MESH_DEF int mesh_find_open(const nsvcd_body_facts *facts, char *line) {
+  if (facts->open_components == 0) return 0;
+  snprintf(line, MESH_LINE,
+           "not a closed surface: %zu open edge%s in %zu of %zu component%s; what is inside of it "
+           "is not known to be inside (say --open if it is a sheet)",
+           facts->open_edges, facts->open_edges == 1 ? "" : "s", facts->open_components,
+           facts->components, facts->components == 1 ? "" : "s");
+  return 1;
+}
 // What is wrong with it, a line each, without its name. Returns how many. *grave: so many of them,
-// the first ones, can change an answer.
+// the first ones, can change an answer. Two more are found of the body.
 MESH_DEF int mesh_findings(const mesh_report *report, char lines[MESH_FINDINGS][MESH_LINE],
                            int *grave) {
   int count = mesh_find_size(report, lines[0]);
   count += mesh_find_far(report, lines[count]);
   count += mesh_find_volume(report, lines[count]);
-  count += mesh_find_count(report->open_edges, "open edge", "open edges",
-                           "what is not closed encloses nothing", lines[count]);
   count += mesh_find_count(report->turned_edges, "edge of inconsistent winding",
                            "edges of inconsistent winding",
                            "neighbours do not agree which side is out", lines[count]);

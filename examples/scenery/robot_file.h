@@ -319,7 +319,8 @@ static void need_room(robot_file *file, size_t room) {
 }
 
 // Loads and encodes the meshes that are needed. Returns 0 after a complaint.
-static int encode_robot(robot_file *file, size_t *count, double *taken) {
+static int encode_robot(robot_file *file, const nsvcd_encode_options *options, size_t *count,
+                        double *taken) {
   *count = 0;
   *taken = 0;
   for (size_t i = 0; i < file->mesh_count; i++) {
@@ -329,7 +330,7 @@ static int encode_robot(robot_file *file, size_t *count, double *taken) {
     if (!mesh->is_needed) continue;
     ++*count;
     snprintf(from, sizeof from, "%s:%zu: %s %s: ", file->path, mesh->line, mesh->kind, mesh->name);
-    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, NULL, &one);
+    mesh->body = encode_named(from, file->path, mesh->path, mesh->scale, options, &one);
     if (!mesh->body) return 0;
     *taken += one;
   }

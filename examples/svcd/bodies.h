@@ -201,7 +201,7 @@ static void json_mesh(json_out *j, const thing *t) {
 
 // Of one file: a mesh, or a body. Returns 0 after a complaint.
 static int info_of(const char *path, float scale, const settings *options) {
-  const nsvcd_encode_options defaults = {.patches = 0};
+  const nsvcd_encode_options defaults = {.open = options->encode.open};
   json_out j = {stdout, 0};
   thing t;
   int good = open_thing(path, &t);
@@ -209,11 +209,9 @@ static int info_of(const char *path, float scale, const settings *options) {
     good = complain("--scale: of a mesh; %s is a body, in metres", t.path);
   t.recentre = options->recentre && !t.is_body;
   if (good) good = t.is_body ? take_body(&t, 1) : take_mesh(&t, scale);
-  if (good && !t.is_body && !options->json) {
-    print_mesh(&t);
-    fflush(stdout);
-  }
-  if (good && !t.is_body) good = encode_thing(&t, &defaults);
+  const int is_mesh = good && !t.is_body;
+  if (is_mesh) good = encode_thing(&t, &defaults);
+  if (is_mesh && !options->json) print_mesh(&t);
   if (good && options->json) {
     json_open(&j, NULL, '{');
     json_text(&j, "path", t.path);

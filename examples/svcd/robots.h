@@ -79,6 +79,7 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
     const nsvcd_body_pair *pair = &in->scene.pairs[gap->pair];
     const char *a = robot_name(in, pair->a);
     const char *b = robot_name(in, pair->b);
+    if (gap->verdict == NSVCD_UNDECIDED && gap->why == NSVCD_WHY_OPEN) continue;
     if (gap->verdict != NSVCD_HIT)
       complain("%s: %s and %s are %.2f mm apart", from, a, b, 1e3 * (double)gap->distance.high);
     else if (gap->depth < HUGE_VALF)
@@ -97,6 +98,22 @@ static void tell_way_out(const robot_in_room *in, const char *from, const double
   free(gaps);
 }
 
+// Why it is not known of two bodies whether they meet, on standard error.
+static void tell_doubt(const robot_in_room *in, const char *from, const nsvcd_check_answer *found) {
+  const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
+  const char *a = robot_name(in, pair->a);
+  const char *b = robot_name(in, pair->b);
+  if (found->why == NSVCD_WHY_OPEN)
+    complain(
+        "%s: a part of %s or %s seems to be inside the other, which is nearly a solid but not "
+        "closed (say --open if it is a sheet)",
+        from, a, b);
+  else if (found->why == NSVCD_WHY_WORK)
+    complain("%s: %s and %s take more work than is allowed", from, a, b);
+  else
+    complain("%s: %s and %s are too near each other to tell", from, a, b);
+}
+
 // What is wrong with a start or a goal, on standard error.
 static void tell_check(const robot_in_room *in, const robot_task *task, const char *where,
                        const double *joints, const nsvcd_check_answer *found,
@@ -106,9 +123,7 @@ static void tell_check(const robot_in_room *in, const robot_task *task, const ch
   if (found->joint != NSVCD_NONE) {
     complain("%s: joint %s is out of its limits", from, in->file->joint_names[found->joint]);
   } else if (found->verdict == NSVCD_UNDECIDED && found->pair != NSVCD_NONE) {
-    const nsvcd_body_pair *pair = &in->scene.pairs[found->pair];
-    complain("%s: %s and %s are too near each other to tell", from, robot_name(in, pair->a),
-             robot_name(in, pair->b));
+    tell_doubt(in, from, found);
   }
   tell_way_out(in, from, joints, problem, clearance);
 }
@@ -245,6 +260,11 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   const int is_free = answer.verdict == NSVCD_FREE;
   const nsvcd_body_pair *pair =
       is_free || answer.pair == NSVCD_NONE ? NULL : &in->scene.pairs[answer.pair];
+  if (pair && answer.verdict == NSVCD_UNDECIDED) {
+    char from[1024];
+    snprintf(from, sizeof from, "%s:%zu: %s", in->file->path, task->line, task->id);
+    tell_doubt(in, from, &answer);
+  }
   const char *names[2] = {pair ? robot_name(in, pair->a) : "-",
                           pair ? robot_name(in, pair->b) : "-"};
   if (options->json) {
@@ -308,7 +328,7 @@ static int pairs(settings *options) {
   int good = read_robot(options->paths[0], &file);
   if (good && file.body_count == 0) good = complain("%s: no body", file.path);
   if (good) need_room(&file, NSVCD_NONE);
-  good = good && encode_robot(&file, &encoded_count, &taken);
+  good = good && encode_robot(&file, &options->encode, &encoded_count, &taken);
   if (good) {
     const size_t most = file.body_count * file.body_count;
     nsvcd_body_pair *found = (nsvcd_body_pair *)allocate(most * sizeof *found);
@@ -355,7 +375,7 @@ static int robot_command(settings *options, int is_path) {
   int good = read_robot(options->paths[0], &file);
   for (size_t i = 0; i < file.task_count && good; i++)
     if (is_asked(&file.tasks[i], options, is_path)) need_room(&file, file.tasks[i].room);
-  good = good && encode_robot(&file, &encoded_count, &taken);
+  good = good && encode_robot(&file, &options->encode, &encoded_count, &taken);
   if (good)
     fprintf(stderr, PROGRAM ": %zu meshes encoded in %.1f ms\n", encoded_count, 1e3 * taken);
   if (good && (options->picture || options->film) && file.body_count == 0)

@@ -106,7 +106,9 @@ static void sweep_reason(const sweep_job *job, const settings *options, char *ou
     reason = proof ? "proven, one is inside of the other at the start"
                    : "estimated, one is inside of the other at the start";
   if (s == STATUS_UNDECIDED)
-    reason = "nearer than triangles are stored, or more work than --work allows";
+    reason = job->answer.why == NSVCD_WHY_OPEN
+                 ? "one seems to be inside of what is nearly a solid, but not closed"
+                 : "nearer than triangles are stored, or more work than --work allows";
   snprintf(out, size, "%s", reason);
   if (job->answer.by == NSVCD_BY_NETWORK && !job->answer.inside)
     snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.opinion.logit);

@@ -3,7 +3,7 @@
 const METHODS = {proof: 1, network: 2};  // nsvcd_method
 const VERDICT = {UNDECIDED: 0, FREE: 1, HIT: 2};  // nsvcd_verdict
 const BY = {PROOF: 0, NETWORK: 1};  // nsvcd_by
-const WHY = {NOTHING: 0, TOO_NEAR: 1, WORK: 2};  // nsvcd_why
+const WHY = {NOTHING: 0, TOO_NEAR: 1, WORK: 2, OPEN: 3};  // nsvcd_why
 
 // Compiles the module, from a promise of a Response. What it returns throws an Error, with `line`
 // of a file, where the library says no.

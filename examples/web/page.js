@@ -79,7 +79,8 @@ function describe(answer, {method, clearance}) {
       method === 'proof' ? '' : ', the network\'s method estimates'}.`];
   if (answer.verdict === VERDICT.UNDECIDED)
     return ['doubt', 'Undecided',
-      'They come too close to tell without meeting, or it is more work than allowed.'];
+      'They come too close to tell without meeting, one seems to be inside of what is not quite closed, ' +
+      'or it is more work than allowed.'];
   const hits = answer.verdict === VERDICT.HIT;
   if (answer.by === BY.NETWORK)
     return hits ? ['hit', 'Probably hits', opinion] : ['free', 'Probably free', opinion];
@@ -148,7 +149,7 @@ function describeArm({verdict, inside, pair}) {
   if (verdict === VERDICT.FREE)
     return ['free', 'Free', `Proven: none of ${robot.pairs.length} pairs ever meets.`];
   if (verdict === VERDICT.UNDECIDED)
-    return ['doubt', 'Undecided', named ? `${named} come too near to tell.` : 'Too much work.'];
+    return ['doubt', 'Undecided', named ? `${named} come too near to tell, or one seems to be inside of what is not quite closed.` : 'Too much work.'];
   return ['hit', 'Hit', inside ? `Proven: of ${named}, one is inside the other.` :
     `Proven: ${named} meet; perhaps not for the first time.`];
 }

@@ -123,6 +123,7 @@ const char *EXPORT(web_findings)(size_t which) {
   if (!mesh_check(mesh, 1, &report)) return findings;
   const int sized = mesh_find_size(&report, lines[0]);
   int count = mesh_findings(&report, lines, &grave);
+  count += mesh_find_open(&sides[which].facts, lines[count]);
   count += mesh_find_large(mesh, &sides[which].facts, lines[count]);
   for (int i = sized; i < count; i++) {
     strcat(findings, lines[i]);

@@ -400,7 +400,12 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
+  if (o->answer && nsvcd__meet_as_told(c, o->answer)) {
+    // written
+  } else if (o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN)) {
+    // where flaws are mended, or seen; here what is not closed encloses nothing
+    out.why = NSVCD_WHY_OPEN;
+  } else {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);

@@ -25,7 +25,8 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 
 // What is zero is the default.
 typedef struct nsvcd_certify_options {
-  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it
+  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it,
+  // but that something is, or seems to be, inside: where that cannot be shown, nothing is written
   const nsvcd_answer *answer;
   // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
@@ -35,7 +36,8 @@ typedef struct nsvcd_certificate {
   // FREE or HIT: the bytes prove it. UNDECIDED: there are none
   nsvcd_verdict verdict;
   // of UNDECIDED: the visits were not enough, or surfaces touch, or come too near to tell, or
-  // of 64 rays none was clear
+  // of 64 rays none was clear, or the answer says that something is inside of what is not closed
+  // as examples/verify has it, where each edge has its reverse and no flaw is mended
   nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;

@@ -134,7 +134,7 @@ typedef enum nsvcd_verdict {
   NSVCD_UNDECIDED = 0,
   // the surfaces never come within the clearance; and nothing is inside of anything
   NSVCD_FREE,
-  // they do, or one body, or a part of it, is inside of the other
+  // they do, or one body, or a part of it, is inside of the other at the start
   NSVCD_HIT
 } nsvcd_verdict;
 

@@ -143,6 +143,7 @@ class Why(_Word):
     NOTHING = "nothing"
     TOO_NEAR = "too near"
     WORK = "work"
+    OPEN = "open"
 
 
 class Model(_Word):
@@ -225,7 +226,8 @@ _EncodeOptions = _struct(
     no_triangles=c_int, coarse=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
-    triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int)
+    triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int,
+    components=c_size_t, open_components=c_size_t, open_edges=c_size_t)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
                           swell=c_float)
@@ -640,6 +642,9 @@ class Facts(NamedTuple):
     quantum            0: answers are about the mesh's own floats; else triangles are within this of its, metres
     round              how far it goes beyond its mesh, metres
     latents            the network can answer
+    components         parts of the surface
+    open_components    of these: not closed, once what does no harm is mended; 0: it is a solid
+    open_edges         of these
     """
     size: int
     patches: int
@@ -651,6 +656,9 @@ class Facts(NamedTuple):
     quantum: float
     round: float
     latents: bool
+    components: int
+    open_components: int
+    open_edges: int
 
 
 class Body:
@@ -774,7 +782,7 @@ class Body:
         facts = _library.nsvcd_body_describe(self._address)
         return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.mean_patch_radius,
                      facts.triangles, facts.listings, facts.quantum, facts.round,
-                     bool(facts.latents))
+                     bool(facts.latents), facts.components, facts.open_components, facts.open_edges)
 
     def patch(self, index: int) -> tuple[Vector, float]:
         """Centre and radius of the sphere about a patch, metres, body frame."""
@@ -926,7 +934,8 @@ class Answer(NamedTuple):
 
     verdict   free, hit or undecided
     by        proof or network: who says so
-    why       not all that was asked is answered: too near, or work; or nothing: all of it is
+    why       not all that was asked is answered: too near, work, or open: one seems to be inside of what is
+              nearly a solid; or nothing: all of it is
     inside    a hit, for one lies inside the other at the start
     time      in [0, 1], of the first contact: free before low, in contact at high. Only "first" brings these together:
               else low is 0, and high the time of a contact, before which there may be others
