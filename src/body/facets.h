@@ -75,7 +75,6 @@ typedef struct nsvcd__facets {
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
   size_t place_count, reference_count, cut_count;
-  float round;
   float round, gap;
   // bits of a listing's code that are its kind
   unsigned kind_bits;
