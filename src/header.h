@@ -92,14 +92,14 @@
 //   that the work allowed was not enough; then the network's opinion is added where it has one.
 //   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
 //   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
-//   or turned round, fins, walls within, slivers, and gaps between corners that are no farther apart
-//   than a ten-thousandth of the diagonal of the mesh's box, nor than a hundredth of the longest
-//   edge at either. (What is thinner than such a gap may slip through it.) What is still open
-//   encloses nothing for certain: nsvcd_body_facts tells of it.
-//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
-//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to six
-//   of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a
-//   winding number of patches: reliable for closed meshes.
+//   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
+//   apart than a ten-thousandth of the diagonal of the mesh's box, nor than a hundredth of the
+//   longest edge at either. (What is thinner than such a gap may slip through it.) What is still
+//   open encloses nothing for certain: nsvcd_body_facts tells of it. By the network all is an
+//   opinion, whose measured error rates are in tests/bench/RESULTS.md. Where bodies of 0.1 to 0.4 m
+//   come within a millimetre of each other it is wrong in two to six of a hundred answers: where
+//   that harms, ask for a proof. What is inside is an estimate, a winding number of patches:
+//   reliable for closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh

@@ -10,8 +10,8 @@
 //                            are listed in pieces K. 0, 0, 0: the body is coarse
 //   solids          (4)      uint32: components as they are told, how many of these are open, open
 //                            edges; 1: listings have kinds of two bits
-//   gap             (1)      float: metres: corners no farther apart count as one, where it is asked
-//                            what is closed
+//   gap             (1)      float: metres: corners no farther apart count as one where
+//                            it is asked what is closed
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
 //                            are off by: 0, but in a body that was scaled, or is coarse
@@ -230,10 +230,10 @@ static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n
 }
 
 // The numbers of a patch's triangles in the caller's mesh follow each other as codes: what the
-// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong to
-// a closed component? Where there are other kinds than closed ones and sheets, two bits: the kind. A
-// code is stored 7 bits a byte, the lowest first; the top bit says that there are more. Most take
-// one byte, for neighbours have near numbers.
+// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong
+// to a closed component? Where there are other kinds than closed ones and sheets, two bits: the
+// kind. A code is stored 7 bits a byte, the lowest first; the top bit says that there are more.
+// Most take one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {

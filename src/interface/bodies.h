@@ -51,11 +51,11 @@ typedef struct nsvcd_encode_options {
   // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
   // no latents
   float round;
-  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it is
-  // not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
-  // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a floor;
-  // each is a slit, or a single triangle, and these are less than half of its area; or it is wound
-  // outwards, and all holes are less than a fiftieth
+  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
+  // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
+  // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
+  // floor; each is a slit, or a single triangle, and these are less than half of its area; or it is
+  // wound outwards, and all holes are less than a fiftieth
   int open;
   // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
   int latents;
@@ -186,8 +186,8 @@ typedef struct nsvcd_body_facts {
   float round;
   // 1: the network can answer
   int latents;
-  // parts of the surface, and how many of these are not closed once what does no harm is mended (see
-  // WHAT AN ANSWER IS WORTH): 0: all is a solid. 0, 0 where no triangles are stored
+  // parts of the surface, and how many of these are not closed once what does no harm is mended
+  // (see WHAT AN ANSWER IS WORTH): 0: all is a solid. 0, 0 where no triangles are stored
   size_t components, open_components;
   // of these: edges of a single triangle, or of another odd number
   size_t open_edges;

@@ -6,9 +6,11 @@
 // no harm to it is set aside. In this order:
 //   1. Corners at edges where a triangle is missing are joined to others that are near enough.
 //   2. Of triangles with the same three corners one stays, of those with two in one place none.
-//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave; so
+//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave;
+//   so
 //      are walls within: of those that meet at edges of three, the one of the least area.
-//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an even
+//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an
+//   even
 //      number of triangles: then a ray from inside crosses the part an odd number of times,
 //      however it is wound. Of a sheet nothing is left. A part of the latter kind that is less than
 //      half of all that its edges join is left alone: rooms on a terrain are not turned round.

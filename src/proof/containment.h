@@ -93,8 +93,9 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return nsvcd__block_lanes(block) & ~missed;
 }
 
-// What a ray crosses: how often the closed surfaces wind about its place; and of those whose winding
-// does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot tell.
+// What a ray crosses: how often the closed surfaces wind about its place; and of those whose
+// winding does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot
+// tell.
 typedef struct nsvcd__crossings {
   int winds, either_way, nearly, unclear;
 } nsvcd__crossings;

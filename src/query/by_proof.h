@@ -328,6 +328,14 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
     nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
+// Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
+static void nsvcd__settle_why(const nsvcd__proof *p, nsvcd_answer *answer) {
+  const int is_near = p->known.unsure < NSVCD__NEVER || p->unclear;
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && is_near) answer->why = NSVCD_WHY_TOO_NEAR;
+  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+}
+
 // Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
@@ -395,9 +403,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
-  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+  nsvcd__settle_why(p, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
