@@ -88,13 +88,18 @@
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
 //   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, or that the work allowed was not enough; then the network's opinion is added where
-//   it has one. A component of a mesh is closed if every edge has its reverse; what is open
-//   encloses nothing.
-//   By the network all is an opinion, whose measured error rates are in tests/bench/RESULTS.md.
-//   Where bodies of 0.1 to 0.4 m come within a millimetre of each other it is wrong in two to six
-//   of a hundred answers: where that harms, ask for a proof. What is inside is an estimate, a
-//   winding number of patches: reliable for closed meshes.
+//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open), or
+//   that the work allowed was not enough; then the network's opinion is added where it has one.
+//   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
+//   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
+//   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
+//   apart than a ten-thousandth of the diagonal of the mesh's box, nor than a hundredth of the
+//   longest edge at either. (What is thinner than such a gap may slip through it.) What is still
+//   open encloses nothing for certain: nsvcd_body_facts tells of it. By the network all is an
+//   opinion, whose measured error rates are in tests/bench/RESULTS.md. Where bodies of 0.1 to 0.4 m
+//   come within a millimetre of each other it is wrong in two to six of a hundred answers: where
+//   that harms, ask for a proof. What is inside is an estimate, a winding number of patches:
+//   reliable for closed meshes.
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
@@ -171,6 +176,7 @@
 //     clusters        farthest point sampling, then Lloyd's algorithm
 //     covering        balls that cover the surface; patches as a whole
 //     topology        welded vertices, components, which of them are closed
+//     solids          what flaws leave of the others
 //     regions         a large mesh in regions, each with its own patches
 //   surface: each patch described from outside
 //     pieces          triangles cut by the cells of the centres
@@ -690,7 +696,11 @@ typedef struct nsvcd_encode_options {
   // area: one of the same vertex thrice is a ball, one of two vertices a capsule. Such a body has
   // no latents
   float round;
-  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it
+  // 1: the mesh is not closed (a sheet, or a part cut out): nothing counts as inside it. Where it
+  // is not said, a part that is nearly a solid leaves undecided what seems to be inside of it: its
+  // surface goes on across each of its holes, as it does not at the rim of a bin, a tube or a
+  // floor; each is a slit, or a single triangle, and these are less than half of its area; or it is
+  // wound outwards, and all holes are less than a fiftieth
   int open;
   // 1: for the network too, of which the proof needs nothing: 93 bytes more a patch, and time
   int latents;
@@ -821,6 +831,13 @@ typedef struct nsvcd_body_facts {
   float round;
   // 1: the network can answer
   int latents;
+  // parts of the surface, and how many of these are not closed once what does no harm is mended
+  // (see WHAT AN ANSWER IS WORTH): 0: all is a solid. 0, 0 where no triangles are stored
+  size_t components, open_components;
+  // of these: edges of a single triangle, or of another odd number
+  size_t open_edges;
+  // 1: it was said to be open
+  int open;
 } nsvcd_body_facts;
 
 // What a body is; all 0 where it is none.
@@ -970,7 +987,7 @@ typedef enum nsvcd_verdict {
   NSVCD_UNDECIDED = 0,
   // the surfaces never come within the clearance; and nothing is inside of anything
   NSVCD_FREE,
-  // they do, or one body, or a part of it, is inside of the other
+  // they do, or one body, or a part of it, is inside of the other at the start
   NSVCD_HIT
 } nsvcd_verdict;
 
@@ -994,7 +1011,10 @@ typedef enum nsvcd_why {
   // none could tell whether one is inside the other
   NSVCD_WHY_TOO_NEAR,
   // question.work was not enough
-  NSVCD_WHY_WORK
+  NSVCD_WHY_WORK,
+  // at the start a part of one seems to be inside the other, which is nearly a solid but not closed
+  // (nsvcd_body_facts.open_components): encode that as `open`, if nothing is inside of it
+  NSVCD_WHY_OPEN
 } nsvcd_why;
 
 // What is known of a number: it is no less than `low`, and no more than `high`.
@@ -1237,7 +1257,8 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 
 // What is zero is the default.
 typedef struct nsvcd_certify_options {
-  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it
+  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it,
+  // but that something is, or seems to be, inside: where that cannot be shown, nothing is written
   const nsvcd_answer *answer;
   // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
@@ -1247,7 +1268,8 @@ typedef struct nsvcd_certificate {
   // FREE or HIT: the bytes prove it. UNDECIDED: there are none
   nsvcd_verdict verdict;
   // of UNDECIDED: the visits were not enough, or surfaces touch, or come too near to tell, or
-  // of 64 rays none was clear
+  // of 64 rays none was clear, or the answer says that something is inside of what is not closed
+  // as examples/verify has it, where each edge has its reverse and no flaw is mended
   nsvcd_why why;
   // 1: a hit, for a corner of one is inside of the other
   int inside;
@@ -2694,8 +2716,12 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 // it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
-// of a listing: its triangle belongs to a closed component
-#define NSVCD__ENCLOSES 0x80000000u
+// What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one
+// by how many of its triangles a ray crosses, whichever way; or what is nearly a solid. Beside the
+// triangle's number, which has the lower bits, they are the upper ones.
+enum { NSVCD__SHEET, NSVCD__NEARLY, NSVCD__CLOSED, NSVCD__EITHER_WAY };
+#define NSVCD__KIND_SHIFT 30
+#define NSVCD__NUMBER 0x3fffffffu
 
 // The tests hold what a query does against the bound that nsvcd_sweep states.
 #ifndef NSVCD__TALLY
@@ -4486,6 +4512,607 @@ static int nsvcd__topology_build(const nsvcd_mesh *mesh, nsvcd__arena *arena,
 }
 #endif  // NSVCD_NO_ENCODER
 
+// ---------------------------------------------------------------------------------- patches/solids
+// In: a mesh's topology. Out: what each triangle is a part of: a sheet, a closed surface, one that
+// only its winding keeps from being closed, or a solid with a hole.
+//
+// What closed components enclose is known by how often they wind about a place. That needs a cycle:
+// each directed edge with its reverse. Of a component that is none, a part may be, once what does
+// no harm to it is set aside. In this order:
+//   1. Corners at edges where a triangle is missing are joined to others that are near enough.
+//   2. Of triangles with the same three corners one stays, of those with two in one place none.
+//   3. Triangles with an edge that no other has, fins, are set aside, and again what these leave;
+//   so
+//      are walls within: of those that meet at edges of three, the one of the least area.
+//   4. What is left, part by part (triangles that share edges), is a cycle; or each edge has an
+//   even
+//      number of triangles: then a ray from inside crosses the part an odd number of times,
+//      however it is wound. Of a sheet nothing is left. A part of the latter kind that is less than
+//      half of all that its edges join is left alone: rooms on a terrain are not turned round.
+//   5. What is not closed after that is a sheet, or nearly a solid: see nsvcd__judge_holes.
+// The caller's triangles stay as they are, and all are proven apart: this decides only which of
+// them a ray counts.
+
+#ifndef NSVCD_NO_ENCODER
+// Corners are joined if they are no farther apart than this, of the diagonal of the mesh's box, and
+// of the longest edge at either.
+#define NSVCD__JOINED 1e-4
+#define NSVCD__JOINED_OF_EDGE 0.01
+// that are looked at in a cell
+#define NSVCD__JOIN_TRIES 64
+// Of nearly a solid: holes, of the area; one of three edges counts for less. How far the surface
+// goes on in the plane of a hole: the mean cosine. A hole is a slit if its area is less than this
+// of its edge's length squared.
+#define NSVCD__HOLES 0.02
+#define NSVCD__HOLE_OF_THREE 0.04
+#define NSVCD__FLUSH 0.25
+#define NSVCD__SLIT 1e-3
+
+typedef struct nsvcd__solids {
+  // (triangles) NSVCD__SHEET and so on
+  uint8_t *kinds;
+  size_t components, open_components, open_edges;
+  // metres: gaps that were closed are no wider
+  double gap;
+  // is there any kind but SHEET and CLOSED?
+  int is_mixed;
+} nsvcd__solids;
+
+// The triangles of components that are not closed, without those that are points or segments.
+typedef struct nsvcd__mending {
+  const nsvcd__topology *topology;
+  size_t count;         // T
+  uint32_t *triangles;  // (T) of the mesh
+  uint32_t *joined;     // (vertices) where a welded vertex was joined to; else itself
+  uint8_t *alive;       // (T) not set aside
+  // (3 T) edges, k-th of triangle n 3 n + k, by their ends; and to which of E groups each belongs
+  uint32_t *order, *groups;
+  size_t group_count;
+  // (E) how many alive triangles have this edge, and the exclusive or of their numbers
+  uint32_t *degrees, *others;
+  // (T) of union-find forests: of all that edges join, and of what is alive
+  uint32_t *wholes, *parts;
+  // (vertices + 1), to sort with; (3 T) to work with
+  size_t *first;
+  uint32_t *spare;
+} nsvcd__mending;
+
+static void nsvcd__mending_face(const nsvcd__mending *m, size_t n, uint32_t *face) {
+  nsvcd__welded_face(m->topology, m->triangles[n], face);
+  for (size_t k = 0; k < 3; k++) face[k] = m->joined[face[k]];
+}
+
+static nsvcd__triangle nsvcd__mending_triangle(const nsvcd__mending *m, size_t n) {
+  return nsvcd__triangle_of(m->topology->mesh, m->triangles[n]);
+}
+
+static int nsvcd__has_area(const uint32_t *face) {
+  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
+
+// The ends of edge e, the lesser first. Returns 1 if the triangle goes from that to the other.
+static int nsvcd__mending_edge(const nsvcd__mending *m, size_t e, uint32_t *ends) {
+  uint32_t face[3];
+  nsvcd__mending_face(m, e / 3, face);
+  const uint32_t from = face[e % 3];
+  const uint32_t to = face[(e + 1) % 3];
+  ends[0] = from < to ? from : to;
+  ends[1] = from < to ? to : from;
+  return from < to;
+}
+
+// Sorts the edges of all triangles by one of their ends (counting sort); equal ones keep their
+// order.
+static void nsvcd__sort_edges(nsvcd__mending *m, const uint32_t *from, uint32_t *to,
+                              size_t which) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  uint32_t ends[2];
+  memset(m->first, 0, (vertices + 1) * sizeof *m->first);
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    (void)nsvcd__mending_edge(m, e, ends);
+    m->first[ends[which] + 1]++;
+  }
+  for (size_t v = 0; v < vertices; v++) m->first[v + 1] += m->first[v];
+  for (size_t i = 0; i < 3 * m->count; i++) {
+    (void)nsvcd__mending_edge(m, from[i], ends);
+    to[m->first[ends[which]]++] = from[i];
+  }
+}
+
+// Counts the alive triangles at each edge.
+static void nsvcd__count_degrees(nsvcd__mending *m) {
+  memset(m->degrees, 0, m->group_count * sizeof *m->degrees);
+  memset(m->others, 0, m->group_count * sizeof *m->others);
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    if (!m->alive[e / 3]) continue;
+    m->degrees[m->groups[e]]++;
+    m->others[m->groups[e]] ^= (uint32_t)(e / 3);
+  }
+}
+
+// Finds which edges are the same, and sets aside what is there twice or has no area. spare: of the
+// triangles at an edge, by their third corner, the first; 0: none, else its number + 1.
+static void nsvcd__group_edges(nsvcd__mending *m) {
+  uint32_t *seen = m->parts;
+  uint32_t last[2] = {0, 0};
+  m->group_count = 0;
+  for (size_t n = 0; n < m->count; n++) {
+    uint32_t face[3];
+    nsvcd__mending_face(m, n, face);
+    m->alive[n] = (uint8_t)nsvcd__has_area(face);
+  }
+  for (size_t e = 0; e < 3 * m->count; e++) m->order[e] = (uint32_t)e;
+  nsvcd__sort_edges(m, m->order, m->spare, 1);
+  nsvcd__sort_edges(m, m->spare, m->order, 0);
+  for (size_t i = 0; i < 3 * m->count; i++) {
+    uint32_t ends[2];
+    (void)nsvcd__mending_edge(m, m->order[i], ends);
+    m->group_count += i == 0 || ends[0] != last[0] || ends[1] != last[1];
+    memcpy(last, ends, sizeof last);
+    m->groups[m->order[i]] = (uint32_t)(m->group_count - 1);
+  }
+  // By their edge of the two least corners: where that is the same, the third tells.
+  memset(m->first, 0, m->topology->mesh->vertex_count * sizeof *m->first);
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    size_t met = 0;
+    for (end = i; end < 3 * m->count; end++) {
+      const size_t n = m->order[end] / 3;
+      uint32_t ends[2], face[3];
+      if (m->groups[m->order[end]] != m->groups[m->order[i]]) break;
+      (void)nsvcd__mending_edge(m, m->order[end], ends);
+      nsvcd__mending_face(m, n, face);
+      const uint32_t third = face[(m->order[end] + 2) % 3];
+      if (!m->alive[n] || third < ends[1]) continue;
+      m->alive[n] = m->first[third] == 0;
+      m->first[third] = 1;
+      seen[met++] = third;
+    }
+    while (met > 0) m->first[seen[--met]] = 0;
+  }
+  nsvcd__count_degrees(m);
+}
+
+// ---- corners that are near each other
+
+typedef struct nsvcd__cells {
+  const nsvcd__mending *m;
+  nsvcd__d3 low;
+  double width;
+  // (slots) 0: none, else the last vertex + 1; (vertices) the one before, likewise
+  uint32_t *heads, *before;
+  size_t slots;
+  // (vertices) metres; 0: it is at no edge where a triangle is missing
+  float *reach;
+} nsvcd__cells;
+
+static uint32_t *nsvcd__cell_of(const nsvcd__cells *c, const double *cell) {
+  uint32_t hash = 0;
+  for (size_t k = 0; k < 3; k++) {
+    hash = (hash ^ (uint32_t)(int64_t)cell[k]) * 0x9e3779b1u;
+    hash ^= hash >> 15;
+  }
+  return &c->heads[(hash * 0x85ebca6bu) & (c->slots - 1)];
+}
+
+// Joins a vertex to the nearest one near enough that has not been joined, or keeps it for others.
+// Returns how far apart they are.
+static double nsvcd__join_vertex(nsvcd__cells *c, uint32_t v) {
+  const float *positions = c->m->topology->mesh->positions;
+  const nsvcd__d3 at = nsvcd__d3_row(positions, v);
+  const nsvcd__d3 off = nsvcd__d3_scale(nsvcd__d3_sub(at, c->low), 1 / c->width);
+  double own[3], side[3];
+  double best = HUGE_VAL;
+  for (size_t k = 0; k < 3; k++) {
+    const double x = nsvcd__d3_axis(off, k);
+    own[k] = floor(x);
+    side[k] = x - own[k] < 0.5 ? -1 : 1;
+  }
+  for (int corner = 0; corner < 8; corner++) {
+    double cell[3];
+    for (int k = 0; k < 3; k++) cell[k] = own[k] + (corner >> k & 1 ? side[k] : 0);
+    uint32_t w = *nsvcd__cell_of(c, cell);
+    for (size_t tries = 0; w && tries < NSVCD__JOIN_TRIES; tries++) {
+      const double least = (double)fminf(c->reach[v], c->reach[w - 1]);
+      const double square = nsvcd__d3_distance2(at, nsvcd__d3_row(positions, w - 1));
+      if (square <= least * least && square < best) {
+        best = square;
+        c->m->joined[v] = w - 1;
+      }
+      w = c->before[w - 1];
+    }
+  }
+  if (best < HUGE_VAL) return sqrt(best);
+  uint32_t *head = nsvcd__cell_of(c, own);
+  c->before[v] = *head;
+  *head = v + 1;
+  return 0;
+}
+
+// How far each vertex may be joined: those at edges of an odd number of triangles. Returns how many
+// there are.
+static size_t nsvcd__find_reaches(const nsvcd__mending *m, double most, float *reach) {
+  size_t count = 0;
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
+    uint32_t ends[2];
+    (void)nsvcd__mending_edge(m, e, ends);
+    if (m->degrees[m->groups[e]] % 2 == 0) continue;
+    const double edge = sqrt(nsvcd__d3_distance2(t.at[e % 3], t.at[(e + 1) % 3]));
+    const float own = (float)nsvcd__min(most, NSVCD__JOINED_OF_EDGE * edge);
+    for (size_t k = 0; k < 2; k++) {
+      count += reach[ends[k]] <= 0;
+      reach[ends[k]] = fmaxf(own, reach[ends[k]]);
+    }
+  }
+  return count;
+}
+
+// Joins what is near enough to each other. Returns the greatest distance; below 0 without memory.
+static double nsvcd__join_corners(nsvcd__mending *m, const nsvcd_allocator *allocator) {
+  const nsvcd_mesh *mesh = m->topology->mesh;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  nsvcd__d3 low = nsvcd__d3_row(mesh->positions, 0);
+  nsvcd__d3 high = low;
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    low = nsvcd__d3_min(low, nsvcd__d3_row(mesh->positions, mesh->indices[i]));
+    high = nsvcd__d3_max(high, nsvcd__d3_row(mesh->positions, mesh->indices[i]));
+  }
+  const double most = NSVCD__JOINED * sqrt(nsvcd__d3_distance2(low, high));
+  double widest = 0;
+  nsvcd__cells c;
+  memset(&c, 0, sizeof c);
+  c.m = m;
+  c.low = low;
+  c.width = 2 * most;
+  c.reach = NSVCD__TAKE(&arena, float, mesh->vertex_count);
+  size_t left = c.reach ? nsvcd__find_reaches(m, most, c.reach) : 0;
+  for (c.slots = 16; c.slots / 2 < left;) c.slots *= 2;
+  c.heads = NSVCD__TAKE(&arena, uint32_t, c.slots);
+  c.before = NSVCD__TAKE(&arena, uint32_t, mesh->vertex_count);
+  for (uint32_t v = 0; !arena.failed && v < mesh->vertex_count; v++) {
+    if (c.reach[v] > 0) widest = nsvcd__max(widest, nsvcd__join_vertex(&c, v));
+  }
+  nsvcd__arena_free(&arena);
+  return arena.failed ? -1 : widest;
+}
+
+// ---- parts
+
+// A forest of the alive triangles: those at an edge, if there are no more than `most`, belong
+// together.
+static void nsvcd__join_triangles(const nsvcd__mending *m, uint32_t most, uint32_t *forest) {
+  for (size_t n = 0; n < m->count; n++) forest[n] = (uint32_t)n;
+  for (size_t i = 0, last = 0; i < 3 * m->count; i++) {
+    const size_t e = m->order[i];
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] > most) continue;
+    if (m->groups[e] == m->groups[last]) {
+      const uint32_t a = nsvcd__root(forest, (uint32_t)(e / 3));
+      const uint32_t b = nsvcd__root(forest, (uint32_t)(last / 3));
+      forest[a > b ? a : b] = a < b ? a : b;
+    }
+    last = e;
+  }
+  for (size_t n = 0; n < m->count; n++) forest[n] = nsvcd__root(forest, (uint32_t)n);
+}
+
+// Sets aside triangles with an edge that no other has, and again what these leave.
+static void nsvcd__peel(nsvcd__mending *m) {
+  uint32_t *waiting = m->spare;
+  size_t count = 0;
+  for (size_t n = 0; n < m->count; n++) {
+    // one of these is as good as all
+    for (size_t k = 0; k < 3 && m->alive[n]; k++) {
+      if (m->degrees[m->groups[3 * n + k]] != 1) continue;
+      m->alive[n] = 0;
+      waiting[count++] = (uint32_t)n;
+    }
+  }
+  while (count > 0) {
+    const uint32_t n = waiting[--count];
+    for (size_t k = 0; k < 3; k++) {
+      const uint32_t g = m->groups[3 * (size_t)n + k];
+      m->others[g] ^= n;
+      if (--m->degrees[g] != 1) continue;
+      const uint32_t next = m->others[g];
+      if (m->alive[next]) waiting[count++] = next;
+      m->alive[next] = 0;
+    }
+  }
+}
+
+// What is known of a part, of a whole, or of a wall.
+typedef struct nsvcd__part {
+  double area;
+  // of its parts that enclose; and one of its parts does not
+  double closed;
+  int fails;
+  // edges: of an odd number of triangles; not as often one way as the other
+  uint32_t odd, turned;
+  // of a whole: of a sheet, by its holes; and their area
+  int is_sheet;
+  double holes, volume;
+  nsvcd__d3 centre;  // times the area
+} nsvcd__part;
+
+// Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
+static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
+                               nsvcd__part *parts) {
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    const size_t group = m->groups[m->order[i]];
+    size_t any = m->count;
+    int sum = 0;
+    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
+      uint32_t ends[2];
+      if (!m->alive[m->order[end] / 3]) continue;
+      any = m->order[end] / 3;
+      sum += nsvcd__mending_edge(m, m->order[end], ends) ? 1 : -1;
+    }
+    if (any == m->count) continue;
+    parts[forest[any]].odd += m->degrees[group] % 2;
+    parts[forest[any]].turned += sum != 0;
+  }
+}
+
+// Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
+// area. Returns how many triangles. walls: (T) zeros, and so they are again.
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
+  size_t dropped = 0;
+  nsvcd__join_triangles(m, 2, m->parts);
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    if (m->alive[n]) walls[m->parts[n]].area += nsvcd__triangle_area(&t);
+  }
+  for (size_t i = 0, end; i < 3 * m->count; i = end) {
+    const size_t group = m->groups[m->order[i]];
+    size_t least = m->count;
+    for (end = i; end < 3 * m->count && m->groups[m->order[end]] == group; end++) {
+      const size_t n = m->order[end] / 3;
+      if (!m->alive[n] || m->degrees[group] < 3) continue;
+      const size_t wall = m->parts[n];
+      walls[wall].odd++;
+      if (least == m->count || walls[wall].area < walls[least].area) least = wall;
+    }
+    if (least < m->count) walls[least].turned += m->degrees[group] % 2;
+  }
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__part *wall = &walls[m->parts[n]];
+    if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
+    m->alive[n] = 0;
+    dropped++;
+  }
+  memset(walls, 0, m->count * sizeof *walls);
+  if (dropped > 0) nsvcd__count_degrees(m);
+  return dropped;
+}
+
+// ---- holes
+
+// Edges that have one triangle alone, joined at their ends.
+typedef struct nsvcd__hole {
+  nsvcd__d3 centre, normal;
+  double length, area, flush;
+  size_t edges;
+  uint32_t whole;
+} nsvcd__hole;
+
+// Three passes over the edges at holes: where they are; the cone over them, its area and normal;
+// and whether the triangles at them go on in its plane.
+static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *numbers,
+                                 nsvcd__hole *holes, int pass) {
+  for (size_t e = 0; e < 3 * m->count; e++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, e / 3);
+    uint32_t ends[2];
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    (void)nsvcd__mending_edge(m, e, ends);
+    nsvcd__hole *hole = &holes[numbers[ends[0]] - 1];
+    const nsvcd__d3 from = t.at[e % 3];
+    const nsvcd__d3 to = t.at[(e + 1) % 3];
+    const double length = sqrt(nsvcd__d3_distance2(from, to));
+    if (pass == 0) {
+      const nsvcd__d3 twice = nsvcd__d3_add(from, to);
+      hole->centre = nsvcd__d3_fma(0.5 * length, twice, hole->centre);
+      hole->length += length;
+      hole->edges++;
+      hole->whole = m->wholes[e / 3];
+      continue;
+    }
+    // what would close it goes the other way
+    const nsvcd__d3 centre = nsvcd__d3_scale(hole->centre, 1 / hole->length);
+    const nsvcd__d3 a = nsvcd__d3_sub(to, centre);
+    const nsvcd__d3 b = nsvcd__d3_sub(from, centre);
+    const nsvcd__d3 n = nsvcd__d3_scale(nsvcd__d3_cross(a, b), 0.5);
+    if (pass == 1) {
+      hole->normal = nsvcd__d3_add(hole->normal, n);
+      hole->area += nsvcd__d3_length(n);
+      continue;
+    }
+    const nsvcd__d3 along = nsvcd__area_vector(&t);
+    const double size = nsvcd__d3_length(along) * nsvcd__d3_length(hole->normal);
+    const double cosine = nsvcd__d3_dot(along, hole->normal);
+    hole->flush += size > 0 ? length * cosine / size : 0;
+  }
+}
+
+// What holes say of the wholes that they are in. One is a sheet where the surface does not go on
+// across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
+// makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
+// that is wound outwards is nearly a solid's, for else it is a room that has a door.
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
+                              const nsvcd_allocator *allocator) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  nsvcd__arena arena = nsvcd__arena_of(allocator);
+  uint32_t *forest = NSVCD__TAKE(&arena, uint32_t, vertices);
+  uint32_t *numbers = NSVCD__TAKE(&arena, uint32_t, vertices);
+  uint32_t count = 0;
+  uint32_t ends[2];
+  for (uint32_t v = 0; forest && v < vertices; v++) forest[v] = v;
+  for (size_t e = 0; !arena.failed && e < 3 * m->count; e++) {
+    if (!m->alive[e / 3] || m->degrees[m->groups[e]] != 1) continue;
+    (void)nsvcd__mending_edge(m, e, ends);
+    const uint32_t a = nsvcd__root(forest, ends[0]);
+    const uint32_t b = nsvcd__root(forest, ends[1]);
+    forest[a > b ? a : b] = a < b ? a : b;
+    numbers[ends[0]] = numbers[ends[1]] = 1;
+  }
+  for (uint32_t v = 0; !arena.failed && v < vertices; v++) {
+    if (!numbers[v]) continue;
+    const uint32_t root = nsvcd__root(forest, v);
+    numbers[v] = root == v ? ++count : numbers[root];
+  }
+  nsvcd__hole *holes = NSVCD__TAKE(&arena, nsvcd__hole, count);
+  for (int pass = 0; !arena.failed && pass < 3; pass++)
+    nsvcd__measure_holes(m, numbers, holes, pass);
+  for (size_t h = 0; !arena.failed && h < count; h++) {
+    const nsvcd__hole *hole = &holes[h];
+    nsvcd__part *whole = &wholes[hole->whole];
+    const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
+    const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
+    const int is_three = hole->edges == 3;
+    whole->holes += (is_three ? NSVCD__HOLE_OF_THREE : 1) * hole->area;
+    if (!is_slit && !is_flush) whole->is_sheet = 1;
+    if (!is_slit && !is_three && !(whole->volume > 0)) whole->is_sheet = 1;
+  }
+  nsvcd__arena_free(&arena);
+  return !arena.failed;
+}
+
+// ---- all of it
+
+// Areas of wholes, and what they hold as seen from their middle.
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+  for (size_t i = 0; i < 2 * m->count; i++) {
+    const size_t n = i % m->count;
+    if (!m->alive[n]) continue;
+    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    const nsvcd__d3 normal = nsvcd__area_vector(&t);
+    if (i == n) {
+      const double area = nsvcd__d3_length(normal);
+      whole->area += area;
+      whole->centre = nsvcd__d3_fma(area, t.at[0], whole->centre);
+    } else if (whole->area > 0) {
+      const nsvcd__d3 centre = nsvcd__d3_scale(whole->centre, 1 / whole->area);
+      whole->volume += nsvcd__d3_dot(normal, nsvcd__d3_sub(t.at[0], centre)) / 3;
+    }
+  }
+}
+
+// Which parts of what is left after peeling enclose something? Their triangles are marked.
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
+                              nsvcd__solids *out) {
+  nsvcd__judge_edges(m, m->parts, parts);
+  for (size_t n = 0; n < m->count; n++) {
+    const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
+    if (m->alive[n]) parts[m->parts[n]].area += nsvcd__triangle_area(&t);
+  }
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__part *part = &parts[m->parts[n]];
+    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const int is_most = part->area >= 0.5 * whole->area;
+    const int kind = part->turned == 0           ? NSVCD__CLOSED
+                     : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
+                                                 : NSVCD__SHEET;
+    out->kinds[m->triangles[n]] = (uint8_t)kind;
+    if (kind == NSVCD__SHEET) whole->fails = 1;
+    if (kind != NSVCD__SHEET && m->parts[n] == n) whole->closed += part->area;
+    for (size_t k = 0; kind != NSVCD__SHEET && k < 3; k++) {
+      const float *at = m->topology->mesh->positions;
+      const uint32_t v = m->topology->mesh->indices[3 * (size_t)m->triangles[n] + k];
+      const uint32_t w = m->joined[m->topology->welded[v]];
+      const double square = nsvcd__d3_distance2(nsvcd__d3_row(at, v), nsvcd__d3_row(at, w));
+      out->gap = nsvcd__max(out->gap, sqrt(square));
+    }
+  }
+}
+
+// Counts the wholes, and marks what is nearly a solid. alive: before peeling.
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
+                               nsvcd__solids *out) {
+  for (size_t n = 0; n < m->count; n++) {
+    if (!m->alive[n]) continue;
+    const nsvcd__part *whole = &wholes[m->wholes[n]];
+    uint8_t *kind = &out->kinds[m->triangles[n]];
+    const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
+    const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
+    if (m->wholes[n] == n) {
+      out->components++;
+      out->open_components += !is_closed;
+      out->open_edges += is_closed ? 0 : whole->odd;
+    }
+    if (!is_closed && is_nearly && *kind == NSVCD__SHEET) *kind = NSVCD__NEARLY;
+    out->is_mixed |= *kind == NSVCD__EITHER_WAY || *kind == NSVCD__NEARLY;
+  }
+}
+
+// 0 without memory.
+static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *out) {
+  const size_t vertices = m->topology->mesh->vertex_count;
+  const size_t count = m->count;
+  m->joined = NSVCD__TAKE(arena, uint32_t, vertices);
+  m->alive = NSVCD__TAKE(arena, uint8_t, count);
+  m->order = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->groups = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->degrees = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->others = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  m->wholes = NSVCD__TAKE(arena, uint32_t, count);
+  m->parts = NSVCD__TAKE(arena, uint32_t, count);
+  m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
+  m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
+  uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
+  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
+  if (arena->failed) return 0;
+  for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
+  nsvcd__group_edges(m);
+  const double widest = nsvcd__join_corners(m, arena->allocator);
+  if (widest < 0) return 0;
+  if (widest > 0) nsvcd__group_edges(m);
+  memcpy(distinct, m->alive, count);
+  nsvcd__join_triangles(m, UINT32_MAX, m->wholes);
+  nsvcd__measure_wholes(m, wholes);
+  nsvcd__peel(m);
+  for (int pass = 0; pass < 8 && nsvcd__drop_walls(m, parts) > 0; pass++) nsvcd__peel(m);
+  nsvcd__join_triangles(m, UINT32_MAX, m->parts);
+  nsvcd__mark_parts(m, wholes, parts, out);
+  memcpy(m->alive, distinct, count);
+  nsvcd__count_degrees(m);
+  nsvcd__judge_edges(m, m->wholes, wholes);
+  if (!nsvcd__judge_holes(m, wholes, arena->allocator)) return 0;
+  nsvcd__mark_wholes(m, wholes, out);
+  return 1;
+}
+
+// 0 without memory.
+static int nsvcd__solids_build(const nsvcd__topology *topology, nsvcd__arena *arena,
+                               nsvcd__solids *out) {
+  const nsvcd_mesh *mesh = topology->mesh;
+  nsvcd__arena spare = nsvcd__arena_of(arena->allocator);
+  nsvcd__mending m;
+  memset(&m, 0, sizeof m);
+  memset(out, 0, sizeof *out);
+  m.topology = topology;
+  out->kinds = NSVCD__TAKE(arena, uint8_t, mesh->triangle_count);
+  m.triangles = NSVCD__TAKE(&spare, uint32_t, mesh->triangle_count);
+  if (!out->kinds || !m.triangles) {
+    nsvcd__arena_free(&spare);
+    return 0;
+  }
+  for (size_t v = 0; v < mesh->vertex_count; v++)
+    out->components += topology->seen[v] && !topology->open[v];
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    uint32_t face[3];
+    nsvcd__welded_face(topology, t, face);
+    const int open = topology->open[topology->parents[face[0]]];
+    out->kinds[t] = open ? NSVCD__SHEET : NSVCD__CLOSED;
+    if (open && nsvcd__has_area(face)) m.triangles[m.count++] = (uint32_t)t;
+  }
+  const int known = m.count == 0 || nsvcd__mend(&m, &spare, out);
+  nsvcd__arena_free(&spare);
+  return known;
+}
+#endif  // NSVCD_NO_ENCODER
+
 // --------------------------------------------------------------------------------- patches/regions
 // In: a checked mesh. Out: its triangles, welded, in one region, or in as many as it takes to have
 // no more than 512 patches in each. Each region is then made into patches by itself. Where there
@@ -4508,13 +5135,14 @@ typedef struct nsvcd__regions {
   // of all coordinates
   double greatest;
   size_t component_count;  // C
+  nsvcd__solids solids;
   // (vertices) 1: of its component the least vertex, which no patch has been given yet
   uint8_t *seeds;
   size_t count;           // R
   size_t triangle_count;  // T, halves and all
   // (T, 3) points
   uint32_t *corners;
-  // (T) in the caller's mesh, with NSVCD__ENCLOSES where it belongs to a closed component
+  // (T) in the caller's mesh, with what it belongs to
   uint32_t *ids;
   size_t cut_count;
   size_t most_cuts;
@@ -4682,7 +5310,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
     r->most_cuts = (size_t)(pieces - triangles) + NSVCD__HALVES_PER_REGION;
   }
 
-  const int known = nsvcd__topology_build(mesh, &scratch, &topology);
+  const int known = nsvcd__topology_build(mesh, &scratch, &topology) &&
+                    nsvcd__solids_build(&topology, arena, &r->solids);
   const size_t most_triangles = mesh->triangle_count + r->most_cuts;
   r->component_count = topology.component_count;
   r->seeds = NSVCD__TAKE(arena, uint8_t, mesh->vertex_count);
@@ -4700,8 +5329,8 @@ static int nsvcd__regions_build(const nsvcd_mesh *mesh, size_t patches, nsvcd__a
   for (size_t t = 0; ok && t < mesh->triangle_count; t++) {
     uint32_t face[3];
     nsvcd__welded_face(&topology, t, face);
-    const int open = topology.open[topology.parents[face[0]]];
-    nsvcd__regions_add(r, face, (uint32_t)t | (open ? 0 : NSVCD__ENCLOSES));
+    const uint32_t kind = r->solids.kinds[t];
+    nsvcd__regions_add(r, face, (uint32_t)t | kind << NSVCD__KIND_SHIFT);
   }
   nsvcd__arena_free(&scratch);
   if (!ok || r->count == 1) return ok;
@@ -4855,6 +5484,7 @@ typedef struct nsvcd__surface {
   int coarse;
   // C, connected components (vertices at the same place are one vertex)
   size_t component_count;
+  nsvcd__solids solids;
   // (N) about c; an empty patch has radius NSVCD__NOWHERE
   nsvcd__sphere *balls;
   // (N) about c
@@ -4879,7 +5509,7 @@ typedef struct nsvcd__surface {
   uint32_t *named;
   // (L, 3) within the patch: numbers of points stored as integers, then those of vertices named
   uint16_t *corners;
-  // (L) triangle of the mesh. With NSVCD__ENCLOSES where it belongs to a closed component
+  // (L) triangle of the mesh, with what it belongs to
   uint32_t *ids;
   // so many of the C components are known by now
   size_t seed_count;
@@ -5175,30 +5805,28 @@ static void nsvcd__sort_by_code(uint64_t *keys, uint64_t *spare, size_t count) {
 // A mesh along a curve that fills space (Morton 1966).
 typedef struct nsvcd__curve {
   const nsvcd_mesh *mesh;
-  // (triangles) each number of a triangle below its code, with NSVCD__ENCLOSES where it belongs to
-  // a closed component
+  // (triangles) each number of a triangle below its code, with what it belongs to
   uint64_t *keys;
   // (vertices) when a vertex was met last, from 1, counting all that a block has met; 0: not yet.
   // None of a cloud, which has each once
   uint32_t *met;
   uint32_t met_count;
+  nsvcd__solids solids;
   double greatest;  // coordinate of the mesh
   double round;     // metres
 } nsvcd__curve;
 
-// Marks the triangles of closed components. 0 without memory.
-static int nsvcd__curve_mark(nsvcd__curve *curve, const nsvcd_allocator *allocator) {
+// Marks what the triangles belong to. 0 without memory.
+static int nsvcd__curve_mark(nsvcd__curve *curve, nsvcd__arena *kept) {
   const nsvcd_mesh *mesh = curve->mesh;
   // points and segments alone enclose nothing
   if (!mesh->indices || !(nsvcd__mesh_area(mesh) > 0)) return 1;
   nsvcd__topology topology;
-  nsvcd__arena arena = nsvcd__arena_of(allocator);
-  const int known = nsvcd__topology_build(mesh, &arena, &topology);
-  for (size_t t = 0; known && t < mesh->triangle_count; t++) {
-    uint32_t face[3];
-    nsvcd__welded_face(&topology, t, face);
-    if (!topology.open[topology.parents[face[0]]]) curve->keys[t] |= NSVCD__ENCLOSES;
-  }
+  nsvcd__arena arena = nsvcd__arena_of(kept->allocator);
+  const int known = nsvcd__topology_build(mesh, &arena, &topology) &&
+                    nsvcd__solids_build(&topology, kept, &curve->solids);
+  for (size_t t = 0; known && t < mesh->triangle_count; t++)
+    curve->keys[t] |= (uint64_t)curve->solids.kinds[t] << NSVCD__KIND_SHIFT;
   nsvcd__arena_free(&arena);
   return known;
 }
@@ -5232,7 +5860,7 @@ static int nsvcd__curve_build(const nsvcd_mesh *mesh, float round, nsvcd__arena 
     const uint64_t z = nsvcd__spread_bits(cells * at.z);
     curve->keys[t] = (x | y << 1 | z << 2) << 32 | t;
   }
-  if (!nsvcd__curve_mark(curve, arena->allocator)) return 0;
+  if (!nsvcd__curve_mark(curve, arena)) return 0;
   nsvcd__sort_by_code(curve->keys, curve->keys + count, count);
   return 1;
 }
@@ -5284,7 +5912,7 @@ static int nsvcd__runs_build(nsvcd__curve *curve, size_t first, size_t last, siz
     const nsvcd__piece piece = {NSVCD__WHOLE, (uint32_t)k, (uint16_t)(run - 1 - first), 3, 0};
     out[k] = piece;
     block->ids[k] = (uint32_t)curve->keys[begin + k];
-    const size_t id = block->ids[k] & ~NSVCD__ENCLOSES;
+    const size_t id = block->ids[k] & NSVCD__NUMBER;
     for (size_t n = 3 * k; n < 3 * k + 3; n++) {
       const size_t corner = 3 * id + n - 3 * k;
       block->mesh.indices[n] = mesh->indices ? mesh->indices[corner] : (uint32_t)k;
@@ -6873,6 +7501,10 @@ static int nsvcd__walk_next(nsvcd__walk *walk, size_t *group) {
 //   round           (1)      float: metres that the body goes beyond its triangles
 //   counts          (3)      uint32: vertices of the mesh W, references to them R, triangles that
 //                            are listed in pieces K. 0, 0, 0: the body is coarse
+//   solids          (4)      uint32: components as they are told, how many of these are open, open
+//                            edges; 1: listings have kinds of two bits
+//   gap             (1)      float: metres: corners no farther apart count as one where
+//                            it is asked what is closed
 //   box             (2, 3)   float: least and greatest coordinates of the surface
 //   widest          (2)      float: the greatest of the quanta; and metres that the mesh's vertices
 //                            are off by: 0, but in a body that was scaled, or is coarse
@@ -6914,6 +7546,8 @@ typedef struct nsvcd__facet_counts {
   uint32_t listed, vertices, components, listings_size;
   float round;
   uint32_t places, references, cut;
+  uint32_t solids, open_solids, open_edges, is_mixed;
+  float gap;
 } nsvcd__facet_counts;
 
 typedef struct nsvcd__facets {
@@ -6931,7 +7565,9 @@ typedef struct nsvcd__facets {
   const uint8_t *hull_counts;
   size_t listed, vertex_count, components, listings_size;
   size_t place_count, reference_count, cut_count;
-  float round;
+  float round, gap;
+  // bits of a listing's code that are its kind
+  unsigned kind_bits;
 } nsvcd__facets;
 
 // The body of triangles in a body, or NULL.
@@ -6974,6 +7610,8 @@ static size_t nsvcd__facets_lay(const nsvcd_body *body, size_t patches,
   f->place_count = counts->places;
   f->reference_count = counts->references;
   f->cut_count = counts->cut;
+  f->gap = counts->gap;
+  f->kind_bits = 1 + (counts->is_mixed != 0);
   f->box = NSVCD__PASS(float, NSVCD__FACET_BOX);
   f->discs = NSVCD__PASS(float, 6 * padded);
   f->group_discs = NSVCD__PASS(float, 6 * nsvcd__group_slots(padded));
@@ -7081,10 +7719,11 @@ static size_t nsvcd__facet_corner(const nsvcd__facets *f, size_t patch, size_t n
   return corner;
 }
 
-// The numbers of a patch's triangles in the caller's mesh follow each other as codes: twice what
-// the number is more than the one before, modulo 2^31, the lowest bit set if the triangle belongs
-// to a closed component. A code is stored 7 bits a byte, the lowest first; the top bit says that
-// there are more. Most take one byte, for neighbours have near numbers.
+// The numbers of a patch's triangles in the caller's mesh follow each other as codes: what the
+// number is more than the one before, modulo 2^30, and below it one bit: does the triangle belong
+// to a closed component? Where there are other kinds than closed ones and sheets, two bits: the
+// kind. A code is stored 7 bits a byte, the lowest first; the top bit says that there are more.
+// Most take one byte, for neighbours have near numbers.
 static uint32_t nsvcd__read_code(const unsigned char **at) {
   uint32_t code = 0;
   for (unsigned shift = 0; shift < 35; shift += 7) {
@@ -7100,8 +7739,8 @@ typedef struct nsvcd__numbers {
   const unsigned char *at;
   size_t next;      // listing
   uint32_t number;  // of the one before
-  // does it belong to a closed component?
-  int encloses;
+  uint32_t kind;
+  unsigned kind_bits;
 } nsvcd__numbers;
 
 static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
@@ -7111,7 +7750,8 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
   out.at = f->listings + f->first_byte[patch] + 3 * triangles * bytes;
   out.next = f->first_triangle[patch];
   out.number = 0;
-  out.encloses = 0;
+  out.kind = NSVCD__SHEET;
+  out.kind_bits = f->kind_bits;
   return out;
 }
 
@@ -7119,8 +7759,9 @@ static nsvcd__numbers nsvcd__numbers_of(const nsvcd__facets *f, size_t patch) {
 static void nsvcd__read_number(nsvcd__numbers *numbers, size_t n) {
   for (; numbers->next <= n; numbers->next++) {
     const uint32_t code = nsvcd__read_code(&numbers->at);
-    numbers->number = (numbers->number + (code >> 1)) & ~NSVCD__ENCLOSES;
-    numbers->encloses = (int)(code & 1);
+    const unsigned bits = numbers->kind_bits;
+    numbers->number = (numbers->number + (code >> bits)) & NSVCD__NUMBER;
+    numbers->kind = bits == 1 ? (code & 1) * NSVCD__CLOSED : code & 3;
     NSVCD__TALLY(numbers, 1);
   }
 }
@@ -7136,7 +7777,7 @@ static uint32_t nsvcd__facet_number(const nsvcd__facets *f, size_t patch, size_t
 static int nsvcd__facet_encloses(const nsvcd__facets *f, size_t patch, size_t n) {
   nsvcd__numbers numbers = nsvcd__numbers_of(f, patch);
   nsvcd__read_number(&numbers, n);
-  return numbers.encloses && !f->body->open;
+  return numbers.kind >= NSVCD__CLOSED && !f->body->open;
 }
 
 static nsvcd__f3 nsvcd__facet_centre(const nsvcd__facets *f, size_t patch) {
@@ -7475,7 +8116,7 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
     size_t bytes = 1;
     while (bytes < 5 && bytes < left && at[bytes - 1] & 0x80) bytes++;
     if (at >= end || at[bytes - 1] & 0x80) return 0;
-    number = (number + (nsvcd__read_code(&at) >> 1)) & ~NSVCD__ENCLOSES;
+    number = (number + (nsvcd__read_code(&at) >> f->kind_bits)) & NSVCD__NUMBER;
     if (number >= f->body->triangles) return 0;
   }
   return at == end;
@@ -7527,6 +8168,8 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
   const nsvcd__facet_counts *counts = nsvcd__counts_of(b);
   if (nsvcd__spheres_size(padded) + sizeof *counts > size) return 0;
   if (b->triangles == 0) return 0;
+  if (counts->open_solids > counts->solids || counts->is_mixed > 1) return 0;
+  if (!nsvcd__within(&counts->gap, 1, NSVCD_MAX_COORDINATE) || counts->gap < 0) return 0;
   if (!nsvcd__within(&counts->round, 1, NSVCD_MAX_COORDINATE) || counts->round < 0) return 0;
   if (b->radius + counts->round < NSVCD_MIN_RADIUS) return 0;
   nsvcd__facets f;
@@ -7674,6 +8317,8 @@ static void nsvcd__scale_part(nsvcd_body *b, float scale) {
   const double exact = (double)*round * by;
   *round *= scale;
   const double off = fabs(exact - (double)*round);
+  float *gap = (float *)nsvcd__writable(b, &nsvcd__counts_of(b)->gap);
+  if (*gap > 0) *gap = nsvcd__above((double)*gap * by);
   float *discs = (float *)nsvcd__writable(b, f.discs);
   float *steps = (float *)nsvcd__writable(b, f.steps);
   float *slacks = (float *)nsvcd__writable(b, f.slacks);
@@ -7747,6 +8392,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   memcpy(facts.centre, body->centre, sizeof facts.centre);
   facts.radius = nsvcd__whole_radius(body);
   facts.latents = body->weights_id != 0;
+  facts.open = (int)body->open;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
 #ifndef NSVCD_NO_PROOF
@@ -7757,6 +8403,9 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     facts.listings = f.listed;
     facts.quantum = nsvcd__off_mesh(&f);
     facts.round = f.round;
+    facts.components = nsvcd__counts_of(triangles)->solids;
+    facts.open_components = nsvcd__counts_of(triangles)->open_solids;
+    facts.open_edges = nsvcd__counts_of(triangles)->open_edges;
   }
 #endif
   return facts;
@@ -7781,7 +8430,9 @@ static size_t nsvcd__numbers_write(const nsvcd__surface *s, size_t i, unsigned c
   uint32_t last = 0;
   for (size_t n = s->first_triangle[i]; n < s->first_triangle[i + 1]; n++) {
     const uint32_t id = s->ids[n];
-    uint32_t code = ((id - last) & ~NSVCD__ENCLOSES) << 1 | id >> 31;
+    const uint32_t kind = id >> NSVCD__KIND_SHIFT;
+    uint32_t code = (id - last) & NSVCD__NUMBER;
+    code = s->solids.is_mixed ? code << 2 | kind : code << 1 | (kind == NSVCD__CLOSED);
     for (int more = 1; more; code >>= 7) {
       more = code > 0x7f;
       if (to) to[size] = (unsigned char)(more ? code | 0x80 : code);
@@ -7820,6 +8471,14 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
   counts->listed = (uint32_t)s->listed;
   counts->vertices = (uint32_t)s->vertex_count;
   counts->components = (uint32_t)s->seed_count;
+  const nsvcd__solids *solids = &s->solids;
+  // none is counted of points alone
+  counts->solids = counts->components;
+  if (solids->components > 0) counts->solids = (uint32_t)solids->components;
+  counts->open_solids = (uint32_t)solids->open_components;
+  counts->open_edges = (uint32_t)solids->open_edges;
+  counts->is_mixed = (uint32_t)solids->is_mixed;
+  if (solids->gap > 0) counts->gap = nsvcd__above(solids->gap);
   uint64_t bytes = 0;
   for (size_t i = 0; i < s->count; i++) {
     const size_t stored = s->first_vertex[i + 1] - s->first_vertex[i];
@@ -7829,7 +8488,7 @@ static int nsvcd__facets_count(nsvcd__facets_source *source, nsvcd__arena *arena
     bytes += (uint64_t)3 * triangles * nsvcd__corner_bytes(points);
     bytes += nsvcd__numbers_write(s, i, NULL);
     for (size_t n = first; n < first + 3 * triangles && !s->coarse; n++)
-      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & ~NSVCD__ENCLOSES] = 1;
+      if (s->corners[n] < stored) source->cut[s->ids[n / 3] & NSVCD__NUMBER] = 1;
   }
   for (size_t n = 0; n < s->named_count; n++) {
     counts->places += !source->numbers[s->named[n]];
@@ -8095,6 +8754,7 @@ static nsvcd_result nsvcd__parts_of_runs(nsvcd__parts *parts) {
                                 &parts->arena, surface);
   ok = ok && nsvcd__curve_build(mesh, parts->options->round, &spare, &curve);
   ok = ok && nsvcd__surface_room(surface, mesh->vertex_count, mesh->vertex_count, triangles);
+  if (ok) surface->solids = curve.solids;
   nsvcd_result result = ok ? NSVCD_OK : NSVCD_ERROR_MEMORY;
   for (size_t first = 0; !result && first < runs; first = surface->done) {
     const size_t left = runs - first;
@@ -8141,6 +8801,7 @@ static nsvcd_result nsvcd__parts_of_regions(nsvcd__parts *parts) {
   if (!options->no_triangles)
     (void)nsvcd__surface_begin(patches, regions.component_count, options->coarse, arena,
                                &parts->surface);
+  parts->surface.solids = regions.solids;
 #endif
   const size_t count = regions.count;
   nsvcd_result result = arena->failed ? NSVCD_ERROR_MEMORY : NSVCD_OK;
@@ -11131,10 +11792,31 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
 //      their signs, the triangles of the other body's closed components that it leaves and enters
 //      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
+<<<<<<< HEAD
 //      edge within rounding, and what triangles are off the mesh's, is given up for another; open
-//      components enclose nothing. Where a triangle is that near to the seed, the answer counts
-//      only if planes separate all patches at t = 0: then the seed, the surface that was looked at
-//      and the true one are, patch by patch, on one side of a plane, and agree.
+//      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
+//      a cycle: each edge has its reverse; or it has an even number of triangles, and then a ray
+//      from inside crosses an odd number of them. Corners that were joined leave gaps between edges,
+//      and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that passes an
+//      edge within that is given up as well, so it crosses no strip; and what is so near to the
+//      surface is told only by planes. FREE says then that nothing crosses the surface but through
+//      a gap. What is nearly a solid is no cycle: what most rays have inside of it is UNDECIDED.
+//      Where a triangle is that near to the seed, the answer counts only if planes separate all
+//      patches at t = 0: then the seed, the surface that was looked at and the true one are, patch
+//      by patch, on one side of a plane, and agree.
+=======
+//      edge within the quanta is given up for another; open components enclose nothing. Where flaws
+//      are set aside (patches/solids), what counts is still a cycle: each edge has its reverse; or
+//      it has an even number of triangles, and then a ray from inside crosses an odd number of
+//      them. Corners that were joined leave gaps between edges, and the cycle has strips there,
+//      nowhere farther from an edge than `gap`: a ray that passes an edge within that is given up
+//      as well, so it crosses no strip; and what is so near to the surface is told only by planes.
+//      FREE says then that nothing crosses the surface but through a gap. What is nearly a solid is
+//      no cycle: what most rays have inside of it is UNDECIDED. The stored triangles, about which
+//      this is, are as far from the true ones as the quanta say: so where a stored triangle is that
+//      near to the seed, the answer counts only if planes part all patches at t = 0: then the seed,
+//      the stored surface and the true one are, patch by patch, on one side of a plane, and agree.
+>>>>>>> d1107c9 (nsvcd_body_facts.open; bodies from files are told of as well)
 //
 // A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
 // where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
@@ -11453,6 +12135,8 @@ typedef struct nsvcd__proof {
   int within;
   nsvcd__d3 enclosed;
   int unclear;
+  // it could not, since the other is nearly a solid, but not closed
+  int in_open;
   // the least distance is not known as narrowly as was asked for
   int wide;
   // FIRST: nothing of the motion is proven free but its start
@@ -14252,8 +14936,15 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
   return nsvcd__block_lanes(block) & ~missed;
 }
 
-// How often the surface of the closed components winds about a point, by one ray; *unclear if it
-// cannot tell. A triangle counts once, whatever patches list it, or parts of it.
+// What a ray crosses: how often the closed surfaces wind about its place; and of those whose
+// winding does not tell, and of what is nearly a solid, how many triangles. *unclear if it cannot
+// tell.
+typedef struct nsvcd__crossings {
+  int winds, either_way, nearly, unclear;
+} nsvcd__crossings;
+
+// Of one ray. A triangle counts once, whatever patches list it, or parts of it. No ray counts that
+// comes as near to an edge as gaps are wide that were closed: so it passes through none.
 //
 // How far are the signed volumes of nsvcd__lanes_on_ray off? With u = 2^-24, E the extent, R that
 // and the distance of the ray's place: a corner, a vertex of up to E from a centre of up to E, is
@@ -14262,23 +14953,23 @@ static uint32_t nsvcd__lanes_on_ray(nsvcd__block *block, const nsvcd__ray *ray, 
 // than 1.155 |a| |b| together) = 12.7 u E. A place on it, up to R from the ray's, by 3 u R. The
 // volume then by 12.7 u E R + 2 E x 3 u R, and by 3 roundings of up to 2 E R: 24.7 u E R, less than
 // 1.5e-6 E R. NSVCD__ROUNDING is more.
-static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd__ray *ray,
-                            int *unclear) {
+static nsvcd__crossings nsvcd__cross_all(nsvcd__proof *p, const nsvcd__facets *f,
+                                         const nsvcd__ray *ray) {
   nsvcd__block *block = &p->fixed_blocks[0];
   p->memo.window = 0;
   const float remote = (float)nsvcd__d3_length(ray->from) + f->body->extent;
   const float rounding = NSVCD__ROUNDING * remote * f->body->extent;
-  int sum = 0;
+  nsvcd__crossings sum = {0, 0, 0, 0};
   size_t count = 0;
   size_t g;
   const nsvcd__beam beam = {nsvcd__f3_round(ray->from), nsvcd__f3_round(ray->direction),
                             ray->rounding};
   nsvcd__walk walk;
   nsvcd__walk_begin(&walk, f->body, nsvcd__is_on_beam, &beam);
-  while (!*unclear && nsvcd__walk_next(&walk, &g)) {
+  while (!sum.unclear && nsvcd__walk_next(&walk, &g)) {
     const nsvcd__spheres all = nsvcd__body_patches(f->body);
     uint32_t patches = nsvcd__is_on_beam(&beam, nsvcd__spheres_from(all, NSVCD__GROUP * g));
-    for (; patches && !*unclear; patches &= patches - 1) {
+    for (; patches && !sum.unclear; patches &= patches - 1) {
       const size_t i = NSVCD__GROUP * g + nsvcd__low_bit(patches);
       if (i >= f->body->patches) break;
       const float about = 2 * (f->quanta[i] + (float)ray->margin);
@@ -14292,11 +14983,14 @@ static int nsvcd__crossings(nsvcd__proof *p, const nsvcd__facets *f, const nsvcd
           const size_t listing = n + nsvcd__low_bit(lanes);
           nsvcd__d3 corners[3];
           nsvcd__read_number(&numbers, listing);
-          if (!numbers.encloses) continue;
+          if (numbers.kind == NSVCD__SHEET) continue;
           p->work++;
           nsvcd__facet_triangle(f, i, listing, corners);
-          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, unclear);
-          if (crossing && nsvcd__is_new(p, &count, numbers.number, unclear)) sum += crossing;
+          const int crossing = nsvcd__ray_crosses(ray, corners, ray->margin, &sum.unclear);
+          if (!crossing || !nsvcd__is_new(p, &count, numbers.number, &sum.unclear)) continue;
+          if (numbers.kind == NSVCD__CLOSED) sum.winds += crossing;
+          sum.either_way += numbers.kind == NSVCD__EITHER_WAY;
+          sum.nearly += numbers.kind == NSVCD__NEARLY;
         }
       }
     }
@@ -14364,7 +15058,9 @@ static int nsvcd__surface_is_near(nsvcd__proof *p, const nsvcd__facets *f, nsvcd
 
 // Does the body enclose a place of its frame, farther from its surface than rounding? Rays in
 // directions that no mesh is likely to be aligned with, the first one on the side of the body on
-// which the place is. unit: of its frame.
+// which the place is. One is enough where all is closed. Of what is nearly a solid most are asked,
+// which is whether it winds about the place by more than a half (Jacobson 2013): then it is not
+// known to be outside. unit: of its frame.
 static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double unit,
                               nsvcd__d3 place) {
   static const double directions[8][3] = {
@@ -14378,19 +15074,26 @@ static int nsvcd__is_enclosed(nsvcd__proof *p, const nsvcd__facets *f, double un
   const size_t best = (off.x < 0 ? 1u : 0u) + (off.y < 0 ? 2u : 0u) + (off.z < 0 ? 4u : 0u);
   nsvcd__ray ray;
   ray.from = place;
-  ray.margin =
-      NSVCD__SAME_PLACE * (double)p->given.lengths / unit + (double)nsvcd__off_mesh(f);
+  ray.margin = NSVCD__SAME_PLACE * (double)p->given.lengths / unit;
+  ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;
   ray.rounding = (float)ray.margin + 4 * NSVCD__ROUNDING * f->body->extent;
+  int clear = 0;
+  int odd = 0;
   for (size_t n = 0; n < 8 && p->work <= p->ask.limit; n++) {
     const double *d = directions[best ^ n];
-    int unclear = 0;
     ray.direction = nsvcd__d3_of(d[0], d[1], d[2]);
     ray.direction = nsvcd__d3_scale(ray.direction, 1 / nsvcd__d3_length(ray.direction));
-    const int crossings = nsvcd__crossings(p, f, &ray, &unclear);
-    if (unclear) continue;
-    return crossings != 0;
+    const nsvcd__crossings sum = nsvcd__cross_all(p, f, &ray);
+    if (sum.unclear) continue;
+    if (sum.winds != 0 && sum.either_way % 2 == 0) return 1;
+    if (sum.winds == 0 && sum.either_way % 2 != 0) return 1;
+    if (f->kind_bits == 1) return 0;
+    // in a hollow the one may undo the other
+    odd += sum.nearly % 2 != 0 || sum.winds != 0;
+    clear++;
   }
-  p->unclear = 1;
+  if (clear == 0 || 2 * odd > clear) p->unclear = 1;
+  p->in_open |= clear > 0 && 2 * odd > clear;
   return 0;
 }
 
@@ -14495,7 +15198,8 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     if (!nsvcd__is_enclosed(p, e->outer, e->unit, seen)) continue;
     p->enclosed = e->inner_moves ? seen : seed;
     p->within = 1;
-    if (!nsvcd__surface_is_near(p, e->outer, seen, p->given.tolerance / e->unit)) return 1;
+    const double room = p->given.tolerance / e->unit + (double)e->outer->gap;
+    if (!nsvcd__surface_is_near(p, e->outer, seen, room)) return 1;
   }
   return 0;
 }
@@ -14506,8 +15210,8 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
   const nsvcd_body *inner = e->inner->body;
   const nsvcd_body *outer = e->outer->body;
   if (outer->open) return 0;
-  if (e->inner->components == 1 && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer))
-    return 0;
+  const int is_one = e->inner->components == 1 && e->outer->kind_bits == 1;
+  if (is_one && nsvcd__sticks_out(e->inner, &e->rounded, e->scale, outer)) return 0;
   if (e->inner->components <= NSVCD__LANES)
     return nsvcd__encloses_seeds(p, e, 0, e->inner->components);
   const nsvcd__f3 centre =
@@ -17302,6 +18006,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
   p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
+  p->in_open = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
   const int by_time = q->to_time > 0 && !(q->to > 0);
@@ -17539,6 +18244,14 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
     nsvcd__poses_at(task, t, lift, &answer->safe.a, &answer->safe.b);
 }
 
+// Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
+static void nsvcd__settle_why(const nsvcd__proof *p, nsvcd_answer *answer) {
+  const int is_near = p->known.unsure < NSVCD__NEVER || p->unclear;
+  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
+  if (answer->why && !p->wide && is_near) answer->why = NSVCD_WHY_TOO_NEAR;
+  if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
+}
+
 // Proves a question whose motion has been prepared, if it can.
 static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
@@ -17606,8 +18319,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(low * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
-  if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
-  if (answer->why && !p->wide && (has_doubt || p->unclear)) answer->why = NSVCD_WHY_TOO_NEAR;
+  nsvcd__settle_why(p, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
@@ -18780,6 +19492,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
 #define nsvcd__couple_passes NSVCD__AT(couple_passes)
+#define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut NSVCD__AT(cut)
 #define nsvcd__cut_arc NSVCD__AT(cut_arc)
@@ -19066,6 +19779,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
 #define nsvcd__settle_straight NSVCD__AT(settle_straight)
 #define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
+#define nsvcd__settle_why NSVCD__AT(settle_why)
 #define nsvcd__shallowest NSVCD__AT(shallowest)
 #define nsvcd__share_of NSVCD__AT(share_of)
 #define nsvcd__sheets NSVCD__AT(sheets)
@@ -20642,7 +21356,12 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
+  if (o->answer && nsvcd__meet_as_told(c, o->answer)) {
+    // written
+  } else if (o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN)) {
+    // where flaws are mended, or seen; here what is not closed encloses nothing
+    out.why = NSVCD_WHY_OPEN;
+  } else {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);

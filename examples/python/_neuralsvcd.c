@@ -93,7 +93,7 @@ static const neuralsvcd_layout layouts[] = {
     FIELD(body_facts, centre), FIELD(body_facts, radius), FIELD(body_facts, mean_patch_radius),
     FIELD(body_facts, triangles), FIELD(body_facts, listings), FIELD(body_facts, quantum),
     FIELD(body_facts, round), FIELD(body_facts, latents), FIELD(body_facts, components),
-    FIELD(body_facts, open_components), FIELD(body_facts, open_edges),
+    FIELD(body_facts, open_components), FIELD(body_facts, open_edges), FIELD(body_facts, open),
     STRUCT(pose), FIELD(pose, position), FIELD(pose, rotation),
     STRUCT(network_options), FIELD(network_options, pairs), FIELD(network_options, model),
     FIELD(network_options, precision), FIELD(network_options, recall), FIELD(network_options, swell),

@@ -180,8 +180,7 @@ static const nsvcd_body *encode_named(const char *from, const char *file, const 
   const nsvcd_body *body = encode_mesh(from, path, &mesh, options, taken);
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
   char line[MESH_LINE];
-  if (!(options && options->open) && mesh_find_open(&facts, line))
-    complain("warning: %s: %s", path, line);
+  if (mesh_find_open(&facts, line)) complain("warning: %s: %s", path, line);
   nsvcd_mesh_free(&mesh, NULL);
   return body;
 }
@@ -303,7 +302,7 @@ static int encode_thing(thing *t, const nsvcd_encode_options *options) {
   if (!t->body) return 0;
   const nsvcd_body_facts facts = nsvcd_body_describe(t->body);
   char line[MESH_LINE];
-  if (!options->open && mesh_find_open(&facts, line)) {
+  if (mesh_find_open(&facts, line)) {
     const size_t after = (size_t)(t->fault_count++ - t->grave);
     memmove(t->faults[t->grave + 1], t->faults[t->grave], after * MESH_LINE);
     memcpy(t->faults[t->grave++], line, sizeof line);
@@ -348,13 +347,15 @@ static int take_body(thing *t, float scale) {
     return complain("%s: encoded on a machine of the other byte order", t->path);
   if (result) return complain("%s: %s", t->path, reason_of(result));
   box_of_balls(t);
+  const nsvcd_body_facts facts = nsvcd_body_describe(t->body);
+  t->fault_count = t->grave = mesh_find_open(&facts, t->faults[0]);
   return 1;
 }
 
 // Returns 0 after a complaint.
 static int take_thing(thing *t, float scale, const nsvcd_encode_options *options) {
-  if (t->is_body) return take_body(t, scale);
-  const int good = take_mesh(t, scale) && encode_thing(t, options);
+  const int good =
+      t->is_body ? take_body(t, scale) : take_mesh(t, scale) && encode_thing(t, options);
   warn_of(t, t->grave);
   return good;
 }

@@ -275,9 +275,10 @@ MESH_DEF int mesh_find_large(const nsvcd_mesh *mesh, const nsvcd_body_facts *fac
                          "more --points",
                          line);
 }
-// Is the surface of the body that was made of it closed, but for what the library mends?
+// Is the surface of the body that was made of it closed, but for what the library mends, or is it
+// said to be open?
 MESH_DEF int mesh_find_open(const nsvcd_body_facts *facts, char *line) {
-  if (facts->open_components == 0) return 0;
+  if (facts->open || facts->open_components == 0) return 0;
   snprintf(line, MESH_LINE,
            "not a closed surface: %zu open edge%s in %zu of %zu component%s; what is inside of it "
            "is not known to be inside (say --open if it is a sheet)",

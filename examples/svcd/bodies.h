@@ -176,7 +176,7 @@ static void print_mesh(const thing *t) {
   printf("components: %zu, %zu of them closed", r->components, r->closed);
   if (r->inwards) printf(", %zu of these turned inwards: cavities, or inside out", r->inwards);
   printf("\narea: %.4g m2", r->area);
-  if (r->closed) printf(", volume of what is closed: %.4g m3", r->volume);
+  if (r->closed && fabs(r->volume) > 0) printf(", volume of what is closed: %.4g m3", r->volume);
   printf("\n");
 }
 

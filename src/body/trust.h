@@ -402,6 +402,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   memcpy(facts.centre, body->centre, sizeof facts.centre);
   facts.radius = nsvcd__whole_radius(body);
   facts.latents = body->weights_id != 0;
+  facts.open = (int)body->open;
   for (size_t i = 0; i < body->patches; i++)
     facts.mean_patch_radius += nsvcd__body_r(body)[i] / (float)body->patches;
 #ifndef NSVCD_NO_PROOF

@@ -191,6 +191,8 @@ typedef struct nsvcd_body_facts {
   size_t components, open_components;
   // of these: edges of a single triangle, or of another odd number
   size_t open_edges;
+  // 1: it was said to be open
+  int open;
 } nsvcd_body_facts;
 
 // What a body is; all 0 where it is none.

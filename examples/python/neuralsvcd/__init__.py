@@ -227,7 +227,7 @@ _EncodeOptions = _struct(
 _BodyFacts = _struct(
     "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int,
-    components=c_size_t, open_components=c_size_t, open_edges=c_size_t)
+    components=c_size_t, open_components=c_size_t, open_edges=c_size_t, open=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
 _NetworkOptions = _struct("nsvcd_network_options", pairs=c_size_t, model=c_int, precision=c_int, recall=c_float,
                           swell=c_float)
@@ -645,6 +645,7 @@ class Facts(NamedTuple):
     components         parts of the surface
     open_components    of these: not closed, once what does no harm is mended; 0: it is a solid
     open_edges         of these
+    open               it was said to be open
     """
     size: int
     patches: int
@@ -659,6 +660,7 @@ class Facts(NamedTuple):
     components: int
     open_components: int
     open_edges: int
+    open: bool
 
 
 class Body:
@@ -782,7 +784,8 @@ class Body:
         facts = _library.nsvcd_body_describe(self._address)
         return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.mean_patch_radius,
                      facts.triangles, facts.listings, facts.quantum, facts.round,
-                     bool(facts.latents), facts.components, facts.open_components, facts.open_edges)
+                     bool(facts.latents), facts.components, facts.open_components, facts.open_edges,
+                     bool(facts.open))
 
     def patch(self, index: int) -> tuple[Vector, float]:
         """Centre and radius of the sphere about a patch, metres, body frame."""
