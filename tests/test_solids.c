@@ -5,6 +5,7 @@
 #include "../src/body/trust.h"
 #include "../src/body/shapes.h"
 #include "../src/entry/processor.h"
+#include "../src/certificate/certify.h"
 
 #include "../examples/scenery/shapes.h"
 #include "check.h"
@@ -434,7 +435,55 @@ static void solids_with_gaps(void) {
   }
 }
 
+// Where the answer says so, no certificate says FREE of what is inside of a solid with a flaw.
+static void solids_are_not_certified_free(void) {
+  for (int flaw = FACE_TWICE; flaw < FLAWS; flaw += FACE_MISSING - FACE_TWICE) {
+    shapes_rng rng = {49};
+    shapes_mesh shapes[2];
+    const nsvcd_body *bodies[2];
+    const nsvcd_tree *trees[2];
+    void *memory[2];
+    nsvcd_mesh meshes[2];
+    double inside[3];
+    memset(shapes, 0, sizeof shapes);
+    shapes_ellipsoid(&shapes[0], 0.02, 0.03, 0.02, 6);
+    solids_shape(CUBE, &shapes[1], inside);
+    solids_spoil(&shapes[1], inside, &rng, flaw);
+    for (int k = 0; k < 2; k++) {
+      const shapes_mesh *s = &shapes[k];
+      const nsvcd_mesh mesh = {(float *)malloc(12 * s->vertices), s->indices, s->vertices,
+                               s->triangles};
+      if (!mesh.positions) exit(1);
+      for (size_t i = 0; i < 3 * s->vertices; i++) mesh.positions[i] = (float)s->positions[i];
+      meshes[k] = mesh;
+      bodies[k] = solids_encode(s, 0);
+      const size_t size = nsvcd_tree_size(&meshes[k]);
+      memory[k] = malloc(size);
+      CHECK_EQ(nsvcd_tree_build(&meshes[k], memory[k], size, &trees[k]), NSVCD_OK);
+    }
+    const nsvcd_answer answer = solids_ask(bodies[0], inside, inside, bodies[1]);
+    const nsvcd_certify_options options = {&answer, 0};
+    nsvcd_question q;
+    nsvcd_certificate made;
+    memset(&q, 0, sizeof q);
+    const size_t size = nsvcd_certify_workspace_size(&q, trees[0], trees[1]);
+    void *workspace = malloc(size);
+    CHECK_EQ(nsvcd_certify(&q, trees[0], trees[1], &options, workspace, size, NULL, 0, &made),
+             NSVCD_OK);
+    CHECK_EQ(made.verdict, NSVCD_UNDECIDED);
+    CHECK_EQ(made.why, NSVCD_WHY_OPEN);
+    free(workspace);
+    for (int k = 0; k < 2; k++) {
+      nsvcd_body_free(bodies[k], NULL);
+      shapes_free(&shapes[k]);
+      free(meshes[k].positions);
+      free(memory[k]);
+    }
+  }
+}
+
 void test_solids(void) {
+  RUN(solids_are_not_certified_free);
   RUN(solids_with_gaps);
   RUN(solids_with_a_flaw);
   RUN(solids_of_sheets);

@@ -400,15 +400,16 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  if (o->answer && nsvcd__meet_as_told(c, o->answer)) {
-    // written
-  } else if (o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN)) {
-    // where flaws are mended, or seen; here what is not closed encloses nothing
-    out.why = NSVCD_WHY_OPEN;
-  } else {
+  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
+  }
+  // here what is not closed encloses nothing, and no flaw is mended
+  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  if (is_inside && out.verdict == NSVCD_FREE) {
+    out.verdict = NSVCD_UNDECIDED;
+    out.why = NSVCD_WHY_OPEN;
   }
   out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
   if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
