@@ -363,6 +363,13 @@ static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) 
   return 0;
 }
 
+static int nsvcd__has_open(const nsvcd_tree *tree) {
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    if (tree->open[v]) return 1;
+  }
+  return 0;
+}
+
 // ---- nsvcd_certify
 
 // Lays the workspace out at base, or, where that is NULL, only counts. instants: all knots.
@@ -407,7 +414,8 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   }
   // here what is not closed encloses nothing, and no flaw is mended
   const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
-  if (is_inside && out.verdict == NSVCD_FREE) {
+  const int has_open = nsvcd__has_open(c->a.tree) || nsvcd__has_open(c->b.tree);
+  if (is_inside && has_open && out.verdict == NSVCD_FREE) {
     out.verdict = NSVCD_UNDECIDED;
     out.why = NSVCD_WHY_OPEN;
   }

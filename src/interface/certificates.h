@@ -26,7 +26,8 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 // What is zero is the default.
 typedef struct nsvcd_certify_options {
   // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it,
-  // but that something is, or seems to be, inside: then nothing is written that says FREE
+  // but that something is, or seems to be, inside of a mesh that is not closed: then nothing is
+  // written that says FREE
   const nsvcd_answer *answer;
   // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
