@@ -390,6 +390,26 @@ verdict '^hit' "$dir/mm.obj" "$dir/cube.obj" --scale 0.001,1
 test ! -s "$dir/err" || fail "184 mm are warned of: $(cat "$dir/err")"
 verdict '^hit' "$dir/mm.obj" "$dir/cube.obj"
 grep -q 'warning: .*mm.obj: a body of 184 m' "$dir/err" || fail "no warning of 184 m: $(cat "$dir/err")"
+# What is not closed is told, of a body as well; and --open says that it is a sheet.
+sed '$d' "$dir/cube.obj" >"$dir/bin.obj"
+sed 's/^f 1 3 4 2/f 1 3 4/' "$dir/cube.obj" >"$dir/missing.obj"
+awk '/^v/ { print "v", 0.1 * $2, 0.1 * $3, 0.1 * $4; next } { print }' "$dir/cube.obj" >"$dir/tenth.obj"
+expect 0 '' build/svcd encode "$dir/missing.obj" "$dir/missing.body"
+for file in missing.obj missing.body; do
+  verdict '^undecided.*nearly a solid' "$dir/tenth.obj" "$dir/$file" --from 0.3,0.4,0.5 --to 0.31,0.4,0.5
+  grep -q "warning: .*$file: not a closed surface: 3 open edges in 1 of 1 component; " "$dir/err" || fail "$file: $(cat "$dir/err")"
+done
+verdict '^free: proven' "$dir/tenth.obj" "$dir/missing.obj" --from 0.3,0.4,0.5 --to 0.31,0.4,0.5 --open
+test ! -s "$dir/err" || fail "a sheet is warned of: $(cat "$dir/err")"
+verdict '^free: proven' "$dir/tenth.obj" "$dir/bin.obj" --from 0.3,0.4,0.5 --to 0.31,0.4,0.5
+verdict '^hit at t = 0.*inside' "$dir/tenth.obj" "$dir/fin.obj" --from 0.3,0.4,0.5 --to 0.31,0.4,0.5
+printf 'nsvcd-plans 1\njoint j world 0 0 0 0 0 0 1 1 0 0 prismatic -1 1 1\nbody a j tenth.obj\nscene s\nobstacle b missing.obj -0.4 -0.4 -0.4 0 0 0 1\nplan p s 0 0.1\npath q s 2\n0\n0.1\n' >"$dir/nearly.txt"
+for command in plan path; do
+  expect 0 'a part of a or b seems to be inside the other' build/svcd $command "$dir/nearly.txt"
+  grep -q 'warning: .*missing.obj: not a closed surface' "$dir/err" || fail "$command: $(cat "$dir/err")"
+  expect 0 '' build/svcd $command --open "$dir/nearly.txt"
+  grep -q 'certified\|free' "$dir/out" || fail "$command --open: $(cat "$dir/out")"
+done
 # .body files, and the network.
 expect 0 '' build/svcd encode "$dir/cube.obj" "$dir/cube.body"
 verdict '^free: proven' "$dir/cube.body" "$dir/cube.obj" --from -2,0,5 --to -2,0,-5 --scale 1.9,1
