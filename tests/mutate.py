@@ -40,6 +40,7 @@ FIRST = {
     "lanes": ["vectors", "broad_phase", "decoder"],
     "patches": ["patches", "encoding"],
     "patches/topology": ["regions", "facets"],
+    "patches/solids": ["solids"],
     "patches/regions": ["regions", "level", "encoding"],
     "surface": ["surface", "facets", "proof"],
     "encoder": ["encoder", "decoder"],

