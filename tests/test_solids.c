@@ -205,9 +205,9 @@ static void solids_spoil(shapes_mesh *mesh, const double *inside, shapes_rng *rn
 
 static void solids_with_a_flaw(void) {
   shapes_rng rng = {46};
-  for (int n = 0; n < FLAWS * SOLIDS; n++) {
+  for (int n = 0; n < 3 * FLAWS; n++) {
     const int flaw = n % FLAWS;
-    const int kind = n / FLAWS % SOLIDS;
+    const int kind = (n + 3 * (n / FLAWS)) % SOLIDS;
     const double scale = pow(10, shapes_uniform(&rng, -3, 3));
     shapes_mesh mesh, ball;
     double inside[3], q[4], outside[3], back[3];
@@ -373,12 +373,12 @@ static void solids_sheet(int kind, shapes_mesh *mesh, shapes_rng *rng, double *a
 
 static void solids_of_sheets(void) {
   shapes_rng rng = {47};
-  for (int n = 0; n < 3 * SHEETS; n++) {
+  for (int n = 0; n < 2 * SHEETS; n++) {
     const int kind = n % SHEETS;
     shapes_mesh mesh, ball;
     double at[3], q[4];
     solids_sheet(kind, &mesh, &rng, at);
-    if (n / SHEETS == 2 && kind != ROOM_WITH_A_DOOR) shapes_flip(&mesh, 0);
+    if (n / SHEETS == 1 && kind != ROOM_WITH_A_DOOR) shapes_flip(&mesh, 0);
     const uint32_t centre = shapes_vertex(&mesh, at[0], at[1], at[2]);
     shapes_quaternion(&rng, q);
     shapes_place(&mesh, 0, n < SHEETS ? NULL : q, 0, 0, 0);
@@ -403,7 +403,7 @@ static void solids_of_sheets(void) {
 // to the gap as well, nothing is free; and what is in front of it is.
 static void solids_with_gaps(void) {
   shapes_rng rng = {48};
-  for (int n = 0; n < 40; n++) {
+  for (int n = 0; n < 16; n++) {
     shapes_mesh mesh, ball;
     const int is_joined = n % 2;
     const double gap = sqrt(12) * (is_joined ? shapes_uniform(&rng, 1e-6, 9e-5) : 2e-4);
