@@ -88,8 +88,8 @@
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
 //   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open), or
-//   that the work allowed was not enough; then the network's opinion is added where it has one.
+//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open),
+//   or that the work allowed was not enough; then the network's opinion is added where it has one.
 //   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
 //   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
 //   or turned round, fins, walls within, slivers, and gaps between corners that are no farther
@@ -1258,7 +1258,8 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
 // What is zero is the default.
 typedef struct nsvcd_certify_options {
   // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it,
-  // but that something is, or seems to be, inside: where that cannot be shown, nothing is written
+  // but that something is, or seems to be, inside of a mesh that is not closed: then nothing is
+  // written that says FREE
   const nsvcd_answer *answer;
   // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
   size_t visits;
@@ -11792,31 +11793,17 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      component is asked about by one of its vertices, its seed. A ray from the seed counts, with
 //      their signs, the triangles of the other body's closed components that it leaves and enters
 //      through: the sum is how often these wind about the seed, 0 outside. A ray that passes an
-<<<<<<< HEAD
 //      edge within rounding, and what triangles are off the mesh's, is given up for another; open
 //      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
 //      a cycle: each edge has its reverse; or it has an even number of triangles, and then a ray
-//      from inside crosses an odd number of them. Corners that were joined leave gaps between edges,
-//      and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that passes an
-//      edge within that is given up as well, so it crosses no strip; and what is so near to the
-//      surface is told only by planes. FREE says then that nothing crosses the surface but through
-//      a gap. What is nearly a solid is no cycle: what most rays have inside of it is UNDECIDED.
-//      Where a triangle is that near to the seed, the answer counts only if planes separate all
-//      patches at t = 0: then the seed, the surface that was looked at and the true one are, patch
-//      by patch, on one side of a plane, and agree.
-=======
-//      edge within the quanta is given up for another; open components enclose nothing. Where flaws
-//      are set aside (patches/solids), what counts is still a cycle: each edge has its reverse; or
-//      it has an even number of triangles, and then a ray from inside crosses an odd number of
-//      them. Corners that were joined leave gaps between edges, and the cycle has strips there,
-//      nowhere farther from an edge than `gap`: a ray that passes an edge within that is given up
-//      as well, so it crosses no strip; and what is so near to the surface is told only by planes.
-//      FREE says then that nothing crosses the surface but through a gap. What is nearly a solid is
-//      no cycle: what most rays have inside of it is UNDECIDED. The stored triangles, about which
-//      this is, are as far from the true ones as the quanta say: so where a stored triangle is that
-//      near to the seed, the answer counts only if planes part all patches at t = 0: then the seed,
-//      the stored surface and the true one are, patch by patch, on one side of a plane, and agree.
->>>>>>> d1107c9 (nsvcd_body_facts.open; bodies from files are told of as well)
+//      from inside crosses an odd number of them. Corners that were joined leave gaps between
+//      edges, and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that
+//      passes an edge within that is given up as well, so it crosses no strip; and what is so near
+//      to the surface is told only by planes. FREE says then that nothing crosses the surface but
+//      through a gap. What is nearly a solid is no cycle: what most rays have inside of it is
+//      UNDECIDED. Where a triangle is that near to the seed, the answer counts only if planes
+//      separate all patches at t = 0: then the seed, the surface that was looked at and the true
+//      one are, patch by patch, on one side of a plane, and agree.
 //
 // A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
 // where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
@@ -21319,6 +21306,13 @@ static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) 
   return 0;
 }
 
+static int nsvcd__has_open(const nsvcd_tree *tree) {
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    if (tree->open[v]) return 1;
+  }
+  return 0;
+}
+
 // ---- nsvcd_certify
 
 // Lays the workspace out at base, or, where that is NULL, only counts. instants: all knots.
@@ -21356,15 +21350,17 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->capacity = capacity;
   c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
   c->made = &out;
-  if (o->answer && nsvcd__meet_as_told(c, o->answer)) {
-    // written
-  } else if (o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN)) {
-    // where flaws are mended, or seen; here what is not closed encloses nothing
-    out.why = NSVCD_WHY_OPEN;
-  } else {
+  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
     if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
+  }
+  // here what is not closed encloses nothing, and no flaw is mended
+  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  const int has_open = nsvcd__has_open(c->a.tree) || nsvcd__has_open(c->b.tree);
+  if (is_inside && has_open && out.verdict == NSVCD_FREE) {
+    out.verdict = NSVCD_UNDECIDED;
+    out.why = NSVCD_WHY_OPEN;
   }
   out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
   if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;

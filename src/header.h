@@ -88,8 +88,8 @@
 //   tested by replaying certificates in double precision (tests/test_proof.c). UNDECIDED says that
 //   surfaces come within 1e-9 of all lengths without meeting (of coarse bodies: within what these
 //   are off, nsvcd_body_facts.quantum), that of eight rays none could tell whether one is inside
-//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open), or
-//   that the work allowed was not enough; then the network's opinion is added where it has one.
+//   the other, that one seems to be inside of what is nearly a solid (nsvcd_encode_options.open),
+//   or that the work allowed was not enough; then the network's opinion is added where it has one.
 //   A component of a mesh is closed if every edge has its reverse, whichever way it is wound as a
 //   whole. What does no harm to that is mended, or rather not looked at: faces that are there twice
 //   or turned round, fins, walls within, slivers, and gaps between corners that are no farther

@@ -745,6 +745,16 @@ class Errors(unittest.TestCase):
 
 
 class Bodies(unittest.TestCase):
+    def test_a_face_is_missing(self) -> None:
+        self.assertEqual((BOX.facts.components, BOX.facts.open_components, BOX.facts.open_edges), (1, 0, 0))
+        small = Body(0.1 * np.asarray(CUBE), FACES)
+        for is_open in (False, True):
+            facts = (body := Body(CUBE, FACES[:-1], open=is_open)).facts
+            self.assertEqual((facts.open_components, facts.open_edges, facts.open), (1, 3, is_open))
+            answer = nsvcd.sweep(small, body, [[0, 0, 0, 0, 0, 0, 1]])
+            self.assertEqual((answer.verdict, answer.why),
+                             ("free", "nothing") if is_open else ("undecided", "open"))
+
     def test_facts(self) -> None:
         facts = BOX.facts
         self.assertEqual((facts.triangles, facts.latents, facts.size), (12, False, len(bytes(BOX))))

@@ -37,14 +37,14 @@
 //      edge within rounding, and what triangles are off the mesh's, is given up for another; open
 //      components enclose nothing. Where flaws are set aside (patches/solids), what counts is still
 //      a cycle: each edge has its reverse; or it has an even number of triangles, and then a ray
-//      from inside crosses an odd number of them. Corners that were joined leave gaps between edges,
-//      and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that passes an
-//      edge within that is given up as well, so it crosses no strip; and what is so near to the
-//      surface is told only by planes. FREE says then that nothing crosses the surface but through
-//      a gap. What is nearly a solid is no cycle: what most rays have inside of it is UNDECIDED.
-//      Where a triangle is that near to the seed, the answer counts only if planes separate all
-//      patches at t = 0: then the seed, the surface that was looked at and the true one are, patch
-//      by patch, on one side of a plane, and agree.
+//      from inside crosses an odd number of them. Corners that were joined leave gaps between
+//      edges, and the cycle has strips there, nowhere farther from an edge than `gap`: a ray that
+//      passes an edge within that is given up as well, so it crosses no strip; and what is so near
+//      to the surface is told only by planes. FREE says then that nothing crosses the surface but
+//      through a gap. What is nearly a solid is no cycle: what most rays have inside of it is
+//      UNDECIDED. Where a triangle is that near to the seed, the answer counts only if planes
+//      separate all patches at t = 0: then the seed, the surface that was looked at and the true
+//      one are, patch by patch, on one side of a plane, and agree.
 //
 // A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
 // where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
