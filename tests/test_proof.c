@@ -2421,6 +2421,137 @@ static void proof_takes_no_more_work(void) {
 }
 
 // -------------------------------------------------------------------------------------------------
+// budgets
+
+// A bowl: part of a sphere, as thick as a twentieth of its radius.
+static proof_body proof_bowl(int segments) {
+  enum { RINGS = 40 };
+  double profile[2 * RINGS][2];
+  for (int k = 0; k < RINGS; k++) {
+    const double angle = 1.35 * k / (RINGS - 1);
+    for (int inner = 0; inner < 2; inner++) {
+      const int at = inner ? 2 * RINGS - 1 - k : k;
+      const double radius = inner ? 0.095 : 0.1;
+      profile[at][0] = radius * sin(angle);
+      profile[at][1] = 0.1 - radius * cos(angle);
+    }
+  }
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_lathe(&shape, (const double(*)[2])profile, 2 * RINGS, segments, 0);
+  return proof_of_shape(&shape, 1, 0);
+}
+
+// The attack of a bowl that goes down in another one, from one height to another, as it turns.
+static void proof_bowl_falls(attack *a, double from, double to, double turn) {
+  const oracle_pose fixed = {{0, 0, 0}, {0, 0, 0, 1}};
+  const oracle_pose poses[2] = {{{0, 0, from}, {0, 0, 0, 1}},
+                                {{0, 0, to}, {0, 0, sin(turn / 2), cos(turn / 2)}}};
+  proof_motion_set(&a->motion, poses, 2, &fixed);
+}
+
+#define BUDGETS 11
+static const size_t proof_budgets[BUDGETS] = {250,   500,   1000,  2000,   4000,  8000,
+                                              12000, 16000, 32000, 100000, 400000};
+
+// Is all answered that was asked, by the search itself: is the last share of the work untouched?
+static int proof_is_answered(const nsvcd_answer *answer, size_t work) {
+  return answer->verdict != NSVCD_UNDECIDED && !answer->why && answer->work <= work - work / 8;
+}
+
+// The limit is no part of the schedule: what a lower one has decided takes as many units with a
+// higher one, and the answer is the same to the bit.
+static void proof_takes_no_more_for_a_higher_limit(attack *a, nsvcd_question options,
+                                                   size_t *answered) {
+  nsvcd_answer first;
+  int is_answered = 0;
+  for (size_t n = 0; n < BUDGETS; n++) {
+    options.work = proof_budgets[n];
+    CHECK_EQ(proof_ask_with(a, &options), NSVCD_OK);
+    if (is_answered) {
+      CHECK_EQ(a->answer.work, first.work);
+      CHECK_EQ(a->answer.verdict, first.verdict);
+      CHECK_EQ(memcmp(&a->answer.time, &first.time, sizeof first.time), 0);
+      CHECK_EQ(memcmp(&a->answer.nearest, &first.nearest, sizeof first.nearest), 0);
+    } else if (proof_is_answered(&a->answer, options.work)) {
+      first = a->answer;
+      is_answered = 1;
+    }
+  }
+  *answered += (size_t)is_answered;
+}
+
+static void proof_higher_limits_take_no_more_work(void) {
+  static const cost_kind kinds[3] = {COST_VERDICT, COST_FIRST, COST_CLEARANCE};
+  shapes_rng rng = {733};
+  size_t answered = 0;
+  size_t long_ones = 0;
+  for (int scenes = 0; scenes < 60;) {
+    attack a;
+    a.moving = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    a.fixed = proof_shared(0, (size_t)shapes_pick(&rng, MAKES));
+    if (!proof_scene(&rng, &a, pow(10, shapes_uniform(&rng, -5, -2)), 0.3)) continue;
+    scenes++;
+    for (int n = 0; n < 3; n++) {
+      const nsvcd_question options = proof_cost_options(kinds[n], a.moving->size + a.fixed->size);
+      proof_takes_no_more_for_a_higher_limit(&a, options, &answered);
+    }
+  }
+  // of many small triangles, near each other all the while
+  proof_body bowl = proof_bowl(64);
+  for (int n = 0; n < 4; n++) {
+    attack a;
+    a.moving = a.fixed = &bowl;
+    proof_bowl_falls(&a, 0.0082 + 0.0004 * n, 0.0081, 0.05 * (n % 2));
+    for (int kind = 0; kind < 2; kind++) {
+      const nsvcd_question options = proof_cost_options(kinds[kind], 0.2);
+      proof_takes_no_more_for_a_higher_limit(&a, options, &answered);
+      long_ones += a.answer.work > 6000;
+    }
+  }
+  printf("  %zu of 188 answered, %zu of the bowls' after 6,000 units and more\n", answered,
+         long_ones);
+  CHECK_GE(answered, 150);
+  CHECK_GE(long_ones, 3);
+  proof_free(&bowl);
+}
+
+// What is proven when the work ends is told: of a fall that starts clear, more the more work there
+// is, whatever else is asked; nothing only where there is hardly work for the start.
+static void proof_tells_more_with_more_work(void) {
+  proof_body bowl = proof_bowl(48);
+  size_t early = 0;
+  for (int kind = 0; kind < 8; kind++) {
+    attack a;
+    nsvcd_answer whole;
+    nsvcd_question options = proof_options();
+    size_t least = 0;
+    float low = 0;
+    a.moving = a.fixed = &bowl;
+    proof_bowl_falls(&a, 0.05, 0.0055, kind & 4 ? 0.2 : 0);
+    proof_ask_first(&options, 1e-4f);
+    options.manifold = kind & 1;
+    options.skin = kind & 2 ? 1e-4f : 0;
+    options.clearance = kind & 2 ? 0 : 1e-3f;
+    options.work = 1000000;
+    CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+    whole = a.answer;
+    CHECK_EQ(whole.verdict, NSVCD_HIT);
+    for (options.work = 500; options.work < whole.work; options.work += options.work / 4) {
+      CHECK_EQ(proof_ask_with(&a, &options), NSVCD_OK);
+      CHECK_GE(a.answer.time.low, low - 2e-4f);
+      CHECK_LE(a.answer.time.low, whole.time.high);
+      low = fmaxf(low, a.answer.time.low);
+      if (low > 0 && !least) least = options.work;
+    }
+    printf("  %d: %zu units, something known with %zu\n", kind, whole.work, least);
+    early += least > 0 && 3 * least < whole.work;
+  }
+  CHECK_EQ(early, 8);
+  proof_free(&bowl);
+}
+
+// -------------------------------------------------------------------------------------------------
 // special scenes
 
 static status proof_ask_place(attack *a, const oracle_pose *pose, const oracle_pose *fixed) {
@@ -2826,6 +2957,8 @@ void test_proof(void) {
   RUN(proof_keeps_its_limit_in_large_patches);
   RUN(proof_in_doubt_ends_soon);
   RUN(proof_takes_no_more_work);
+  RUN(proof_higher_limits_take_no_more_work);
+  RUN(proof_tells_more_with_more_work);
   RUN(proof_refuses);
   RUN(proof_bodies_on_themselves);
   RUN(proof_flat_on_flat);

@@ -175,6 +175,18 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->fixed.ticks = motion->ticks / b;
 }
 
+// Makes ticks finer, where there are few. Returns how many one becomes.
+static double nsvcd__motion_refine(nsvcd__motion *motion) {
+  uint32_t finer = 1;
+  while (motion->ticks < 0x40000000u) {
+    motion->ticks *= 2;
+    motion->moving.ticks *= 2;
+    motion->fixed.ticks *= 2;
+    finer *= 2;
+  }
+  return (double)finer;
+}
+
 // The ticks of a motion of which poses have times: the poses of a uniform body times a power of
 // two, so that these, and times of few bits, are at ticks.
 static void nsvcd__motion_set_times(nsvcd__motion *motion) {

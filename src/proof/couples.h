@@ -225,8 +225,9 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   const size_t left = p->ask.in_doubt;
-  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->ask.limit)
-    p->ask.limit = p->work + left;
+  // a try is short, whatever it finds
+  const int is_first = !(p->known.unsure < NSVCD__NEVER) && !p->ask.is_brief;
+  if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unsure)) return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);

@@ -115,34 +115,29 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments
-// before any in later ones.
+// settled of one tile tells nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const int has_tiles = nsvcd__is_tiled(moving, fixed);
-  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
-  const size_t many = p->ask.by_time ? few : search->segments;
+  const size_t all = search->segments;
+  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__SETTLED;
-  for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
-    const size_t to = from + many < search->segments ? from + many : search->segments;
-    if (!nsvcd__matters(p, search, from)) break;
-    (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(from, to), search);
-    do {
-      for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
-        const size_t next = s + few < to ? s + few : to;
-        if (!nsvcd__matters(p, search, s)) break;
-        search->wanted = nsvcd__segments_in(s, next);
-        search->step = 0;
-        search->waiting = 0;
-        outcome = nsvcd__prove_segments(p, search);
-        if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
-          p->known.settled = (double)search->begin[next];
-      }
-    } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-    if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-      p->known.settled = (double)search->begin[to];
-  }
+  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
+  do {
+    for (size_t s = 0; s < all && outcome == NSVCD__SETTLED; s += few) {
+      const size_t next = s + few < all ? s + few : all;
+      if (!nsvcd__matters(p, search, s)) break;
+      search->wanted = nsvcd__segments_in(s, next);
+      search->step = 0;
+      search->waiting = 0;
+      outcome = nsvcd__prove_segments(p, search);
+      if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
+        p->known.settled = (double)search->begin[next];
+    }
+  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+  if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+    p->known.settled = (double)search->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF

@@ -61,7 +61,14 @@
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
 // Segments are searched some at a time, in their order, so that what is found first is early. Once
 // the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where no contact is known then, it is asked whether there is any.
+// Where there is not work enough for that, a part of what is left goes to what is proven soonest:
+// part after part of the motion, the first a short one, from where nothing is settled on. Where no
+// contact is known then, it is asked whether there is any.
+//
+// THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
+// depends on the units that were taken, not on those that are allowed. So a higher limit never
+// takes more units for what a lower one decides, but where this one has come to its last eighth:
+// that is the time for what has not been decided.
 //
 // THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
 // lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
@@ -103,6 +110,7 @@
   1e-9                     // of all lengths: it is not worth halving for a distance as short
 #define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
+#define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
 // find triangles that meet where one is within the other
@@ -112,6 +120,12 @@
 #define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
+// Where that takes too long: the first part of the motion that is proven by itself, in segments;
+// units that a part may take besides eight times those of the part before; and units that are left
+// for the question whether there is any contact, of small budgets a sixteenth.
+#define NSVCD__FIRST_PART 0.0625
+#define NSVCD__PART 250
+#define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
@@ -310,8 +324,6 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // all of a time before what is later, whatever that costs
-  int by_time;
   nsvcd__gathering gathers;
   // how deep touches may be
   double skin;
@@ -444,10 +456,16 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   return left > units ? p->work + units : p->given.work;
 }
 
-// What the search for the first contact may take. The rest is for the question whether there is
-// any.
+// What the search for the first contact may take; and, of the rest, what can be proven by time. The
+// last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+}
+static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
+  const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
+  const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
+  const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
+  return p->given.work - (least > usual ? least : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for

@@ -72,6 +72,7 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
   p->ask.motion = &still;
   p->ask.share = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
+  p->ask.is_brief = 1;
   const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
   p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
   p->ask = asked;
@@ -81,33 +82,95 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 
 // A search whose segments have been chosen. Few questions take long, and of these some are about
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
-// before all is searched once more. The end says nothing about a first contact.
+// before all is searched once more. Where the first contact is sought, the start comes first
+// anyway.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  p->ask.is_brief = p->work + 4 * NSVCD__LONG < limit;
+  p->ask.is_brief = !(p->ask.share > 0) && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
-  p->ask.is_brief = 0;
   // a part of what a doubt leaves has been used
   if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
-  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK)) return NSVCD__ANSWERED;
-  if (!(p->ask.share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
-    return NSVCD__ANSWERED;
+  for (int at_end = 0; at_end < 2; at_end++) {
+    if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
+  }
+  p->ask.is_brief = 0;
   p->ask.limit = limit;
   return nsvcd__prove_anew(p, search);
 }
 
-// There was not work enough for the first contact, and of large bodies nothing is settled then:
-// once more, by time.
-static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search) {
+// A part of the motion, from one place to another, in segments, and no later than `end`: where is
+// the first contact there, or the first doubt? All else that was known is lost. Ticks become finer:
+// returns how many one is.
+static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+                                double end) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, search);
+  const double finer = nsvcd__motion_refine(p->ask.motion);
+  nsvcd__narrow_segments(search, from, to, finer);
+  p->ask.end = nsvcd__min(p->ask.end, finer * end);
+  p->ask.doubts_end = 1;
+  (void)nsvcd__prove_motion(p, search);
+  return finer;
+}
+
+// Adds what is known of a part of the motion, whose ticks are so much finer, to what was known of
+// all before it. Returns until when, in ticks, it still matters.
+static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search, double finer,
+                              double end, nsvcd__known *known) {
+  const nsvcd__known *part = &p->known;
+  const double last = (double)search->begin[search->segments];
+  if (part->has_contact) {
+    known->has_contact = 1;
+    known->found = part->found;
+    known->found.tick /= finer;
+    end = p->ask.end / finer;
+  }
+  if (part->lost) return end;
+  if (part->unsure < NSVCD__NEVER) {
+    known->doubt = part->doubt;
+    known->doubt.tick /= finer;
+    known->unsure = part->unsure / finer;
+  }
+  known->settled = nsvcd__min(last, p->ask.end) / finer;
+  return end;
+}
+
+// There was not work enough for the first contact: once more from what is settled on, by time, a
+// part of the motion after another. Where one takes too many units, a shorter one is tried.
+static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+                                              size_t limit) {
   nsvcd__known known = p->known;
-  const double end = p->ask.end;
-  p->ask.by_time = 1;
-  p->ask.limit = nsvcd__limit_after(p, p->given.work / (2 * NSVCD__IN_DOUBT));
-  (void)nsvcd__prove_anew(p, search);
-  p->ask.by_time = 0;
-  known.settled = nsvcd__clear_until(p);
+  const double ticks = (double)p->ask.motion->ticks;
+  const double all = (double)search->segments;
+  double end = nsvcd__min(p->ask.end, ticks);
+  double from = 0;
+  double length = NSVCD__FIRST_PART;
+  double grows = 4;
+  size_t units = limit;
+  while (from < all && (double)search->begin[(size_t)from + 1] <= known.settled) from++;
+  p->ask.is_brief = 1;
+  while (p->work < limit && known.settled < nsvcd__min(end, known.unsure)) {
+    const size_t before = p->work;
+    const double whole = floor(from + length);
+    const double to = whole > from ? nsvcd__min(whole, all) : from + length;
+    p->ask.limit = limit - before > units ? before + units : limit;
+    const double finer = nsvcd__prove_part(p, search, from, to, end);
+    end = nsvcd__add_part(p, search, finer, end, &known);
+    if (p->known.lost) {
+      length /= 8;
+      grows = 2;
+    } else {
+      from = to;
+      length *= grows;
+      units = 8 * (p->work - before) + NSVCD__PART;
+    }
+  }
+  known.lost = known.settled < nsvcd__min(end, known.unsure);
+  p->ask.is_brief = 0;
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, search);
   p->known = known;
   p->ask.end = end;
 }
@@ -116,8 +179,7 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  const int is_tiled = nsvcd__is_tiled(p->moving.body, p->fixed.body);
-  if (p->known.lost && is_tiled && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
+  if (p->known.lost) nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
@@ -145,7 +207,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(motion->lift);
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
+  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
   nsvcd__choose_segments(motion, search);
   if (nsvcd__starts_within(p)) {

@@ -89,7 +89,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
+  p->ask.is_brief = p->within = p->unclear = p->wide = p->starts_free = 0;
   p->in_open = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
