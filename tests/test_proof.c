@@ -2502,7 +2502,7 @@ static void proof_higher_limits_take_no_more_work(void) {
   for (int n = 0; n < 4; n++) {
     attack a;
     a.moving = a.fixed = &bowl;
-    proof_bowl_falls(&a, 0.0082 + 0.0004 * n, 0.0081, 0.05 * (n % 2));
+    proof_bowl_falls(&a, n % 2 ? 0.06 : 0.03, 0.0167 + 0.0002 * n, 0);
     for (int kind = 0; kind < 2; kind++) {
       const nsvcd_question options = proof_cost_options(kinds[kind], 0.2);
       proof_takes_no_more_for_a_higher_limit(&a, options, &answered);
