@@ -84,10 +84,14 @@ static const option options[] = {
     {"--int8", CHECK, OPTION_FLAG, AT(int8), 0, 0, NULL, NULL, "the decoder in 8-bit integers"},
     {"--recall", CHECK, OPTION_NUMBER, AT(sweep.network.recall), 0, 1, NULL, "R",
      "share of collisions to be found: 0.99, 0.999, 0.9999 or 0: balanced errors (0)"},
-    {"--work", CHECK | SWEEP, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
+    {"--work", SWEEP | PATH, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
+     "units that a proof may take, of a path that of a pair (as many as there is time for)"},
+    {"--work", CHECK, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
      "units that a proof may take (" DIGITS(NSVCD_DEFAULT_WORK) ")"},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL, "R",
-     "times that a query is timed: check reports the least (5), sweep the median (101)"},
+     "times that a query is timed: check reports the least (5), sweep the median (101, or as often "
+     "as "
+     "a second allows)"},
     {"--details", CHECK, OPTION_TEXT, AT(details), 0, 0, NULL, "OUT.tsv",
      "writes all that is known, a line a problem: brackets of time and distance, depth, where it "
      "is "
@@ -95,6 +99,8 @@ static const option options[] = {
     {"--only", PLAN | PATH, OPTION_TEXT, AT(only), 0, 0, NULL, "ID,ID", "these alone"},
     {"--seed", PLAN | PAIRS, OPTION_COUNT, AT(seed), 0, 1000000000, NULL, "S",
      "of the random numbers (0)"},
+    {"--seconds", SWEEP | PATH, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
+     "what is undecided for want of work is asked again with more, for so many at most (10)"},
     {"--seconds", PLAN, OPTION_NUMBER, AT(seconds), 1e-3, 1e9, NULL, "S",
      "each plan ends within so many, with the best motion that is proven by then, or with 'limit'"},
     {"--samples", PLAN, OPTION_COUNT, AT(samples), 2, 10000000, NULL, "N",

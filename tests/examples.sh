@@ -768,6 +768,31 @@ expect 1 'unproven.cert: not written' build/svcd sweep "$PWD/examples/assets/mug
   --from 0,-0.4,0.18 --to 0,0.4,0.18 --rotate z,90 --certificate "$dir/unproven.cert" --visits 1
 grep -q certificate "$dir/out" && fail "a certificate that is none: $(cat "$dir/out")"
 expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
+# a certificate that is asked for and not made is no success
+expect 1 'certificates: 0 written, of 4 answers' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --visits 1
+build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" >/dev/null 2>&1
+# Who asks one question waits for its answer: a shaft that turns in a bore, 50 um wider, takes more work than usual.
+awk -v pi=3.14159265358979 'BEGIN {
+  for (bore = 0; bore < 2; bore++) {
+    file = ARGV[1] (bore ? "/bore.obj" : "/shaft.obj")
+    inner = bore ? 10.05 / cos(pi / 48) : 0
+    for (k = 0; k < 48; k++) {
+      a = 2 * pi * k / 48; x = cos(a); y = sin(a); outer = bore ? 20 : 10; z = bore ? 20 : 30
+      printf "v %.9g %.9g %g\nv %.9g %.9g %g\n", outer * x, outer * y, -z, outer * x, outer * y, z > file
+      printf "v %.9g %.9g %g\nv %.9g %.9g %g\n", inner * x, inner * y, -z, inner * x, inner * y, z > file
+    }
+    for (k = 0; k < 48; k++) {
+      i = 4 * k; j = 4 * ((k + 1) % 48)
+      printf "f %d %d %d %d\nf %d %d %d %d\n", i + 1, j + 1, j + 2, i + 2, i + 2, j + 2, j + 4, i + 4 > file
+      printf "f %d %d %d %d\n", i + 1, i + 3, j + 3, j + 1 > file
+      if (bore) printf "f %d %d %d %d\n", i + 3, i + 4, j + 4, j + 3 > file
+    }
+  }
+}' "$dir"
+turn="build/svcd sweep $dir/shaft.obj $dir/bore.obj --scale 0.001 --from 0,0,0 --rotate z,90 --repeat 1 --exit-code"
+expect 0 '' $turn --seconds 100
+expect 3 '' $turn --work 1000
+grep -q 'more work than --work or --seconds' "$dir/out" || fail "why nothing is decided: $(cat "$dir/out")"
 expect 1 'No such file' build/svcd check "$dir/proofs.txt" --certificates "$dir/no folder"
 expect 2 'FILE.txt FOLDER' build/verify
 expect 2 'FILE.txt FOLDER' build/verify "$dir/proofs.txt" "$dir/certs" --only

@@ -161,6 +161,15 @@ static int check_options(settings *options) {
   return DONE;
 }
 
+// Has each answer a certificate, and is there one? Returns 0 after a complaint.
+static int all_are_certified(const session *s, size_t made) {
+  size_t answered = 0;
+  for (size_t i = 0; i < s->file.problem_count; i++)
+    answered += s->outcomes[i].answer.verdict != NSVCD_UNDECIDED;
+  if (made > 0 && made >= answered) return 1;
+  return complain("--certificates: %zu written, of %zu answers", made, answered);
+}
+
 static int check(settings *options) {
   const int status = check_options(options);
   if (status != DONE) return status;
@@ -180,6 +189,7 @@ static int check(settings *options) {
           write_certificates(&s, options->certificates, options->sweep.clearance, options->visits,
                              &made));
   if (good) print_summary(&s);
+  if (good && options->certificates) good = all_are_certified(&s, made);
   for (size_t i = 0; s.bodies && i < s.file.mesh_count; i++)
     nsvcd_body_free(s.bodies[i].body, NULL);
   free(s.bodies);

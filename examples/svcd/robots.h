@@ -233,28 +233,50 @@ static int plan_one(const robot_in_room *in, const robot_task *task, const setti
   return !result && good;
 }
 
+// An edge, until it is decided or there is no more time.
+static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion *motion,
+                              const settings *options, waiting *wait, nsvcd_check_answer *answer) {
+  nsvcd_check_options asked;
+  plan_clock limits = {wait->end, wait->end};
+  memset(&asked, 0, sizeof asked);
+  asked.clearance = options->sweep.clearance;
+  asked.work = options->sweep.work;
+  for (;;) {
+    const double start = seconds();
+    nsvcd_check_answer last;
+    const nsvcd_result result = nsvcd_check(in->checker, motion, &asked, &last);
+    // what time cuts short names no pair: then what was known before stands
+    if (result || !asked.stop || last.verdict != NSVCD_UNDECIDED) *answer = last;
+    if (result || last.verdict != NSVCD_UNDECIDED || last.why != NSVCD_WHY_WORK) return result;
+    const size_t more = more_work(wait, asked.work, seconds() - start);
+    if (!more) return result;
+    asked.work = more;
+    asked.stop = time_is_over;
+    asked.user = &limits;
+  }
+}
+
 // Edge by edge.
 static int path_one(const robot_in_room *in, const robot_task *task, const settings *options,
                     FILE *out) {
-  nsvcd_check_options asked;
+  waiting wait = wait_for(options);
   nsvcd_check_answer answer;
   nsvcd_result result = NSVCD_OK;
   const size_t joints = in->file->joint_count;
   const size_t edges = task->points > 1 ? task->points - 1 : 1;
   size_t edge = 0;
-  memset(&asked, 0, sizeof asked);
   memset(&answer, 0, sizeof answer);
-  asked.clearance = options->sweep.clearance;
   (void)out;
   const double began = seconds();
   for (size_t k = 0; k < edges && !result; k++) {
     const double *points = in->file->numbers + task->first + k * joints;
     const nsvcd_joint_motion motion = {task->points > 1, 1, points, NULL};
     edge = k;
-    result = nsvcd_check(in->checker, &motion, &asked, &answer);
+    result = path_edge(in, &motion, options, &wait, &answer);
     if (answer.verdict != NSVCD_FREE) break;
   }
   const double mean = 1e6 * (seconds() - began) / (double)(edge + 1);
+  wait_no_more(&wait);
   if (result)
     return complain("%s:%zu: %s: %s", in->file->path, task->line, task->id, reason_of(result));
   const int is_free = answer.verdict == NSVCD_FREE;

@@ -23,7 +23,7 @@ struct settings {
   nsvcd_question sweep;  // what is asked, of whatever bodies
   float first[2];        // a share of the motion, or metres; 0: not asked for
   float measure;         // metres
-  float seconds;         // of a plan; 0: as long as it takes
+  float seconds;         // of a plan, 0: as long as it takes; of one question, 0: DECIDE_SECONDS
   size_t visits;         // of certificates; 0: as the library has it
   size_t repeat;         // 0: as the command has it
   const char *from, *to, *rotate, *scale, *picture, *film, *details, *only, *joints;
@@ -49,6 +49,43 @@ static void ask_first(nsvcd_question *question, const settings *options) {
   question->ask = wants_first(options) ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
   question->to_time = options->first[0];
   question->to = options->first[1];
+}
+
+// Whoever asks one question waits for its answer: it is asked again with eight times the work, as
+// long as that is what it lacks and there is time, unless --work says how much there is.
+#define DECIDE_SECONDS 10
+typedef struct waiting {
+  double began, end;
+  int is_bounded;  // by --work
+  int is_told;     // that it takes long, in a line of a terminal
+} waiting;
+
+static waiting wait_for(const settings *options) {
+  const double most = options->seconds > 0 ? (double)options->seconds : DECIDE_SECONDS;
+  const double now = seconds();
+  const waiting out = {now, now + most, options->sweep.work > 0, 0};
+  return out;
+}
+
+// The work with which a question is asked again that `work` did not decide and that took so many
+// seconds; 0: it is not. Not more than there is time for, as far as that can be told.
+static size_t more_work(waiting *w, size_t work, double taken) {
+  const double now = seconds();
+  const double least = work ? (double)work : NSVCD_DEFAULT_WORK;
+  const double most = fmin(8 * least, least * (w->end - now) / fmax(taken, 1e-6));
+  if (w->is_bounded || !(most > 1.5 * least) || most > 1e9) return 0;
+  if (now - w->began > 0.5 && is_terminal()) {
+    fprintf(stderr, "\r" PROGRAM ": undecided after %.1f s, %.0f units more ", now - w->began,
+            most);
+    w->is_told = 1;
+  }
+  return (size_t)most;
+}
+
+// Clears the line.
+static void wait_no_more(waiting *w) {
+  if (w->is_told) fprintf(stderr, "\r%60s\r", "");
+  w->is_told = 0;
 }
 
 // Is a contact known, but not whether it is the first one, if that was asked for? Surfaces that come

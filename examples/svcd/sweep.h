@@ -12,7 +12,9 @@ typedef struct sweep_job {
   int by_proof;
   void *workspace;
   nsvcd_answer answer;
-  nsvcd_answer nearest;       // where --measure asks for it and they are free of each other
+  nsvcd_answer nearest;  // where --measure asks for it and they are free of each other
+  waiting wait;
+  size_t repeated;            // times that it was timed
   double microseconds;        // median, to know whether they meet
   double microseconds_first;  // and when
 } sweep_job;
@@ -52,17 +54,38 @@ static int sweep_once(sweep_job *job, nsvcd_answer *answer) {
   return result ? complain("%s", reason_of(result)) : 1;
 }
 
-// Once to warm up, and then by the clock: the median, in microseconds. Negative after a complaint.
-static double sweep_timed(sweep_job *job, size_t repeat, nsvcd_answer *answer) {
-  double *times = (double *)allocate(repeat * sizeof *times);
-  int good = sweep_once(job, answer);
-  for (size_t i = 0; good && i < repeat; i++) {
+// The same, until it is decided or there is no more time. The work that it took is the question's.
+static int sweep_decided(sweep_job *job, size_t work, nsvcd_answer *answer) {
+  int good = 1;
+  for (int again = 1; again && good;) {
+    const double start = seconds();
+    job->question.work = work;
+    good = sweep_once(job, answer);
+    again = 0;
+    if (good && job->by_proof && answer->why == NSVCD_WHY_WORK) {
+      work = more_work(&job->wait, work, seconds() - start);
+      again = work > 0;
+    }
+  }
+  wait_no_more(&job->wait);
+  return good;
+}
+
+// Once to warm up, and then by the clock, as often as a second allows: the median, in microseconds.
+// Negative after a complaint.
+static double sweep_timed(sweep_job *job, const settings *options, nsvcd_answer *answer) {
+  double *times = (double *)allocate(options->repeat * sizeof *times);
+  int good = sweep_decided(job, options->sweep.work, answer);
+  const double began = seconds();
+  size_t count = 0;
+  while (good && count < options->repeat && (count == 0 || seconds() - began < 1)) {
     const double start = seconds();
     good = sweep_once(job, answer);
-    times[i] = 1e6 * (seconds() - start);
+    times[count++] = 1e6 * (seconds() - start);
   }
-  if (good) qsort(times, repeat, sizeof *times, compare_doubles);
-  const double median = good ? (times[(repeat - 1) / 2] + times[repeat / 2]) / 2 : -1;
+  if (good) qsort(times, count, sizeof *times, compare_doubles);
+  const double median = good ? (times[(count - 1) / 2] + times[count / 2]) / 2 : -1;
+  job->repeated = count;
   free(times);
   return median;
 }
@@ -79,17 +102,18 @@ static int sweep_ask(sweep_job *job, const settings *options) {
   question->b.scale = job->b.scale;
   for (size_t i = 0; i < job->motion.count; i++)
     job->poses[i] = pose_rounded(&job->motion.poses[i]);
-  job->microseconds = sweep_timed(job, options->repeat, &job->answer);
+  job->wait = wait_for(options);
+  job->microseconds = sweep_timed(job, options, &job->answer);
   if (job->microseconds < 0) return 0;
   if (job->answer.verdict != NSVCD_FREE && wants_first(options)) {
     ask_first(question, options);
-    job->microseconds_first = sweep_timed(job, options->repeat, &job->answer);
+    job->microseconds_first = sweep_timed(job, options, &job->answer);
   }
   if (!(options->measure > 0) || collides_of(&job->answer)) return job->microseconds_first >= 0;
   question->clearance = question->to_time = 0;
   question->ask = NSVCD_ASK_DISTANCE;
   question->to = options->measure;
-  return sweep_once(job, &job->nearest);
+  return sweep_decided(job, options->sweep.work, &job->nearest);
 }
 
 // How it was decided.
@@ -108,7 +132,8 @@ static void sweep_reason(const sweep_job *job, const settings *options, char *ou
   if (s == STATUS_UNDECIDED)
     reason = job->answer.why == NSVCD_WHY_OPEN
                  ? "one seems to be inside of what is nearly a solid, but not closed"
-                 : "nearer than triangles are stored, or more work than --work allows";
+             : job->answer.why == NSVCD_WHY_WORK ? "more work than --work or --seconds allow"
+                                                 : "nearer to each other than what can be told";
   snprintf(out, size, "%s", reason);
   if (job->answer.by == NSVCD_BY_NETWORK && !job->answer.inside)
     snprintf(out, size, "%s, logit %.3g", reason, (double)job->answer.opinion.logit);
@@ -178,7 +203,7 @@ static void print_answer(const sweep_job *job, const settings *options) {
   printf("time       %.1f us", job->microseconds);
   if (job->microseconds_first > 0)
     printf(", and %.1f us for the first contact", job->microseconds_first);
-  printf(" (median of %zu)", options->repeat);
+  printf(" (median of %zu)", job->repeated);
   if (job->a.taken + job->b.taken > 0)
     printf("; encoding %.1f ms", 1e3 * (job->a.taken + job->b.taken));
   printf("\n");
@@ -192,7 +217,7 @@ static void json_range(json_out *j, const char *key, const nsvcd_range *range) {
   json_close(j, '}');
 }
 
-static void print_json(const sweep_job *job, const settings *options) {
+static void print_json(const sweep_job *job) {
   const nsvcd_answer *a = &job->answer;
   json_out j = {stdout, 0};
   json_open(&j, NULL, '{');
@@ -234,7 +259,7 @@ static void print_json(const sweep_job *job, const settings *options) {
   json_digits(&j, "microseconds", job->microseconds, 4);
   if (job->microseconds_first > 0)
     json_digits(&j, "microseconds_first", job->microseconds_first, 4);
-  json_count(&j, "repeat", options->repeat);
+  json_count(&j, "repeat", job->repeated);
   json_digits(&j, "milliseconds_encoding", 1e3 * (job->a.taken + job->b.taken), 4);
   json_end_line(&j);
   fflush(stdout);
@@ -336,7 +361,8 @@ static int sweep_run(sweep_job *job, settings *options, const float *scales) {
   const int status = sweep_method(job, options);
   if (status != DONE) return status;
   if (!sweep_ask(job, options)) return REFUSED;
-  (options->json ? print_json : print_answer)(job, options);
+  if (options->json) print_json(job);
+  if (!options->json) print_answer(job, options);
   options->answer = job->answer.verdict == NSVCD_UNDECIDED ? 3 : job->answer.verdict == NSVCD_HIT;
   if (options->certificate) {
     if (!write_proof(options->certificate, options->paths, scales, job->poses, job->motion.count,
