@@ -119,8 +119,10 @@ typedef struct nsvcd_question {
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
   // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell;
-  // of FIRST an eighth is kept for whether they meet at all
+  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell.
+  // Of FIRST an eighth is kept for what has not been decided by then: what of the motion is free
+  // until when, and whether they meet at all. A manifold, and the place of a lifted body, may take
+  // an eighth each besides. Before that, a question takes as many units whatever is allowed
   size_t work;
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
@@ -306,7 +308,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
 // whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
 // it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
-// undecided what less decides, but for luck: FIRST with a few hundred units.
+// undecided what less decides, nor takes more units for it, but where less has come to its last
+// eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
+// moments of the motion take more than a sixteenth of it.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16

@@ -645,25 +645,6 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
   search->time[segments] = 1;
 }
 
-// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
-// place to another. These are in segments: 1.5 is in the middle of the second.
-static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
-                                   double finer) {
-  uint32_t *begin = search->begin;
-  const size_t first = (size_t)from;
-  const size_t last = (size_t)to;
-  const double share = to - (double)last;
-  double end = (double)begin[last];
-  if (share > 0) end += share * ((double)begin[last + 1] - end);
-  const double start = (double)begin[first];
-  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (share > 0);
-  for (size_t s = 1; s < search->segments; s++)
-    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
-  begin[0] = (uint32_t)(finer * (start + into));
-  begin[search->segments] = (uint32_t)(finer * end);
-}
-
 // Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,

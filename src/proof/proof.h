@@ -380,7 +380,7 @@ typedef struct nsvcd__proof {
   int unclear;
   // it could not, since the other is nearly a solid, but not closed
   int in_open;
-  // the least distance is not known as narrowly as was asked for
+  // there was not work enough to know the least distance as narrowly as was asked for
   int wide;
   // FIRST: nothing of the motion is proven free but its start
   int starts_free;

@@ -15,6 +15,25 @@ static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
 }
 
+// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
+// place to another. These are in segments: 1.5 is in the middle of the second.
+static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
+                                   double finer) {
+  uint32_t *begin = search->begin;
+  const size_t first = (size_t)from;
+  const size_t last = (size_t)to;
+  const double share = to - (double)last;
+  double end = (double)begin[last];
+  if (share > 0) end += share * ((double)begin[last + 1] - end);
+  const double start = (double)begin[first];
+  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
+  search->segments = last - first + (share > 0);
+  for (size_t s = 1; s < search->segments; s++)
+    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
+  begin[0] = (uint32_t)(finer * (start + into));
+  begin[search->segments] = (uint32_t)(finer * end);
+}
+
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,
                                           const nsvcd__search *search, size_t s) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];

@@ -438,15 +438,12 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  p->wide = !nsvcd__measure_once(p, search);
+  if (nsvcd__measure_once(p, search)) return;
   p->ask.limit = p->given.work;
   p->ask.measure = p->high - p->low;
-  int is_enough = p->wide;
-  while (is_enough && p->ask.measure > finest) {
+  while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    is_enough = nsvcd__measure_once(p, search);
+    p->wide = !nsvcd__measure_once(p, search);
   }
-  // what was found may have made it narrow enough
-  p->wide = p->wide && !is_enough && p->high - p->low > finest;
 }
 #endif  // NSVCD_NO_PROOF

@@ -390,18 +390,16 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
-  double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
-  double high = p->high;
+  const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.round;
+  double high = names ? p->known.found.distance : p->high;
+  // what was found, or moved to where it is nearer, may have made it narrow enough
+  p->wide = p->wide && high - p->low > p->given.width;
   if (names) {
-    const nsvcd__contact *found = &p->known.found;
     const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-    high = fmax(found->distance, p->given.round) + off;
-    // the contact may have been moved to where it is nearer
-    p->wide = p->wide && found->distance - p->low > p->given.width;
+    high = fmax(high, p->given.round) + off;
   }
-  low = fmax(low - p->given.round, 0);
   high = fmax(high - p->given.round, 0);
-  answer->distance.low = (float)(low * unit * (1 - 1e-6));
+  answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   nsvcd__settle_why(p, answer);
 
