@@ -972,8 +972,10 @@ typedef struct nsvcd_question {
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
   // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell;
-  // of FIRST an eighth is kept for whether they meet at all
+  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell.
+  // Of FIRST an eighth is kept for what has not been decided by then: what of the motion is free
+  // until when, and whether they meet at all. A manifold, and the place of a lifted body, may take
+  // an eighth each besides. Before that, a question takes as many units whatever is allowed
   size_t work;
   // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
   // what turns by more than 20 degrees in one of them takes longer to prove
@@ -1159,7 +1161,9 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // surfaces that come within 1e-9 of these without meeting, or more work than was allowed. Of bodies
 // whose nsvcd_body_facts.quantum is not 0 a HIT is one to within both quanta, and nearer than these
 // it is undecided whether surfaces meet: they are coarse, or were scaled. More work never leaves
-// undecided what less decides, but for luck: FIRST with a few hundred units.
+// undecided what less decides, nor takes more units for it, but where less has come to its last
+// eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
+// moments of the motion take more than a sixteenth of it.
 //
 // What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
 // up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
@@ -9751,6 +9755,18 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->fixed.ticks = motion->ticks / b;
 }
 
+// Makes ticks finer, where there are few. Returns how many one becomes.
+static double nsvcd__motion_refine(nsvcd__motion *motion) {
+  uint32_t finer = 1;
+  while (motion->ticks < 0x40000000u) {
+    motion->ticks *= 2;
+    motion->moving.ticks *= 2;
+    motion->fixed.ticks *= 2;
+    finer *= 2;
+  }
+  return (double)finer;
+}
+
 // The ticks of a motion of which poses have times: the poses of a uniform body times a power of
 // two, so that these, and times of few bits, are at ticks.
 static void nsvcd__motion_set_times(nsvcd__motion *motion) {
@@ -11820,7 +11836,14 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
 // Segments are searched some at a time, in their order, so that what is found first is early. Once
 // the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where no contact is known then, it is asked whether there is any.
+// Where there is not work enough for that, a part of what is left goes to what is proven soonest:
+// part after part of the motion, the first a short one, from where nothing is settled on. Where no
+// contact is known then, it is asked whether there is any.
+//
+// THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
+// depends on the units that were taken, not on those that are allowed. So a higher limit never
+// takes more units for what a lower one decides, but where this one has come to its last eighth:
+// that is the time for what has not been decided.
 //
 // THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
 // lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
@@ -11859,6 +11882,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
   1e-9                     // of all lengths: it is not worth halving for a distance as short
 #define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
+#define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
 // find triangles that meet where one is within the other
@@ -11868,6 +11892,12 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
+// Where that takes too long: the first part of the motion that is proven by itself, in segments;
+// units that a part may take besides eight times those of the part before; and units that are left
+// for the question whether there is any contact, of small budgets a sixteenth.
+#define NSVCD__FIRST_PART 0.0625
+#define NSVCD__PART 250
+#define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 4    // looks at what is touched on the way off
@@ -12066,8 +12096,6 @@ typedef struct nsvcd__asked {
   size_t limit, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
-  // all of a time before what is later, whatever that costs
-  int by_time;
   nsvcd__gathering gathers;
   // how deep touches may be
   double skin;
@@ -12124,7 +12152,7 @@ typedef struct nsvcd__proof {
   int unclear;
   // it could not, since the other is nearly a solid, but not closed
   int in_open;
-  // the least distance is not known as narrowly as was asked for
+  // there was not work enough to know the least distance as narrowly as was asked for
   int wide;
   // FIRST: nothing of the motion is proven free but its start
   int starts_free;
@@ -12200,10 +12228,16 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   return left > units ? p->work + units : p->given.work;
 }
 
-// What the search for the first contact may take. The rest is for the question whether there is
-// any.
+// What the search for the first contact may take; and, of the rest, what can be proven by time. The
+// last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+}
+static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
+  const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
+  const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
+  const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
+  return p->given.work - (least > usual ? least : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
@@ -12478,6 +12512,25 @@ static double nsvcd__time_of(const nsvcd__motion *motion, double ticks) {
 // The time a share u of the arc last asked for later than its start.
 static double nsvcd__time_in_arc(const nsvcd__proof *p, double u) {
   return nsvcd__time_of(p->ask.motion, (double)p->arc.first + u * (double)p->arc.ticks);
+}
+
+// Leaves of the segments, whose ticks have become so much finer, a part of the motion, from one
+// place to another. These are in segments: 1.5 is in the middle of the second.
+static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to,
+                                   double finer) {
+  uint32_t *begin = search->begin;
+  const size_t first = (size_t)from;
+  const size_t last = (size_t)to;
+  const double share = to - (double)last;
+  double end = (double)begin[last];
+  if (share > 0) end += share * ((double)begin[last + 1] - end);
+  const double start = (double)begin[first];
+  const double into = (from - (double)first) * ((double)begin[first + 1] - start);
+  search->segments = last - first + (share > 0);
+  for (size_t s = 1; s < search->segments; s++)
+    begin[s] = (uint32_t)(finer * (double)begin[first + s]);
+  begin[0] = (uint32_t)(finer * (start + into));
+  begin[search->segments] = (uint32_t)(finer * end);
 }
 
 static nsvcd__span nsvcd__span_of_segment(const nsvcd__motion *motion,
@@ -13265,8 +13318,9 @@ static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple 
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
   const size_t left = p->ask.in_doubt;
-  if (!(p->known.unsure < NSVCD__NEVER) && p->work + left < p->ask.limit)
-    p->ask.limit = p->work + left;
+  // a try is short, whatever it finds
+  const int is_first = !(p->known.unsure < NSVCD__NEVER) && !p->ask.is_brief;
+  if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
   if (!(tick < p->known.unsure)) return;
   nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
   const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
@@ -15354,34 +15408,29 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// settled of one tile tells nothing of the others; by time, all tiles are seen to in some segments
-// before any in later ones.
+// settled of one tile tells nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const int has_tiles = nsvcd__is_tiled(moving, fixed);
-  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : search->segments;
-  const size_t many = p->ask.by_time ? few : search->segments;
+  const size_t all = search->segments;
+  const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
   nsvcd__outcome outcome = NSVCD__SETTLED;
-  for (size_t from = 0; from < search->segments && outcome == NSVCD__SETTLED; from += many) {
-    const size_t to = from + many < search->segments ? from + many : search->segments;
-    if (!nsvcd__matters(p, search, from)) break;
-    (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(from, to), search);
-    do {
-      for (size_t s = from; s < to && outcome == NSVCD__SETTLED; s += few) {
-        const size_t next = s + few < to ? s + few : to;
-        if (!nsvcd__matters(p, search, s)) break;
-        search->wanted = nsvcd__segments_in(s, next);
-        search->step = 0;
-        search->waiting = 0;
-        outcome = nsvcd__prove_segments(p, search);
-        if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
-          p->known.settled = (double)search->begin[next];
-      }
-    } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-    if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-      p->known.settled = (double)search->begin[to];
-  }
+  (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
+  do {
+    for (size_t s = 0; s < all && outcome == NSVCD__SETTLED; s += few) {
+      const size_t next = s + few < all ? s + few : all;
+      if (!nsvcd__matters(p, search, s)) break;
+      search->wanted = nsvcd__segments_in(s, next);
+      search->step = 0;
+      search->waiting = 0;
+      outcome = nsvcd__prove_segments(p, search);
+      if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
+        p->known.settled = (double)search->begin[next];
+    }
+  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
+  if (outcome == NSVCD__SETTLED && !p->known.has_contact)
+    p->known.settled = (double)search->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF
@@ -15459,6 +15508,7 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
   p->ask.motion = &still;
   p->ask.share = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
+  p->ask.is_brief = 1;
   const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
   p->known.found.tick = at_end ? (double)asked.motion->ticks : 0;
   p->ask = asked;
@@ -15468,33 +15518,95 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 
 // A search whose segments have been chosen. Few questions take long, and of these some are about
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
-// before all is searched once more. The end says nothing about a first contact.
+// before all is searched once more. Where the first contact is sought, the start comes first
+// anyway.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  p->ask.is_brief = p->work + 4 * NSVCD__LONG < limit;
+  p->ask.is_brief = !(p->ask.share > 0) && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
-  p->ask.is_brief = 0;
   // a part of what a doubt leaves has been used
   if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
-  if (nsvcd__meets_at(p, search, 0, NSVCD__LOOK)) return NSVCD__ANSWERED;
-  if (!(p->ask.share > 0) && nsvcd__meets_at(p, search, 1, NSVCD__LOOK))
-    return NSVCD__ANSWERED;
+  for (int at_end = 0; at_end < 2; at_end++) {
+    if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
+  }
+  p->ask.is_brief = 0;
   p->ask.limit = limit;
   return nsvcd__prove_anew(p, search);
 }
 
-// There was not work enough for the first contact, and of large bodies nothing is settled then:
-// once more, by time.
-static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search) {
+// A part of the motion, from one place to another, in segments, and no later than `end`: where is
+// the first contact there, or the first doubt? All else that was known is lost. Ticks become finer:
+// returns how many one is.
+static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
+                                double end) {
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, search);
+  const double finer = nsvcd__motion_refine(p->ask.motion);
+  nsvcd__narrow_segments(search, from, to, finer);
+  p->ask.end = nsvcd__min(p->ask.end, finer * end);
+  p->ask.doubts_end = 1;
+  (void)nsvcd__prove_motion(p, search);
+  return finer;
+}
+
+// Adds what is known of a part of the motion, whose ticks are so much finer, to what was known of
+// all before it. Returns until when, in ticks, it still matters.
+static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search, double finer,
+                              double end, nsvcd__known *known) {
+  const nsvcd__known *part = &p->known;
+  const double last = (double)search->begin[search->segments];
+  if (part->has_contact) {
+    known->has_contact = 1;
+    known->found = part->found;
+    known->found.tick /= finer;
+    end = p->ask.end / finer;
+  }
+  if (part->lost) return end;
+  if (part->unsure < NSVCD__NEVER) {
+    known->doubt = part->doubt;
+    known->doubt.tick /= finer;
+    known->unsure = part->unsure / finer;
+  }
+  known->settled = nsvcd__min(last, p->ask.end) / finer;
+  return end;
+}
+
+// There was not work enough for the first contact: once more from what is settled on, by time, a
+// part of the motion after another. Where one takes too many units, a shorter one is tried.
+static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+                                              size_t limit) {
   nsvcd__known known = p->known;
-  const double end = p->ask.end;
-  p->ask.by_time = 1;
-  p->ask.limit = nsvcd__limit_after(p, p->given.work / (2 * NSVCD__IN_DOUBT));
-  (void)nsvcd__prove_anew(p, search);
-  p->ask.by_time = 0;
-  known.settled = nsvcd__clear_until(p);
+  const double ticks = (double)p->ask.motion->ticks;
+  const double all = (double)search->segments;
+  double end = nsvcd__min(p->ask.end, ticks);
+  double from = 0;
+  double length = NSVCD__FIRST_PART;
+  double grows = 4;
+  size_t units = limit;
+  while (from < all && (double)search->begin[(size_t)from + 1] <= known.settled) from++;
+  p->ask.is_brief = 1;
+  while (p->work < limit && known.settled < nsvcd__min(end, known.unsure)) {
+    const size_t before = p->work;
+    const double whole = floor(from + length);
+    const double to = whole > from ? nsvcd__min(whole, all) : from + length;
+    p->ask.limit = limit - before > units ? before + units : limit;
+    const double finer = nsvcd__prove_part(p, search, from, to, end);
+    end = nsvcd__add_part(p, search, finer, end, &known);
+    if (p->known.lost) {
+      length /= 8;
+      grows = 2;
+    } else {
+      from = to;
+      length *= grows;
+      units = 8 * (p->work - before) + NSVCD__PART;
+    }
+  }
+  known.lost = known.settled < nsvcd__min(end, known.unsure);
+  p->ask.is_brief = 0;
+  nsvcd__proof_restart(p);
+  nsvcd__choose_segments(p->ask.motion, search);
   p->known = known;
   p->ask.end = end;
 }
@@ -15503,8 +15615,7 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  const int is_tiled = nsvcd__is_tiled(p->moving.body, p->fixed.body);
-  if (p->known.lost && is_tiled && !(p->known.settled > 0)) nsvcd__prove_by_time(p, search);
+  if (p->known.lost) nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
@@ -15532,7 +15643,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float lifted = nsvcd__f3_length(motion->lift);
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = p->given.work / (in_order ? 2 * NSVCD__IN_DOUBT : NSVCD__IN_DOUBT);
+  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
   nsvcd__choose_segments(motion, search);
   if (nsvcd__starts_within(p)) {
@@ -15763,16 +15874,13 @@ static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
   if (is_named && !(p->high - p->low > finest)) return;
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
-  p->wide = !nsvcd__measure_once(p, search);
+  if (nsvcd__measure_once(p, search)) return;
   p->ask.limit = p->given.work;
   p->ask.measure = p->high - p->low;
-  int is_enough = p->wide;
-  while (is_enough && p->ask.measure > finest) {
+  while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
-    is_enough = nsvcd__measure_once(p, search);
+    p->wide = !nsvcd__measure_once(p, search);
   }
-  // what was found may have made it narrow enough
-  p->wide = p->wide && !is_enough && p->high - p->low > finest;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -17992,7 +18100,7 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->high = HUGE_VAL;
   p->work = 0;
   p->ask.gathers = NSVCD__CONTACTS;
-  p->ask.is_brief = p->ask.by_time = p->within = p->unclear = p->wide = p->starts_free = 0;
+  p->ask.is_brief = p->within = p->unclear = p->wide = p->starts_free = 0;
   p->in_open = 0;
   const double to = nsvcd__to_of(task);
   p->given.to = q->to > 0 && q->ask == NSVCD_ASK_FIRST ? to : 0;
@@ -18293,18 +18401,16 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double back = way > hairs ? hairs / way : p->given.share;
     answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
-  double low = is_free ? fmax(p->given.clearance, p->low) : p->low;
-  double high = p->high;
+  const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.round;
+  double high = names ? p->known.found.distance : p->high;
+  // what was found, or moved to where it is nearer, may have made it narrow enough
+  p->wide = p->wide && high - p->low > p->given.width;
   if (names) {
-    const nsvcd__contact *found = &p->known.found;
     const double off = nsvcd__off_meshes(p) + 1e-12 * (double)p->given.lengths;
-    high = fmax(found->distance, p->given.round) + off;
-    // the contact may have been moved to where it is nearer
-    p->wide = p->wide && found->distance - p->low > p->given.width;
+    high = fmax(high, p->given.round) + off;
   }
-  low = fmax(low - p->given.round, 0);
   high = fmax(high - p->given.round, 0);
-  answer->distance.low = (float)(low * unit * (1 - 1e-6));
+  answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
   nsvcd__settle_why(p, answer);
 
@@ -19390,6 +19496,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
+#define nsvcd__add_part NSVCD__AT(add_part)
 #define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
@@ -19616,6 +19723,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_off NSVCD__AT(lift_off)
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
+#define nsvcd__limit_by_time NSVCD__AT(limit_by_time)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__look_across NSVCD__AT(look_across)
 #define nsvcd__manifold NSVCD__AT(manifold)
@@ -19639,6 +19747,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_gap NSVCD__AT(motion_gap)
 #define nsvcd__motion_init NSVCD__AT(motion_init)
 #define nsvcd__motion_pose NSVCD__AT(motion_pose)
+#define nsvcd__motion_refine NSVCD__AT(motion_refine)
 #define nsvcd__motion_retime NSVCD__AT(motion_retime)
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__motion_set_times NSVCD__AT(motion_set_times)
@@ -19647,6 +19756,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_ranges NSVCD__AT(moving_ranges)
+#define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
 #define nsvcd__nearest2 NSVCD__AT(nearest2)
@@ -19706,6 +19816,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__prove_by_time NSVCD__AT(prove_by_time)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
+#define nsvcd__prove_part NSVCD__AT(prove_part)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
 #define nsvcd__prove_tiles NSVCD__AT(prove_tiles)
 #define nsvcd__quanta_of NSVCD__AT(quanta_of)
