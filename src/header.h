@@ -159,6 +159,9 @@
 //                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
 //                     its own: see plan/problem
+//   interval          a part of a long motion, which is searched by itself; in search/intervals, a
+//                     time in which two balls meet
+//   try               a search of a larger interval with few units
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -272,6 +275,7 @@ extern "C" {
 // ======================================================================== motion: where bodies are
 #include "motion/motion.h"    // the moving body's poses as the fixed one sees them
 #include "motion/segments.h"  // how far a point strays from a straight line
+#include "motion/choice.h"    // which segments a motion is cut into, and a long one which intervals
 
 // ================================================================== search: which patches may meet
 #include "search/apart.h"      // pairs of patches that a plane parts, by their tips
@@ -291,7 +295,8 @@ extern "C" {
 #include "proof/items.h"      // an item: parted by planes, or by its triangles, or in contact
 #include "proof/containment.h"  // what is inside of what, exactly
 #include "proof/loop.h"         // the loop: all that a search finds is settled
-#include "proof/verdict.h"      // the verdict, the first contact, the least distance
+#include "proof/verdict.h"      // what one search says: do they meet, when first, how near
+#include "proof/long.h"         // the verdict, whatever the length of the motion
 #include "proof/leave.h"        // leaving a contact, and how deep it is
 #include "proof/normals.h"      // a contact's normal, against the motion
 

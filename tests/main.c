@@ -35,6 +35,7 @@ void test_body(void);
 void test_facets(void);
 void test_encoding(void);
 void test_motion(void);
+void test_long(void);
 void test_broad_phase(void);
 void test_proof(void);
 void test_asks(void);
@@ -77,6 +78,7 @@ static const test_file files[] = {
     OF(broad_phase),
     OF(proof),
     OF(asks),
+    OF(long),
     OF(normals),
     OF(solids),
     OF(round),

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
+# fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
 # `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
 # tests/test_checker.c has to fail. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -75,6 +75,15 @@ rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
+long: an interval passed over|if (is_settled) motion->from = until;|if (is_settled) motion->from = until;\n  if (is_settled \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_knot(motion, until);
+long: a try in vain is believed|is_settled \|\| !is_try, p->work - before|1, p->work - before
+long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
+long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__SETTLED;|  return NSVCD__SETTLED;
+long: distance of the last interval|if (is_settled) low = nsvcd__min(low, p->low);|low = p->low;
+long: ends not looked at|!(asked > 0) \&\& nsvcd__meets_at_ends(p, search)|0
+long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& share > 0);|p->known.has_contact;
+long: poses for work|p->given.grows = q->work == 0;|p->given.grows = 1;
+long: an interval settled from the start|p->known.settled = (double)p->ask.motion->from;|p->known.settled = 0;
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
@@ -337,6 +346,7 @@ PYTHON
     tile:*) tile=-DNSVCD__TILE=2 ;;
     level:*) file=test_level.c ;;
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
+    long:*) file=test_long.c ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
     postures:*) file=test_postures.c ;;

@@ -1185,7 +1185,7 @@ static void query_proofs_stay_within_their_workspace(void) {
   for (size_t n = 0; n < 250; n++) {
     const size_t way = n % 5;
     for (size_t k = 0; k < QUERY_POSES; k++) {
-      const float half = 12.0f * (float)k / (QUERY_POSES - 1);
+      const float half = 11.1f * (float)k / (QUERY_POSES - 1);
       spin[k] = query_pose(0.16 + 0.05 * (double)way, 0.01 * (double)k, 0);
       spin[k].rotation[2] = sinf(half);
       spin[k].rotation[3] = cosf(half);
@@ -1203,7 +1203,7 @@ static void query_proofs_stay_within_their_workspace(void) {
     }
     question.skin = n % 7 == 3 ? 0.002f : 0;
     question.clearance = n % 7 == 4 ? 0.01f : 0;
-    question.work = n % 7 == 5 ? 20 : 0;
+    question.work = n % 7 == 5 ? 10 : 0;
     const size_t left = query_stays_within(&question);
     unused = left < unused ? left : unused;
     const nsvcd_answer answer = query_answer(&question);

@@ -117,15 +117,18 @@ typedef struct nsvcd_question {
   // FIRST: 1: up to four contacts, which hold the body, are told, where else one is
   int manifold;
   nsvcd_method method;
-  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell.
-  // Of FIRST an eighth is kept for what has not been decided by then: what of the motion is free
-  // until when, and whether they meet at all. A manifold, and the place of a lifted body, may take
-  // an eighth each besides. Before that, a question takes as many units whatever is allowed
+  // units that a proof may take, about. A unit is a plane sought for two patches, 16 triangles
+  // against the box of 16, one of them against these, two triangles at one time, or a ray against
+  // 16 or one. 0: NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see
+  // nsvcd_sweep), so that it grows with the length. What is named is for all of the motion, in the
+  // order of time: when it ends, what was proven until then is told; of DISTANCE each interval has
+  // the share that is its part of the time left. An eighth is left once surfaces have come too near
+  // to tell. Of FIRST an eighth is kept for what has not been decided by then: what of the motion is
+  // free until when, and whether they meet at all. A manifold, and the place of a lifted body, may
+  // take an eighth each besides. Before that, a question takes as many units whatever is allowed
   size_t work;
-  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
-  // what turns by more than 20 degrees in one of them takes longer to prove
+  // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
+  // 64; 0: 64. Fewer take less memory, and make intervals shorter
   size_t segments;
   // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
   // no bounds of a DISTANCE: `to` is a proof's
@@ -312,13 +315,22 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
 // moments of the motion take more than a sixteenth of it.
 //
-// What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
-// up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
-// spheres against one. Of bodies of more than 512 patches only those groups count that the other
-// body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
-// it comes near. Then a proof takes question.work units. The network takes 18 S such tests more, as
-// it looks at a first pair of groups twice, the tiny decoder on 12 K pairs and the chosen one on K
-// (tiny alone: on 3 K), and 32 distances for each patch.
+// A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
+// more memory than a short one. If it has more than 64 poses, or turns by more than 1,280 degrees,
+// it is searched interval by interval, in the order of time: as many arcs from pose to pose as make
+// 64 segments, or question.segments, of at most 20 degrees each. What is easy is searched in
+// intervals that are much larger. HIT looks at both ends first. FIRST ends with the interval that
+// has the first contact. Where an interval is left undecided, those after it are only asked whether
+// they meet at all. Times are told as floats: of 65,536 poses they resolve a 250th of the way from
+// one to the next. More poses than the limit are refused by NSVCD_ERROR_POSES.
+//
+// What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion, or an interval, has S
+// segments: 16 or so up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3
+// S tests of 16 spheres against one. Of bodies of more than 512 patches only those groups count
+// that the other body comes near, and some 16 tests more for each level of spheres and each 16
+// spheres of it that it comes near. Then a proof takes question.work units. The network takes 18 S
+// such tests more, as it looks at a first pair of groups twice, the tiny decoder on 12 K pairs and
+// the chosen one on K (tiny alone: on 3 K), and 32 distances for each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 

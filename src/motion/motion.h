@@ -74,6 +74,11 @@ typedef struct nsvcd__motion {
   nsvcd__f3 low, high;
   // by which the moving body is held off its poses, as the fixed one sees it, in its units
   nsvcd__f3 lift;
+  // of an interval: the tick at which it begins, and how many arcs a segment has; 0, 0: it is all
+  // of the motion
+  uint32_t from, arcs;
+  // do its segments turn less than others?
+  int is_fine;
 } nsvcd__motion;
 
 // Is it a length that may be told, or 0?
@@ -234,6 +239,15 @@ static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
   return box;
 }
 
+// Prepares the box about the way of the moving body's origin as the fixed one's sees it.
+static void nsvcd__motion_set_box(nsvcd__motion *motion, const nsvcd__track *moving,
+                                  const nsvcd__track *fixed) {
+  const nsvcd__box at = nsvcd__track_box(moving);
+  const nsvcd__box from = nsvcd__track_box(fixed);
+  motion->low = nsvcd__f3_sub(at.low, from.high);
+  motion->high = nsvcd__f3_sub(at.high, from.low);
+}
+
 // Prepares what follows from a motion's tracks.
 static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
                                      nsvcd__track fixed) {
@@ -249,10 +263,9 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
   motion->to_fixed_quat = nsvcd__quat_inverse(q);
   motion->fixed_position = nsvcd__f3_load(first->position);
 
-  const nsvcd__box at = nsvcd__track_box(&motion->moving);
-  const nsvcd__box from = nsvcd__track_box(&motion->fixed);
-  motion->low = nsvcd__f3_sub(at.low, from.high);
-  motion->high = nsvcd__f3_sub(at.high, from.low);
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__motion_set_box(motion, &motion->moving, &motion->fixed);
 }
 
 // Prepares the motion of valid movers. Keeps the pointers to their poses.

@@ -44,7 +44,7 @@
 
 // of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__SEGMENTS 16
-// reached at 1280 degrees; beyond, segments turn more: still proven, only looser
+// reached at 1280 degrees: what turns more is cut into intervals (motion/choice)
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
@@ -271,70 +271,6 @@ static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
   const nsvcd__v sign = nsvcd__v_sign(dot);
   *cosine = nsvcd__v_mul(sign, dot);
   return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
-}
-
-// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
-static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES];
-  float sums[NSVCD__LANES] = {0};
-  float longest[NSVCD__LANES] = {0};
-  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
-    const size_t left = track->count - 1 - first;
-    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
-      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
-      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
-      const float sign = dot < 0 ? -1.0f : 1.0f;
-      float d[4];
-      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
-      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
-    }
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
-      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
-      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
-    }
-  }
-  *turn = 0;
-  *widest = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    *turn += sums[l];
-    *widest = longest[l] > *widest ? longest[l] : *widest;
-  }
-}
-
-// How many segments, and into how many parts a tick must be cut where there are too few for that
-// (else 1). Segments begin at ticks.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
-                                   uint32_t *parts) {
-  const size_t ticks = motion->ticks;
-  float turn;
-  float widest;
-  float fixed_turn = 0;
-  float fixed_widest = 0;
-  *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
-  nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
-  turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
-  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
-  const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
-  size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
-  if (wanted < 1) wanted = 1;
-  if (ticks > wanted)
-    return ticks < NSVCD__SEGMENTS    ? ticks
-           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
-                                      : wanted;
-  const float of_tick =
-      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
-  const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
-  const size_t most = greatest / ticks;
-  size_t each = wanted / ticks > least ? wanted / ticks : least;
-  each = each < most ? each : most;
-  *parts = (uint32_t)(each > 1 ? each : 1);
-  return ticks * *parts;
 }
 
 // Reads the poses of both bodies at the first `count` of these ticks; where one body moves and
@@ -620,31 +556,6 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
 }
 
-// Chooses the segments: how many, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
-  uint32_t parts;
-  nsvcd__motion_set_ticks(motion, 1);
-  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
-  search->scale = motion->scale;
-  nsvcd__motion_set_ticks(motion, parts);
-  const uint32_t segments = (uint32_t)search->segments;
-  const uint32_t each = motion->ticks / segments;
-  const uint32_t over = motion->ticks % segments;
-  uint32_t tick = 0;
-  uint32_t rest = 0;
-  for (size_t s = 0; s <= segments; s++) {
-    search->begin[s] = tick;
-    rest += over;
-    tick += each + (rest >= segments);
-    rest -= rest >= segments ? segments : 0;
-  }
-  nsvcd__motion_retime(motion, search->begin, segments);
-  const double per_tick = 1 / (double)motion->ticks;
-  for (size_t s = 0; s < segments; s++)
-    search->time[s] = (float)((double)search->begin[s] * per_tick);
-  search->time[segments] = 1;
-}
-
 // Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
@@ -664,14 +575,6 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
 }
-
-#ifndef NSVCD_NO_NETWORK
-static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                           nsvcd__search *search) {
-  nsvcd__choose_segments(motion, search);
-  nsvcd__cut_segments(motion, lengths, 0, search);
-}
-#endif
 
 // Stores a slice of chords, from lane l on. FLT_MIN keeps a chord of no length finite.
 static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 way,

@@ -46,6 +46,10 @@
 //      separate all patches at t = 0: then the seed, the surface that was looked at and the true
 //      one are, patch by patch, on one side of a plane, and agree.
 //
+// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: FREE is said
+// if it is true of all of them. Each begins at the tick at which the one before it ends, and the
+// last ends at 1. Containment is decided at t = 0 alone: 6 holds for all of the motion.
+//
 // A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
 // where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
 // are those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they
@@ -118,6 +122,11 @@
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
 #define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
+#define NSVCD__TRY 64      // units, of a long motion: for many arcs at once; and what is hard
+#define NSVCD__EASY 16     // units: what takes no more may be tried at once with others:
+#define NSVCD__LARGER 4    // times as many arcs; after a try in vain
+#define NSVCD__SMALLER 8   // times fewer, and up to
+#define NSVCD__WAIT 64     // intervals are to be easy before the next
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
@@ -303,8 +312,9 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken
+  // units that may be taken; each interval of a long motion may, if it grows
   size_t work;
+  int grows;
 } nsvcd__given;
 
 // What is asked at a time, of a motion. A search only ever makes it less: a contact is two
@@ -320,8 +330,8 @@ typedef struct nsvcd__asked {
   double clearance, measure;
   // a share of the motion, and as ticks
   double share, first;
-  // units: how many may have been taken, and how many go on after a doubt
-  size_t limit, in_doubt;
+  // units: how many may have been taken, and in the end; and how many go on after a doubt
+  size_t limit, most, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
   nsvcd__gathering gathers;
@@ -452,20 +462,20 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 
 // A limit that leaves so many units, if there are as many.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
-  const size_t left = p->work < p->given.work ? p->given.work - p->work : 0;
-  return left > units ? p->work + units : p->given.work;
+  const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
+  return left > units ? p->work + units : p->ask.most;
 }
 
 // What the search for the first contact may take; and, of the rest, what can be proven by time. The
 // last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+  return p->ask.most - p->given.work / NSVCD__IN_DOUBT;
 }
 static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
   const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
   const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
   const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->given.work - (least > usual ? least : usual);
+  return p->ask.most - (least > usual ? least : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for

@@ -1,5 +1,7 @@
-// In: a question. Out: the verdict; where asked, when they first meet, and how near they come.
+// In: a question, and segments that have been chosen: of a motion, or of an interval of it. Out: do
+// they meet; where asked, when first, and how near they come.
 #pragma once
+#include "../motion/choice.h"
 #include "loop.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -19,9 +21,10 @@ static double nsvcd__clear_until(const nsvcd__proof *p) {
                     p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
-// Makes a proof forget all that it knew of a motion.
+// Makes a proof forget all that it knew of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
+  p->known.settled = (double)p->ask.motion->from;
   p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
   p->ask.doubts_end = 0;
   p->clipped = 0;
@@ -83,10 +86,11 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 // A search whose segments have been chosen. Few questions take long, and of these some are about
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
 // before all is searched once more. Where the first contact is sought, the start comes first
-// anyway.
+// anyway. Before intervals that has been done: they are searched at once.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  p->ask.is_brief = !(p->ask.share > 0) && p->work + NSVCD__LONG < limit;
+  const int is_brief = !p->ask.motion->arcs && !(p->ask.share > 0);
+  p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
@@ -179,17 +183,22 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  if (p->known.lost) nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
+  const double from = (double)p->ask.motion->from;
+  // an interval is short: what is before it is known
+  if (p->known.lost && !p->ask.motion->arcs)
+    nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
   nsvcd__known known = p->known;
   const double end = p->ask.end;
-  if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+  if (from > 0 && known.has_contact) {
+    p->starts_free = 1;
+  } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
   } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
     const double share = p->ask.share;
     p->ask.share = 0;
-    p->ask.limit = p->given.work;
+    p->ask.limit = p->ask.most;
     const nsvcd__outcome any = nsvcd__prove_anew(p, search);
     p->ask.share = share;
     if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
@@ -199,30 +208,6 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   p->known = known;
   p->ask.end = end;
   return outcome;
-}
-
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
-  const int in_order = p->ask.share > 0;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
-  p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
-  nsvcd__choose_segments(motion, search);
-  if (nsvcd__starts_within(p)) {
-    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
-  }
-  const nsvcd__outcome outcome = in_order ? nsvcd__prove_first(p, search)
-                                          : nsvcd__prove_and_look(p, search, p->given.work);
-  const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
-  if (p->within && clear > 0) return nsvcd__is_within(p);
-  if (p->known.has_contact) return NSVCD__MEETS;
-  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
-  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // ---- the least distance
@@ -408,12 +393,14 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
-// known stays known, and what is found is added. Returns whether there was work enough.
+// known stays known, and what is found is added. Returns whether there was work enough; if so, they
+// come no nearer than p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
-  const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
+  nsvcd__proof_restart(p);
+  const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
@@ -423,23 +410,14 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   return pass != NSVCD__SPENT;
 }
 
-// Brackets the least distance over the motion, when it is known whether they come within the
-// clearance that is asked for. Where half of the work is not enough for that, the rest goes to
-// brackets that get narrower and narrower: the last one that there was work enough for stays.
-static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
-                                        nsvcd__verdict verdict, double finest) {
-  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
-  const float lifted = nsvcd__f3_length(p->ask.motion->lift);
-  const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
-  nsvcd__choose_segments(p->ask.motion, search);
-  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
-  is_named = is_named || p->known.has_contact;
-  if (is_named && !(p->high - p->low > finest)) return;
+// Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest
+// goes to brackets that get narrower and narrower: the last one that there was work enough for
+// stays.
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
   if (nsvcd__measure_once(p, search)) return;
-  p->ask.limit = p->given.work;
+  p->ask.limit = p->ask.most;
   p->ask.measure = p->high - p->low;
   while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);

@@ -1,6 +1,7 @@
 // In: a task. Out: its answer, by the network: candidates, ranked, and a logit for the best of
 // them.
 #pragma once
+#include "../motion/choice.h"
 #include "../search/search.h"
 #include "../network/winding_number.h"
 #include "task.h"

@@ -1,6 +1,7 @@
 // In: a task. Out: its answer, by proof, with the contact as places in the world.
 #pragma once
 #include "../proof/leave.h"
+#include "../proof/long.h"
 #include "../proof/normals.h"
 #include "task.h"
 
@@ -82,7 +83,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
   p->given.skin = (double)q->skin / unit;
-  p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->normal_count = 0;

@@ -1,0 +1,220 @@
+// In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
+// search is cut into *intervals*, each of which is searched anew with segments of its own: else
+// segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
+// interval begins at a knot. It has as many arcs as there is room for, a segment each, or several
+// where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is easy.
+#pragma once
+#include "segments.h"
+
+// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
+static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
+  float chord2[NSVCD__LANES];
+  float sums[NSVCD__LANES] = {0};
+  float longest[NSVCD__LANES] = {0};
+  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
+    const size_t left = track->count - 1 - first;
+    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
+      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
+      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
+      const float sign = dot < 0 ? -1.0f : 1.0f;
+      float d[4];
+      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
+      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
+    }
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
+      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
+      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
+    }
+  }
+  *turn = 0;
+  *widest = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    *turn += sums[l];
+    *widest = longest[l] > *widest ? longest[l] : *widest;
+  }
+}
+
+// How many segments, and into how many parts a tick must be cut where there are too few for that
+// (else 1). Segments begin at ticks.
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
+                                   uint32_t *parts) {
+  const size_t ticks = motion->ticks;
+  float turn;
+  float widest;
+  float fixed_turn = 0;
+  float fixed_widest = 0;
+  *parts = 1;
+  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
+  nsvcd__measure_turn(&motion->moving, &turn, &widest);
+  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
+  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
+  const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
+  size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
+  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
+  if (wanted < 1) wanted = 1;
+  if (ticks > wanted)
+    return ticks < NSVCD__SEGMENTS    ? ticks
+           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
+                                      : wanted;
+  const float of_tick =
+      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
+  const size_t most = greatest / ticks;
+  size_t each = wanted / ticks > least ? wanted / ticks : least;
+  each = each < most ? each : most;
+  *parts = (uint32_t)(each > 1 ? each : 1);
+  return ticks * *parts;
+}
+
+// Of a whole motion.
+static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
+  uint32_t parts;
+  nsvcd__motion_set_ticks(motion, 1);
+  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
+  nsvcd__motion_set_ticks(motion, parts);
+  const uint32_t segments = (uint32_t)search->segments;
+  const uint32_t each = motion->ticks / segments;
+  const uint32_t over = motion->ticks % segments;
+  uint32_t tick = 0;
+  uint32_t rest = 0;
+  for (size_t s = 0; s <= segments; s++) {
+    search->begin[s] = tick;
+    rest += over;
+    tick += each + (rest >= segments);
+    rest -= rest >= segments ? segments : 0;
+  }
+  nsvcd__motion_retime(motion, search->begin, segments);
+}
+
+// The ticks of a motion that is cut into intervals: the same for all of them, and so many that an
+// arc can be cut.
+static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
+  uint32_t parts = NSVCD__MAX_SEGMENTS;
+  nsvcd__motion_set_ticks(motion, 1);
+  while (motion->ticks > 0xffffffffu / parts) parts /= 2;
+  nsvcd__motion_set_ticks(motion, parts);
+  nsvcd__motion_set_times(motion);
+}
+
+// How far a track turns from one tick to another, between two poses of it: about, radians.
+static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32_t to) {
+  if (track->count == 1) return 0;
+  const uint32_t k = nsvcd__pose_before(track, from);
+  const nsvcd__quat a = nsvcd__quat_load(track->poses[k].rotation);
+  const nsvcd__quat b = nsvcd__quat_load(track->poses[k + 1].rotation);
+  const float cosine = fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w);
+  const float chord = sqrtf(2 * (cosine < 1 ? 1 - cosine : 0));
+  const uint32_t length = nsvcd__tick_of(track, k + 1) - nsvcd__tick_of(track, k);
+  return (2 + 0.1f * chord * chord) * chord * (float)(to - from) / (float)length;
+}
+
+// Of an interval. A try has several arcs in each segment, and its end may be that of the motion.
+static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *search) {
+  const size_t most = search->most_segments;
+  const int is_try = motion->arcs > 1;
+  const float step = motion->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
+  size_t segments = 0;
+  nsvcd__motion_set_fine_ticks(motion);
+  search->begin[0] = motion->from;
+  while (segments < most && search->begin[segments] < motion->ticks) {
+    const uint32_t from = search->begin[segments];
+    uint32_t to = from;
+    for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
+      to = nsvcd__next_knot(motion, to);
+    const float turn = nsvcd__turn_within(&motion->moving, from, to) +
+                       nsvcd__turn_within(&motion->fixed, from, to);
+    const float steps = ceilf(turn / step - 0.1f);
+    const size_t turns = is_try || !(steps > 1) ? 1 : (size_t)steps;
+    if (segments > 0 && segments + turns > most) break;
+    const uint32_t parts = (uint32_t)(turns < most ? turns : most);
+    const uint64_t length = to - from;
+    for (uint32_t n = 1; n <= parts; n++)
+      search->begin[++segments] = from + (uint32_t)(length * n / parts);
+  }
+  search->segments = segments;
+}
+
+// Chooses the segments: how many, and when they begin.
+static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
+  if (motion->arcs > 0)
+    nsvcd__choose_in_interval(motion, search);
+  else
+    nsvcd__choose_in_all(motion, search);
+  search->scale = motion->scale;
+  const double per_tick = 1 / (double)motion->ticks;
+  for (size_t s = 0; s <= search->segments; s++)
+    search->time[s] = (float)((double)search->begin[s] * per_tick);
+}
+
+// ---- intervals
+
+// No more knots than this come after a tick.
+static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
+  const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
+  const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
+  return moving + fixed;
+}
+
+// The interval that begins at a tick, with so many arcs in a segment, or fewer where that is all
+// that is left of the motion. Chooses its segments.
+static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
+                                   uint32_t arcs) {
+  const size_t most = search->most_segments;
+  const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
+  motion->from = from;
+  motion->arcs = arcs < left ? arcs : (uint32_t)left;
+  nsvcd__choose_segments(motion, search);
+}
+
+// All of a motion.
+static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__choose_segments(motion, search);
+}
+
+// Is a motion too long for one search? The segments of one that is not are chosen.
+static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
+  const size_t most = search->most_segments;
+  const size_t knots = nsvcd__knots_after(motion, 0);
+  if (knots <= most) {
+    nsvcd__choose_all(motion, search);
+    if (knots < 2 || search->segments < most) return 0;
+  }
+  nsvcd__choose_interval(motion, search, 0, 1);
+  if (search->begin[search->segments] < motion->ticks) return 1;
+  nsvcd__choose_all(motion, search);
+  return 0;
+}
+
+// The poses of a track that bear on an interval. Their ticks mean nothing.
+static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from,
+                                        uint32_t until) {
+  nsvcd__track part = *track;
+  const uint32_t first = nsvcd__pose_before(track, from);
+  if (track->count == 1) return part;
+  part.poses += first;
+  part.count = nsvcd__pose_before(track, until - 1) + 2 - first;
+  return part;
+}
+
+// As nsvcd__motion_gap, of an interval.
+static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uint32_t until) {
+  nsvcd__motion part = *motion;
+  const nsvcd__track moving = nsvcd__track_within(&motion->moving, from, until);
+  const nsvcd__track fixed = nsvcd__track_within(&motion->fixed, from, until);
+  nsvcd__motion_set_box(&part, &moving, &fixed);
+  return nsvcd__motion_gap(&part);
+}
+
+#ifndef NSVCD_NO_NETWORK
+static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+                                           nsvcd__search *search) {
+  nsvcd__choose_all(motion, search);
+  nsvcd__cut_segments(motion, lengths, 0, search);
+}
+#endif
