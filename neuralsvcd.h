@@ -203,6 +203,7 @@
 //   motion: where bodies are
 //     motion          the moving body's poses as the fixed one sees them
 //     segments        how far a point strays from a straight line
+//     choice          which segments a motion is cut into, and a long one which intervals
 //   search: which patches may meet
 //     apart           pairs of patches that a plane parts, by their tips
 //     intervals       when the balls of two patches meet, for the network
@@ -220,7 +221,8 @@
 //     items           an item: parted by planes, or by its triangles, or in contact
 //     containment     what is inside of what, exactly
 //     loop            the loop: all that a search finds is settled
-//     verdict         the verdict, the first contact, the least distance
+//     verdict         what one search says: do they meet, when first, how near
+//     long            the verdict, whatever the length of the motion
 //     leave           leaving a contact, and how deep it is
 //     normals         a contact's normal, against the motion
 //   network: an opinion
@@ -281,6 +283,9 @@
 //                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
 //                     its own: see plan/problem
+//   interval          a part of a long motion, which is searched by itself; in search/intervals, a
+//                     time in which two balls meet
+//   try               a search of a larger interval with few units
 //   chord             of a point: the straight line from its start to its end in a segment
 //   deviation         how far a point may stray from its chord: by bulge (rotation) and drift
 //   candidate         two patches and a contact interval, in which their balls meet
@@ -970,15 +975,19 @@ typedef struct nsvcd_question {
   // FIRST: 1: up to four contacts, which hold the body, are told, where else one is
   int manifold;
   nsvcd_method method;
-  // units that a proof may take, about; 0: NSVCD_DEFAULT_WORK. A unit is a plane sought for two
-  // patches, 16 triangles against the box of 16, one of them against these, two triangles at one
-  // time, or a ray against 16 or one. An eighth is left once surfaces have come too near to tell.
-  // Of FIRST an eighth is kept for what has not been decided by then: what of the motion is free
-  // until when, and whether they meet at all. A manifold, and the place of a lifted body, may take
-  // an eighth each besides. Before that, a question takes as many units whatever is allowed
+  // units that a proof may take, about. A unit is a plane sought for two patches, 16 triangles
+  // against the box of 16, one of them against these, two triangles at one time, or a ray against
+  // 16 or one. 0: NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see
+  // nsvcd_sweep), so that it grows with the length. What is named is for all of the motion, in the
+  // order of time: when it ends, what was proven until then is told; of DISTANCE each interval has
+  // the share that is its part of the time left. An eighth is left once surfaces have come too
+  // near to tell. Of FIRST an eighth is kept for what has not been decided by then: what of the
+  // motion is free until when, and whether they meet at all. A manifold, and the place of a lifted
+  // body, may take an eighth each besides. Before that, a question takes as many units whatever is
+  // allowed
   size_t work;
-  // a motion is cut into at most so many, a multiple of 16 up to 64; 0: 64. Fewer take less memory;
-  // what turns by more than 20 degrees in one of them takes longer to prove
+  // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
+  // 64; 0: 64. Fewer take less memory, and make intervals shorter
   size_t segments;
   // where it is the network that answers. It knows nothing of FIRST, a clearance or a skin, and has
   // no bounds of a DISTANCE: `to` is a proof's
@@ -1165,13 +1174,22 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question);
 // eighth, or half of DISTANCE. By FIRST time.low rises with it, and is 0 only where the first
 // moments of the motion take more than a sixteenth of it.
 //
-// What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion has S segments: 16 or so
-// up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3 S tests of 16
-// spheres against one. Of bodies of more than 512 patches only those groups count that the other
-// body comes near, and some 16 tests more for each level of spheres and each 16 spheres of it that
-// it comes near. Then a proof takes question.work units. The network takes 18 S such tests more, as
-// it looks at a first pair of groups twice, the tiny decoder on 12 K pairs and the chosen one on K
-// (tiny alone: on 3 K), and 32 distances for each patch.
+// A motion of any length, up to NSVCD_MAX_POSES poses of each body, is one question, and takes no
+// more memory than a short one. If it has more than 64 poses, or turns by more than 1,280 degrees,
+// it is searched interval by interval, in the order of time: as many arcs from pose to pose as make
+// 64 segments, or question.segments, of at most 20 degrees each. What is easy is searched in
+// intervals that are much larger. HIT looks at both ends first. FIRST ends with the interval that
+// has the first contact. Where an interval is left undecided, those after it are only asked whether
+// they meet at all. Times are told as floats: of 65,536 poses they resolve a 250th of the way from
+// one to the next. More poses than the limit are refused by NSVCD_ERROR_POSES.
+//
+// What it costs: Ga and Gb are the bodies' groups of 16 patches. A motion, or an interval, has S
+// segments: 16 or so up to 320 degrees of turn, 64 at most. The search takes at most 18 S Ga Gb + 3
+// S tests of 16 spheres against one. Of bodies of more than 512 patches only those groups count
+// that the other body comes near, and some 16 tests more for each level of spheres and each 16
+// spheres of it that it comes near. Then a proof takes question.work units. The network takes 18 S
+// such tests more, as it looks at a first pair of groups twice, the tiny decoder on 12 K pairs and
+// the chosen one on K (tiny alone: on 3 K), and 32 distances for each patch.
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer);
 
@@ -9654,6 +9672,11 @@ typedef struct nsvcd__motion {
   nsvcd__f3 low, high;
   // by which the moving body is held off its poses, as the fixed one sees it, in its units
   nsvcd__f3 lift;
+  // of an interval: the tick at which it begins, and how many arcs a segment has; 0, 0: it is all
+  // of the motion
+  uint32_t from, arcs;
+  // do its segments turn less than others?
+  int is_fine;
 } nsvcd__motion;
 
 // Is it a length that may be told, or 0?
@@ -9814,6 +9837,15 @@ static nsvcd__box nsvcd__track_box(const nsvcd__track *track) {
   return box;
 }
 
+// Prepares the box about the way of the moving body's origin as the fixed one's sees it.
+static void nsvcd__motion_set_box(nsvcd__motion *motion, const nsvcd__track *moving,
+                                  const nsvcd__track *fixed) {
+  const nsvcd__box at = nsvcd__track_box(moving);
+  const nsvcd__box from = nsvcd__track_box(fixed);
+  motion->low = nsvcd__f3_sub(at.low, from.high);
+  motion->high = nsvcd__f3_sub(at.high, from.low);
+}
+
 // Prepares what follows from a motion's tracks.
 static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
                                      nsvcd__track fixed) {
@@ -9829,10 +9861,9 @@ static void nsvcd__motion_set_tracks(nsvcd__motion *motion, nsvcd__track moving,
   motion->to_fixed_quat = nsvcd__quat_inverse(q);
   motion->fixed_position = nsvcd__f3_load(first->position);
 
-  const nsvcd__box at = nsvcd__track_box(&motion->moving);
-  const nsvcd__box from = nsvcd__track_box(&motion->fixed);
-  motion->low = nsvcd__f3_sub(at.low, from.high);
-  motion->high = nsvcd__f3_sub(at.high, from.low);
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__motion_set_box(motion, &motion->moving, &motion->fixed);
 }
 
 // Prepares the motion of valid movers. Keeps the pointers to their poses.
@@ -10030,7 +10061,7 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 
 // of a motion, as long as none then turns by more than NSVCD__SEGMENT_TURN
 #define NSVCD__SEGMENTS 16
-// reached at 1280 degrees; beyond, segments turn more: still proven, only looser
+// reached at 1280 degrees: what turns more is cut into intervals (motion/choice)
 #define NSVCD__MAX_SEGMENTS 64
 #define NSVCD__SEGMENT_TURN 0.349f  // radians, 20 degrees
 #define NSVCD__FINE_TURN 0.131f     // 7.5 degrees: nothing is gained by shorter segments
@@ -10257,70 +10288,6 @@ static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
   const nsvcd__v sign = nsvcd__v_sign(dot);
   *cosine = nsvcd__v_mul(sign, dot);
   return nsvcd__v3_scale(nsvcd__v_turn_between(a, b), sign);
-}
-
-// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
-static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
-  float chord2[NSVCD__LANES];
-  float sums[NSVCD__LANES] = {0};
-  float longest[NSVCD__LANES] = {0};
-  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
-    const size_t left = track->count - 1 - first;
-    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
-      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
-      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
-      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
-      const float sign = dot < 0 ? -1.0f : 1.0f;
-      float d[4];
-      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
-      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
-    }
-    NSVCD__EACH_SLICE(l) {
-      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
-      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
-      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
-    }
-  }
-  *turn = 0;
-  *widest = 0;
-  for (size_t l = 0; l < NSVCD__LANES; l++) {
-    *turn += sums[l];
-    *widest = longest[l] > *widest ? longest[l] : *widest;
-  }
-}
-
-// How many segments, and into how many parts a tick must be cut where there are too few for that
-// (else 1). Segments begin at ticks.
-static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
-                                   uint32_t *parts) {
-  const size_t ticks = motion->ticks;
-  float turn;
-  float widest;
-  float fixed_turn = 0;
-  float fixed_widest = 0;
-  *parts = 1;
-  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
-  nsvcd__measure_turn(&motion->moving, &turn, &widest);
-  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
-  turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
-  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
-  const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
-  size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
-  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
-  if (wanted < 1) wanted = 1;
-  if (ticks > wanted)
-    return ticks < NSVCD__SEGMENTS    ? ticks
-           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
-                                      : wanted;
-  const float of_tick =
-      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
-  const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
-  const size_t most = greatest / ticks;
-  size_t each = wanted / ticks > least ? wanted / ticks : least;
-  each = each < most ? each : most;
-  *parts = (uint32_t)(each > 1 ? each : 1);
-  return ticks * *parts;
 }
 
 // Reads the poses of both bodies at the first `count` of these ticks; where one body moves and
@@ -10606,31 +10573,6 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
   for (size_t l = count; l < NSVCD__LANES; l++) out->spread[l] = NSVCD__NOWHERE;
 }
 
-// Chooses the segments: how many, and when they begin.
-static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
-  uint32_t parts;
-  nsvcd__motion_set_ticks(motion, 1);
-  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
-  search->scale = motion->scale;
-  nsvcd__motion_set_ticks(motion, parts);
-  const uint32_t segments = (uint32_t)search->segments;
-  const uint32_t each = motion->ticks / segments;
-  const uint32_t over = motion->ticks % segments;
-  uint32_t tick = 0;
-  uint32_t rest = 0;
-  for (size_t s = 0; s <= segments; s++) {
-    search->begin[s] = tick;
-    rest += over;
-    tick += each + (rest >= segments);
-    rest -= rest >= segments ? segments : 0;
-  }
-  nsvcd__motion_retime(motion, search->begin, segments);
-  const double per_tick = 1 / (double)motion->ticks;
-  for (size_t s = 0; s < segments; s++)
-    search->time[s] = (float)((double)search->begin[s] * per_tick);
-  search->time[segments] = 1;
-}
-
 // Fills the blocks: the chosen segments' poses in the fixed body's frame, and deviations. lengths:
 // the bodies' extents; clearance: spheres that come so near are to count as meeting.
 static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, float clearance,
@@ -10650,14 +10592,6 @@ static void nsvcd__cut_segments(const nsvcd__motion *motion, float lengths, floa
       search->turn[first + l + 1] = search->turn[first + l] + turn[l];
   }
 }
-
-#ifndef NSVCD_NO_NETWORK
-static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                           nsvcd__search *search) {
-  nsvcd__choose_segments(motion, search);
-  nsvcd__cut_segments(motion, lengths, 0, search);
-}
-#endif
 
 // Stores a slice of chords, from lane l on. FLT_MIN keeps a chord of no length finite.
 static void nsvcd__chords_store(nsvcd__chords *c, size_t l, nsvcd__v3 start, nsvcd__v3 way,
@@ -10777,6 +10711,226 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
   }
   return met & wanted;
 }
+
+// ----------------------------------------------------------------------------------- motion/choice
+// In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
+// search is cut into *intervals*, each of which is searched anew with segments of its own: else
+// segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
+// interval begins at a knot. It has as many arcs as there is room for, a segment each, or several
+// where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is easy.
+
+// Bounds of the total length of a track's rotation arcs, radians, and of the longest.
+static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
+  float chord2[NSVCD__LANES];
+  float sums[NSVCD__LANES] = {0};
+  float longest[NSVCD__LANES] = {0};
+  for (size_t first = 0; first + 1 < track->count; first += NSVCD__LANES) {
+    const size_t left = track->count - 1 - first;
+    const size_t count = left < NSVCD__LANES ? left : NSVCD__LANES;
+    for (size_t l = 0; l < NSVCD__LANES; l++) {
+      const float *a = track->poses[first + (l < count ? l : count - 1)].rotation;
+      const float *b = track->poses[first + (l < count ? l + 1 : count - 1)].rotation;
+      const float dot = (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
+      const float sign = dot < 0 ? -1.0f : 1.0f;
+      float d[4];
+      for (size_t k = 0; k < 4; k++) d[k] = sign * b[k] - a[k];
+      chord2[l] = (d[0] * d[0] + d[1] * d[1]) + (d[2] * d[2] + d[3] * d[3]);
+    }
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v arc = nsvcd__v_arc_bound(nsvcd__v_load(chord2 + l));
+      nsvcd__v_store(sums + l, nsvcd__v_add(nsvcd__v_load(sums + l), arc));
+      nsvcd__v_store(longest + l, nsvcd__v_max(nsvcd__v_load(longest + l), arc));
+    }
+  }
+  *turn = 0;
+  *widest = 0;
+  for (size_t l = 0; l < NSVCD__LANES; l++) {
+    *turn += sums[l];
+    *widest = longest[l] > *widest ? longest[l] : *widest;
+  }
+}
+
+// How many segments, and into how many parts a tick must be cut where there are too few for that
+// (else 1). Segments begin at ticks.
+static size_t nsvcd__segment_count(const nsvcd__motion *motion, size_t greatest,
+                                   uint32_t *parts) {
+  const size_t ticks = motion->ticks;
+  float turn;
+  float widest;
+  float fixed_turn = 0;
+  float fixed_widest = 0;
+  *parts = 1;
+  if (motion->moving.count == 1 && !motion->fixed_moves) return 1;
+  nsvcd__measure_turn(&motion->moving, &turn, &widest);
+  if (motion->fixed_moves) nsvcd__measure_turn(&motion->fixed, &fixed_turn, &fixed_widest);
+  turn = turn + fixed_turn < 1e3f ? turn + fixed_turn : 1e3f;
+  const size_t coarse = (size_t)ceilf(turn / NSVCD__SEGMENT_TURN);
+  const size_t fine = (size_t)ceilf(turn / NSVCD__FINE_TURN);
+  size_t wanted = fine < NSVCD__SEGMENTS ? fine : NSVCD__SEGMENTS;
+  if (wanted < coarse) wanted = coarse < greatest ? coarse : greatest;
+  if (wanted < 1) wanted = 1;
+  if (ticks > wanted)
+    return ticks < NSVCD__SEGMENTS    ? ticks
+           : wanted < NSVCD__SEGMENTS ? NSVCD__SEGMENTS
+                                      : wanted;
+  const float of_tick =
+      widest / (float)motion->moving.ticks + fixed_widest / (float)motion->fixed.ticks;
+  const size_t least = (size_t)ceilf(of_tick / NSVCD__SEGMENT_TURN);
+  const size_t most = greatest / ticks;
+  size_t each = wanted / ticks > least ? wanted / ticks : least;
+  each = each < most ? each : most;
+  *parts = (uint32_t)(each > 1 ? each : 1);
+  return ticks * *parts;
+}
+
+// Of a whole motion.
+static void nsvcd__choose_in_all(nsvcd__motion *motion, nsvcd__search *search) {
+  uint32_t parts;
+  nsvcd__motion_set_ticks(motion, 1);
+  search->segments = nsvcd__segment_count(motion, search->most_segments, &parts);
+  nsvcd__motion_set_ticks(motion, parts);
+  const uint32_t segments = (uint32_t)search->segments;
+  const uint32_t each = motion->ticks / segments;
+  const uint32_t over = motion->ticks % segments;
+  uint32_t tick = 0;
+  uint32_t rest = 0;
+  for (size_t s = 0; s <= segments; s++) {
+    search->begin[s] = tick;
+    rest += over;
+    tick += each + (rest >= segments);
+    rest -= rest >= segments ? segments : 0;
+  }
+  nsvcd__motion_retime(motion, search->begin, segments);
+}
+
+// The ticks of a motion that is cut into intervals: the same for all of them, and so many that an
+// arc can be cut.
+static void nsvcd__motion_set_fine_ticks(nsvcd__motion *motion) {
+  uint32_t parts = NSVCD__MAX_SEGMENTS;
+  nsvcd__motion_set_ticks(motion, 1);
+  while (motion->ticks > 0xffffffffu / parts) parts /= 2;
+  nsvcd__motion_set_ticks(motion, parts);
+  nsvcd__motion_set_times(motion);
+}
+
+// How far a track turns from one tick to another, between two poses of it: about, radians.
+static float nsvcd__turn_within(const nsvcd__track *track, uint32_t from, uint32_t to) {
+  if (track->count == 1) return 0;
+  const uint32_t k = nsvcd__pose_before(track, from);
+  const nsvcd__quat a = nsvcd__quat_load(track->poses[k].rotation);
+  const nsvcd__quat b = nsvcd__quat_load(track->poses[k + 1].rotation);
+  const float cosine = fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w);
+  const float chord = sqrtf(2 * (cosine < 1 ? 1 - cosine : 0));
+  const uint32_t length = nsvcd__tick_of(track, k + 1) - nsvcd__tick_of(track, k);
+  return (2 + 0.1f * chord * chord) * chord * (float)(to - from) / (float)length;
+}
+
+// Of an interval. A try has several arcs in each segment, and its end may be that of the motion.
+static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *search) {
+  const size_t most = search->most_segments;
+  const int is_try = motion->arcs > 1;
+  const float step = motion->is_fine ? NSVCD__FINE_TURN : NSVCD__SEGMENT_TURN;
+  size_t segments = 0;
+  nsvcd__motion_set_fine_ticks(motion);
+  search->begin[0] = motion->from;
+  while (segments < most && search->begin[segments] < motion->ticks) {
+    const uint32_t from = search->begin[segments];
+    uint32_t to = from;
+    for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
+      to = nsvcd__next_knot(motion, to);
+    const float turn = nsvcd__turn_within(&motion->moving, from, to) +
+                       nsvcd__turn_within(&motion->fixed, from, to);
+    const float steps = ceilf(turn / step - 0.1f);
+    const size_t turns = is_try || !(steps > 1) ? 1 : (size_t)steps;
+    if (segments > 0 && segments + turns > most) break;
+    const uint32_t parts = (uint32_t)(turns < most ? turns : most);
+    const uint64_t length = to - from;
+    for (uint32_t n = 1; n <= parts; n++)
+      search->begin[++segments] = from + (uint32_t)(length * n / parts);
+  }
+  search->segments = segments;
+}
+
+// Chooses the segments: how many, and when they begin.
+static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search) {
+  if (motion->arcs > 0)
+    nsvcd__choose_in_interval(motion, search);
+  else
+    nsvcd__choose_in_all(motion, search);
+  search->scale = motion->scale;
+  const double per_tick = 1 / (double)motion->ticks;
+  for (size_t s = 0; s <= search->segments; s++)
+    search->time[s] = (float)((double)search->begin[s] * per_tick);
+}
+
+// ---- intervals
+
+// No more knots than this come after a tick.
+static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
+  const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
+  const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
+  return moving + fixed;
+}
+
+// The interval that begins at a tick, with so many arcs in a segment, or fewer where that is all
+// that is left of the motion. Chooses its segments.
+static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
+                                   uint32_t arcs) {
+  const size_t most = search->most_segments;
+  const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
+  motion->from = from;
+  motion->arcs = arcs < left ? arcs : (uint32_t)left;
+  nsvcd__choose_segments(motion, search);
+}
+
+// All of a motion.
+static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__choose_segments(motion, search);
+}
+
+// Is a motion too long for one search? The segments of one that is not are chosen.
+static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
+  const size_t most = search->most_segments;
+  const size_t knots = nsvcd__knots_after(motion, 0);
+  if (knots <= most) {
+    nsvcd__choose_all(motion, search);
+    if (knots < 2 || search->segments < most) return 0;
+  }
+  nsvcd__choose_interval(motion, search, 0, 1);
+  if (search->begin[search->segments] < motion->ticks) return 1;
+  nsvcd__choose_all(motion, search);
+  return 0;
+}
+
+// The poses of a track that bear on an interval. Their ticks mean nothing.
+static nsvcd__track nsvcd__track_within(const nsvcd__track *track, uint32_t from,
+                                        uint32_t until) {
+  nsvcd__track part = *track;
+  const uint32_t first = nsvcd__pose_before(track, from);
+  if (track->count == 1) return part;
+  part.poses += first;
+  part.count = nsvcd__pose_before(track, until - 1) + 2 - first;
+  return part;
+}
+
+// As nsvcd__motion_gap, of an interval.
+static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uint32_t until) {
+  nsvcd__motion part = *motion;
+  const nsvcd__track moving = nsvcd__track_within(&motion->moving, from, until);
+  const nsvcd__track fixed = nsvcd__track_within(&motion->fixed, from, until);
+  nsvcd__motion_set_box(&part, &moving, &fixed);
+  return nsvcd__motion_gap(&part);
+}
+
+#ifndef NSVCD_NO_NETWORK
+static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+                                           nsvcd__search *search) {
+  nsvcd__choose_all(motion, search);
+  nsvcd__cut_segments(motion, lengths, 0, search);
+}
+#endif
 
 // ================================================================== search: which patches may meet
 
@@ -11821,6 +11975,10 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //      separate all patches at t = 0: then the seed, the surface that was looked at and the true
 //      one are, patch by patch, on one side of a plane, and agree.
 //
+// A long motion is cut into intervals (motion/choice), and 2 to 5 are applied to each: FREE is said
+// if it is true of all of them. Each begins at the tick at which the one before it ends, and the
+// last ends at 1. Containment is decided at t = 0 alone: 6 holds for all of the motion.
+//
 // A witness is a pair of the meshes' triangles that share a point at the true pose, in double, or,
 // where a clearance is asked for, come within it. In a coarse body, or one that was scaled, they
 // are those of a mesh that is a little off (nsvcd__off_mesh). Faces that are parallel when they
@@ -11890,6 +12048,11 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__LOOK 1000
 #define NSVCD__GLANCE 200
 #define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
+#define NSVCD__TRY 64      // units, of a long motion: for many arcs at once; and what is hard
+#define NSVCD__EASY 16     // units: what takes no more may be tried at once with others:
+#define NSVCD__LARGER 4    // times as many arcs; after a try in vain
+#define NSVCD__SMALLER 8   // times fewer, and up to
+#define NSVCD__WAIT 64     // intervals are to be easy before the next
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
@@ -12075,8 +12238,9 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken
+  // units that may be taken; each interval of a long motion may, if it grows
   size_t work;
+  int grows;
 } nsvcd__given;
 
 // What is asked at a time, of a motion. A search only ever makes it less: a contact is two
@@ -12092,8 +12256,8 @@ typedef struct nsvcd__asked {
   double clearance, measure;
   // a share of the motion, and as ticks
   double share, first;
-  // units: how many may have been taken, and how many go on after a doubt
-  size_t limit, in_doubt;
+  // units: how many may have been taken, and in the end; and how many go on after a doubt
+  size_t limit, most, in_doubt;
   // a try: there is a longer one after it
   int is_brief;
   nsvcd__gathering gathers;
@@ -12224,20 +12388,20 @@ static void nsvcd__forget(nsvcd__memo *memo) {
 
 // A limit that leaves so many units, if there are as many.
 static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
-  const size_t left = p->work < p->given.work ? p->given.work - p->work : 0;
-  return left > units ? p->work + units : p->given.work;
+  const size_t left = p->work < p->ask.most ? p->ask.most - p->work : 0;
+  return left > units ? p->work + units : p->ask.most;
 }
 
 // What the search for the first contact may take; and, of the rest, what can be proven by time. The
 // last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->given.work - p->given.work / NSVCD__IN_DOUBT;
+  return p->ask.most - p->given.work / NSVCD__IN_DOUBT;
 }
 static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
   const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
   const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
   const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->given.work - (least > usual ? least : usual);
+  return p->ask.most - (least > usual ? least : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
@@ -15436,7 +15600,8 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
 #endif  // NSVCD_NO_PROOF
 
 // ----------------------------------------------------------------------------------- proof/verdict
-// In: a question. Out: the verdict; where asked, when they first meet, and how near they come.
+// In: a question, and segments that have been chosen: of a motion, or of an interval of it. Out: do
+// they meet; where asked, when first, and how near they come.
 
 #ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
@@ -15455,9 +15620,10 @@ static double nsvcd__clear_until(const nsvcd__proof *p) {
                     p->known.lost ? p->known.settled : NSVCD__NEVER);
 }
 
-// Makes a proof forget all that it knew of a motion.
+// Makes a proof forget all that it knew of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
+  p->known.settled = (double)p->ask.motion->from;
   p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
   p->ask.doubts_end = 0;
   p->clipped = 0;
@@ -15519,10 +15685,11 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 // A search whose segments have been chosen. Few questions take long, and of these some are about
 // bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
 // before all is searched once more. Where the first contact is sought, the start comes first
-// anyway.
+// anyway. Before intervals that has been done: they are searched at once.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  p->ask.is_brief = !(p->ask.share > 0) && p->work + NSVCD__LONG < limit;
+  const int is_brief = !p->ask.motion->arcs && !(p->ask.share > 0);
+  p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
   if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
@@ -15615,17 +15782,22 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
 // then it is asked whether they meet at all.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
-  if (p->known.lost) nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
+  const double from = (double)p->ask.motion->from;
+  // an interval is short: what is before it is known
+  if (p->known.lost && !p->ask.motion->arcs)
+    nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
   nsvcd__known known = p->known;
   const double end = p->ask.end;
-  if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
+  if (from > 0 && known.has_contact) {
+    p->starts_free = 1;
+  } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
   } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
     const double share = p->ask.share;
     p->ask.share = 0;
-    p->ask.limit = p->given.work;
+    p->ask.limit = p->ask.most;
     const nsvcd__outcome any = nsvcd__prove_anew(p, search);
     p->ask.share = share;
     if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
@@ -15635,30 +15807,6 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   p->known = known;
   p->ask.end = end;
   return outcome;
-}
-
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
-  nsvcd__motion *motion = p->ask.motion;
-  const int in_order = p->ask.share > 0;
-  const float lifted = nsvcd__f3_length(motion->lift);
-  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
-  p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
-  nsvcd__choose_segments(motion, search);
-  if (nsvcd__starts_within(p)) {
-    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
-    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
-  }
-  const nsvcd__outcome outcome = in_order ? nsvcd__prove_first(p, search)
-                                          : nsvcd__prove_and_look(p, search, p->given.work);
-  const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
-  if (p->within && clear > 0) return nsvcd__is_within(p);
-  if (p->known.has_contact) return NSVCD__MEETS;
-  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
-  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
 }
 
 // ---- the least distance
@@ -15844,12 +15992,14 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
 }
 
 // One pass: a search whose question shrinks, for a bracket as narrow as p->ask.measure. What was
-// known stays known, and what is found is added. Returns whether there was work enough.
+// known stays known, and what is found is added. Returns whether there was work enough; if so, they
+// come no nearer than p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
   const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
-  const nsvcd__outcome pass = nsvcd__prove_anew(p, search);
+  nsvcd__proof_restart(p);
+  const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
   if (p->known.has_contact) {
     known.has_contact = 1;
     known.found = p->known.found;
@@ -15859,28 +16009,238 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   return pass != NSVCD__SPENT;
 }
 
-// Brackets the least distance over the motion, when it is known whether they come within the
-// clearance that is asked for. Where half of the work is not enough for that, the rest goes to
-// brackets that get narrower and narrower: the last one that there was work enough for stays.
-static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
-                                        nsvcd__verdict verdict, double finest) {
-  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
-  const float lifted = nsvcd__f3_length(p->ask.motion->lift);
-  const float gap = nsvcd__motion_gap(p->ask.motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
-  nsvcd__choose_segments(p->ask.motion, search);
-  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
-  is_named = is_named || p->known.has_contact;
-  if (is_named && !(p->high - p->low > finest)) return;
+// Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest
+// goes to brackets that get narrower and narrower: the last one that there was work enough for
+// stays.
+static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest) {
   p->ask.measure = finest;
   p->ask.limit = nsvcd__limit_after(p, p->given.work / 2);
   if (nsvcd__measure_once(p, search)) return;
-  p->ask.limit = p->given.work;
+  p->ask.limit = p->ask.most;
   p->ask.measure = p->high - p->low;
   while (!p->wide && p->ask.measure > finest) {
     p->ask.measure = nsvcd__max(finest, p->ask.measure / NSVCD__FINER);
     p->wide = !nsvcd__measure_once(p, search);
   }
+}
+#endif  // NSVCD_NO_PROOF
+
+// -------------------------------------------------------------------------------------- proof/long
+// In: a question about a motion of any length. Out: the verdict; where asked, when they first meet,
+// and how near they come.
+//
+// What is too long for one search (motion/choice) is searched interval by interval, in the order of
+// time, each as if it were all of the motion. The memory is that of one. The motion is free if all
+// intervals are; containment is decided once, at t = 0, for what is inside of what later on, and
+// not then, has crossed a surface in between. A contact in any interval answers a yes or no: so
+// the ends of the motion, where most are, are looked at first. The first contact is in the first
+// interval that has one; what could not be settled before is the end of what is proven, and from
+// there on it is only asked whether they meet at all. The least distance is found as contacts lower
+// it: later intervals need only stay beyond.
+//
+// Most of a long motion is far from anything, or easy. So a *try* is about many more arcs than an
+// interval has, and takes a few units: if these are not enough it is searched in smaller parts.
+
+#ifndef NSVCD_NO_PROOF
+// A way through a motion: how many intervals in a row have been easy, and how many are to be before
+// the next try.
+typedef struct nsvcd__pace {
+  uint32_t easy, wait;
+} nsvcd__pace;
+
+// Chooses the first interval: all of the motion, as a try.
+static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *search) {
+  const nsvcd__pace pace = {0, 1};
+  nsvcd__choose_interval(motion, search, 0, (uint32_t)-1);
+  return pace;
+}
+
+// Chooses the one that comes after: larger where those before took little, with segments that turn
+// less where the one before took much; where a try was in vain, a part of it.
+static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
+                                 int is_settled, size_t units, nsvcd__pace *pace) {
+  uint32_t arcs = motion->arcs;
+  if (!is_settled) {
+    arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
+    if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
+    pace->easy = 0;
+  } else if (arcs > 1) {
+    arcs *= NSVCD__LARGER;
+    pace->wait = 1;
+  } else {
+    pace->easy = units <= NSVCD__EASY ? pace->easy + 1 : 0;
+    if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
+    motion->is_fine = units > NSVCD__TRY;
+  }
+  if (is_settled) motion->from = until;
+  if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
+}
+
+// How near the surfaces come in the interval that is chosen, at least, by where the bodies are.
+static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
+  const nsvcd__motion *motion = p->ask.motion;
+  const float lifted = 1.0001f * nsvcd__f3_length(motion->lift);
+  return nsvcd__interval_gap(motion, motion->from, until) - p->given.lengths - lifted;
+}
+
+// Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
+// contact will do.
+static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
+                                            double share) {
+  const int is_try = p->ask.motion->arcs > 1;
+  p->ask.is_brief = is_try;
+  p->ask.share = is_try ? 0 : share;
+  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
+  if (p->ask.share > 0) return nsvcd__prove_first(p, search);
+  return nsvcd__prove_motion(p, search);
+}
+
+// A look at the ends of a motion.
+static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
+  const size_t share = p->given.work / NSVCD__IN_DOUBT;
+  const size_t units = share < NSVCD__LOOK ? share : NSVCD__LOOK;
+  return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
+}
+
+// A motion interval by interval, until a contact answers. What is known in the end is that of the
+// first interval that was not settled, and a contact.
+static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
+                                                          nsvcd__search *search) {
+  nsvcd__motion *motion = p->ask.motion;
+  const double asked = p->ask.share;
+  nsvcd__outcome outcome = NSVCD__SETTLED;
+  nsvcd__known open;
+  double end = NSVCD__NEVER;
+  double share = asked;
+  int is_open = 0;
+  if (!(asked > 0) && nsvcd__meets_at_ends(p, search)) return NSVCD__ANSWERED;
+  nsvcd__pace pace = nsvcd__first_interval(motion, search);
+  while (motion->from < motion->ticks) {
+    const uint32_t until = search->begin[search->segments];
+    const int is_try = motion->arcs > 1;
+    const size_t before = p->work;
+    if (p->given.grows) p->ask.most = p->work + p->given.work;
+    nsvcd__proof_restart(p);
+    outcome = NSVCD__SETTLED;
+    if (!(nsvcd__apart_until(p, until) > nsvcd__clearance(p)))
+      outcome = nsvcd__prove_interval(p, search, share);
+    const int is_settled = outcome == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER);
+    const int has_contact = p->known.has_contact && !(is_try && share > 0);
+    if (is_open && has_contact) {
+      open.has_contact = 1;
+      open.found = p->known.found;
+    }
+    if (!is_open && !is_try && !is_settled && !has_contact) {
+      open = p->known;
+      end = p->ask.end;
+      is_open = 1;
+      share = 0;
+    }
+    if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
+    nsvcd__next_interval(motion, search, until, is_settled || !is_try, p->work - before,
+                         &pace);
+  }
+  p->ask.is_brief = 0;
+  p->ask.share = asked;
+  if (!is_open) return outcome;
+  p->known = open;
+  p->ask.end = end;
+  return NSVCD__SETTLED;
+}
+
+static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
+  nsvcd__motion *motion = p->ask.motion;
+  const int in_order = p->ask.share > 0;
+  const float lifted = nsvcd__f3_length(motion->lift);
+  const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
+  nsvcd__outcome outcome;
+  p->ask.limit = p->given.work;
+  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
+  const int is_long = nsvcd__is_long(motion, search);
+  if (nsvcd__starts_within(p)) {
+    // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
+    const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
+    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
+  }
+  if (is_long)
+    outcome = nsvcd__prove_intervals(p, search);
+  else if (in_order)
+    outcome = nsvcd__prove_first(p, search);
+  else
+    outcome = nsvcd__prove_and_look(p, search, p->given.work);
+  const double clear = nsvcd__clear_until(p);
+  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
+  if (p->within && clear > 0) return nsvcd__is_within(p);
+  if (p->known.has_contact) return NSVCD__MEETS;
+  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
+  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+}
+
+// ---- the least distance
+
+// The same interval by interval. What was named is divided by time: of what is left the share that
+// an interval has of the rest of the motion.
+static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
+                                                 double finest, nsvcd__pace *pace) {
+  nsvcd__motion *motion = p->ask.motion;
+  const size_t most = p->ask.most;
+  const size_t work = p->given.work;
+  const double known = p->low;
+  double low = p->high;
+  int is_wide = 0;
+  while (motion->from < motion->ticks) {
+    const uint32_t until = search->begin[search->segments];
+    const size_t before = p->work;
+    const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+    int is_settled = 1;
+    if (!p->given.grows) {
+      const double rest =
+          (double)(until - motion->from) / (double)(motion->ticks - motion->from);
+      p->given.work = p->work < most ? (size_t)(rest * (double)(most - p->work)) : 0;
+    }
+    p->ask.most = p->work + p->given.work;
+    p->low = nsvcd__max(known, (double)nsvcd__apart_until(p, until));
+    p->wide = 0;
+    if (p->low < p->high && !(is_named && p->high - p->low <= finest)) {
+      if (motion->arcs > 1) {
+        p->ask.measure = finest;
+        p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
+        is_settled = nsvcd__measure_once(p, search);
+      } else {
+        nsvcd__narrow(p, search, finest);
+      }
+    }
+    if (is_settled) low = nsvcd__min(low, p->low);
+    is_wide |= p->wide;
+    nsvcd__next_interval(motion, search, until, is_settled, p->work - before, pace);
+  }
+  p->given.work = work;
+  p->ask.most = most;
+  p->low = nsvcd__min(low, p->high);
+  p->wide = is_wide && p->high - p->low > finest;
+}
+
+// Brackets the least distance over the motion, when it is known whether they come within the
+// clearance that is asked for.
+static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+                                        nsvcd__verdict verdict, double finest) {
+  nsvcd__motion *motion = p->ask.motion;
+  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  const float lifted = nsvcd__f3_length(motion->lift);
+  const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * lifted;
+  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  const int is_long = nsvcd__is_long(motion, search);
+  nsvcd__pace pace = {0, 0};
+  if (is_long) pace = nsvcd__first_interval(motion, search);
+  p->high = is_named ? p->known.found.distance : nsvcd__guess_clearance(p, search);
+  is_named = is_named || p->known.has_contact;
+  if (is_named && !(p->high - p->low > finest)) return;
+  if (is_long)
+    nsvcd__narrow_intervals(p, search, finest, &pace);
+  else
+    nsvcd__narrow(p, search, finest);
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -18093,7 +18453,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
   p->given.skin = (double)q->skin / unit;
-  p->given.work = p->ask.limit = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
   p->normal_count = 0;
@@ -19504,6 +19865,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
+#define nsvcd__apart_until NSVCD__AT(apart_until)
 #define nsvcd__approach NSVCD__AT(approach)
 #define nsvcd__approach_at NSVCD__AT(approach_at)
 #define nsvcd__arc NSVCD__AT(arc)
@@ -19556,7 +19918,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__certify_item NSVCD__AT(certify_item)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
 #define nsvcd__check NSVCD__AT(check)
+#define nsvcd__choose_all NSVCD__AT(choose_all)
 #define nsvcd__choose_four NSVCD__AT(choose_four)
+#define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
+#define nsvcd__choose_in_interval NSVCD__AT(choose_in_interval)
+#define nsvcd__choose_interval NSVCD__AT(choose_interval)
 #define nsvcd__choose_lifts NSVCD__AT(choose_lifts)
 #define nsvcd__choose_segments NSVCD__AT(choose_segments)
 #define nsvcd__chords NSVCD__AT(chords)
@@ -19628,6 +19994,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
+#define nsvcd__first_interval NSVCD__AT(first_interval)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
@@ -19665,6 +20032,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__instants NSVCD__AT(instants)
 #define nsvcd__instants_of NSVCD__AT(instants_of)
 #define nsvcd__interval_cuts NSVCD__AT(interval_cuts)
+#define nsvcd__interval_gap NSVCD__AT(interval_gap)
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
@@ -19682,6 +20050,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_large NSVCD__AT(is_large)
 #define nsvcd__is_left NSVCD__AT(is_left)
 #define nsvcd__is_length NSVCD__AT(is_length)
+#define nsvcd__is_long NSVCD__AT(is_long)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
@@ -19696,6 +20065,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__keep_nearer NSVCD__AT(keep_nearer)
 #define nsvcd__keep_place NSVCD__AT(keep_place)
 #define nsvcd__knots NSVCD__AT(knots)
+#define nsvcd__knots_after NSVCD__AT(knots_after)
 #define nsvcd__knots_keep NSVCD__AT(knots_keep)
 #define nsvcd__knots_load NSVCD__AT(knots_load)
 #define nsvcd__knots_read NSVCD__AT(knots_read)
@@ -19739,6 +20109,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__meet_in NSVCD__AT(meet_in)
 #define nsvcd__meet_members NSVCD__AT(meet_members)
 #define nsvcd__meets_at NSVCD__AT(meets_at)
+#define nsvcd__meets_at_ends NSVCD__AT(meets_at_ends)
 #define nsvcd__members_meet NSVCD__AT(members_meet)
 #define nsvcd__memo NSVCD__AT(memo)
 #define nsvcd__met_along NSVCD__AT(met_along)
@@ -19749,6 +20120,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__motion_pose NSVCD__AT(motion_pose)
 #define nsvcd__motion_refine NSVCD__AT(motion_refine)
 #define nsvcd__motion_retime NSVCD__AT(motion_retime)
+#define nsvcd__motion_set_box NSVCD__AT(motion_set_box)
+#define nsvcd__motion_set_fine_ticks NSVCD__AT(motion_set_fine_ticks)
 #define nsvcd__motion_set_ticks NSVCD__AT(motion_set_ticks)
 #define nsvcd__motion_set_times NSVCD__AT(motion_set_times)
 #define nsvcd__motion_set_tracks NSVCD__AT(motion_set_tracks)
@@ -19756,6 +20129,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__moving_block_load NSVCD__AT(moving_block_load)
 #define nsvcd__moving_closed NSVCD__AT(moving_closed)
 #define nsvcd__moving_ranges NSVCD__AT(moving_ranges)
+#define nsvcd__narrow NSVCD__AT(narrow)
+#define nsvcd__narrow_intervals NSVCD__AT(narrow_intervals)
 #define nsvcd__narrow_segments NSVCD__AT(narrow_segments)
 #define nsvcd__nearby NSVCD__AT(nearby)
 #define nsvcd__nearest NSVCD__AT(nearest)
@@ -19765,6 +20140,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__needs NSVCD__AT(needs)
 #define nsvcd__needs_of NSVCD__AT(needs_of)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
+#define nsvcd__next_interval NSVCD__AT(next_interval)
 #define nsvcd__next_knot NSVCD__AT(next_knot)
 #define nsvcd__next_place NSVCD__AT(next_place)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
@@ -19778,6 +20154,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__of_distance NSVCD__AT(of_distance)
 #define nsvcd__off_meshes NSVCD__AT(off_meshes)
 #define nsvcd__outcome NSVCD__AT(outcome)
+#define nsvcd__pace NSVCD__AT(pace)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
@@ -19815,6 +20192,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__prove_anew NSVCD__AT(prove_anew)
 #define nsvcd__prove_by_time NSVCD__AT(prove_by_time)
 #define nsvcd__prove_first NSVCD__AT(prove_first)
+#define nsvcd__prove_interval NSVCD__AT(prove_interval)
+#define nsvcd__prove_intervals NSVCD__AT(prove_intervals)
 #define nsvcd__prove_motion NSVCD__AT(prove_motion)
 #define nsvcd__prove_part NSVCD__AT(prove_part)
 #define nsvcd__prove_segments NSVCD__AT(prove_segments)
@@ -19938,11 +20317,13 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__track_pose NSVCD__AT(track_pose)
 #define nsvcd__track_pose_at NSVCD__AT(track_pose_at)
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
+#define nsvcd__track_within NSVCD__AT(track_within)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
 #define nsvcd__triangles_meet NSVCD__AT(triangles_meet)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turn_back NSVCD__AT(turn_back)
+#define nsvcd__turn_within NSVCD__AT(turn_within)
 #define nsvcd__turned NSVCD__AT(turned)
 #define nsvcd__turned_back NSVCD__AT(turned_back)
 #define nsvcd__turned_back_by_w NSVCD__AT(turned_back_by_w)

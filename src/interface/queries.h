@@ -122,10 +122,11 @@ typedef struct nsvcd_question {
   // 16 or one. 0: NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see
   // nsvcd_sweep), so that it grows with the length. What is named is for all of the motion, in the
   // order of time: when it ends, what was proven until then is told; of DISTANCE each interval has
-  // the share that is its part of the time left. An eighth is left once surfaces have come too near
-  // to tell. Of FIRST an eighth is kept for what has not been decided by then: what of the motion is
-  // free until when, and whether they meet at all. A manifold, and the place of a lifted body, may
-  // take an eighth each besides. Before that, a question takes as many units whatever is allowed
+  // the share that is its part of the time left. An eighth is left once surfaces have come too
+  // near to tell. Of FIRST an eighth is kept for what has not been decided by then: what of the
+  // motion is free until when, and whether they meet at all. A manifold, and the place of a lifted
+  // body, may take an eighth each besides. Before that, a question takes as many units whatever is
+  // allowed
   size_t work;
   // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
   // 64; 0: 64. Fewer take less memory, and make intervals shorter
