@@ -87,7 +87,7 @@ static const option options[] = {
     {"--work", SWEEP | PATH, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
      "units that a proof may take, of a path that of a pair (as many as there is time for)"},
     {"--work", CHECK, OPTION_COUNT, AT(sweep.work), 1, 1000000000, NULL, "N",
-     "units that a proof may take (" DIGITS(NSVCD_DEFAULT_WORK) ")"},
+     "units that a proof may take (" DIGITS(NSVCD_DEFAULT_VERDICT_WORK) ")"},
     {"--repeat", CHECK | SWEEP, OPTION_COUNT, AT(repeat), 1, 1000000, NULL, "R",
      "times that a query is timed: check reports the least (5), sweep the median (101, or as often "
      "as "

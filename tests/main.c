@@ -38,6 +38,7 @@ void test_motion(void);
 void test_long(void);
 void test_broad_phase(void);
 void test_proof(void);
+void test_fits(void);
 void test_asks(void);
 void test_normals(void);
 void test_solids(void);
@@ -77,6 +78,7 @@ static const test_file files[] = {
     OF(motion),
     OF(broad_phase),
     OF(proof),
+    OF(fits),
     OF(asks),
     OF(long),
     OF(normals),

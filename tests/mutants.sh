@@ -2,7 +2,7 @@
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
 # `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
-# tests/test_checker.c has to fail. Prints a line for each, and exits with 1 if one
+# tests/test_checker.c has to fail, of `fits:` tests/test_fits.c. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
 set -u
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -23,21 +23,27 @@ done
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
 cat >$work/list <<'LIST'
 none|||
-hull without deviation|slack * length + nsvcd__deviation(span, normal, reach)|slack * length
+hull without deviation|slack * length + nsvcd__deviation(span, normal, lever)|slack * length
 hull without slack|const float slack = slacks + span->rounding + nsvcd__clearance(p);|const float slack = 0 * slacks + span->rounding + nsvcd__clearance(p);
 hull without the slack's scale|p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];|0.1f * p->moving.slacks[i] + p->fixed.slacks[j];
 hull without clearance|slacks + span->rounding + nsvcd__clearance(p);|slacks + span->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
-deviation without drift|return drift + reach * (along|return 0 * drift + reach * (along
-deviation without bulge|along * span->bulge_along_axis + across * span->bulge);|along * span->bulge_along_axis + 0 * across);
-deviation along the axis|reach * (along * span->bulge_along_axis + across * span->bulge)|reach * (across * span->bulge)
+deviation without drift|return drift + turn + across|return 0 * drift + turn + across
+deviation without bulge|+ across * nsvcd__bulge_of(span, lever);|;
+deviation along the axis|return drift + turn + across|return drift + across
+half the distance from the axis|span->bulge * lever.radial +|0.5f * span->bulge * lever.radial +
+an axis that does not waver|lever.radial + span->bulge_along_axis * lever.reach|lever.radial
+the axis of the other body|arc->own_axis = nsvcd__dmat3_apply_transpose(\&moving, axis);|arc->own_axis = arc->axis;
+pair at half the distance from the axis|arc->bulge * couple->radial * off_axis|arc->bulge * 0.5 * couple->radial * off_axis
+pair whose axis does not waver|couple->radial += (arc->waver + 1e-6) * couple->reach;|
+pair beside an axis that does not waver|across + arc->waver + 1e-6|across + 1e-6
 chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
 lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_mul(turn, nsvcd__v_set(reach));
 disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
-held plane without deviation|lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(\&p->moving, i));|lowest - slack;
+held plane without deviation|lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(\&p->moving, i, span));|lowest - slack;
 groups' spheres without slack|const double radius = (double)f->slacks[i] + rounding;|const double radius = rounding;
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.slacks[j] * length - highest;|-highest;
@@ -49,25 +55,25 @@ doubts forgotten|    nsvcd__take_doubt(p, couple, u0, u1);\n    return NSVCD__SE
 round: edges without length by another pose|if (ends == 2 \&\& !(nsvcd__f3_dot(other, other) > 0))|if (!(nsvcd__f3_dot(other, other) > 0))
 a block of the question before|memo->has_block = 0;|(void)memo->has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
-pair without bulge|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * (0 * bulge + arc->drift);
-pair without drift|(u1 - u0) * (u1 - u0) * (bulge + arc->drift);|(u1 - u0) * (u1 - u0) * bulge;
+pair without bulge|return turn + arc->twist * couple->reach + arc->drift;|return arc->drift;
+pair without drift|return turn + arc->twist * couple->reach + arc->drift;|return turn + arc->twist * couple->reach;
 doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
 pair without clearance|> p->ask.clearance + couple->slack + deviation;|> couple->slack + deviation;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
-block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p) +|(span->rounding + span->drift) + nsvcd__clearance(p) +
-block without clearance|(span->rounding + span->drift) + nsvcd__clearance(p) +|(span->rounding + span->drift) +
-block without bulge|nsvcd__clearance(p) + span->bulge * reach;|nsvcd__clearance(p) + 0 * reach;
+block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);|(span->rounding + span->drift) + nsvcd__clearance(p);
+block without clearance|(span->rounding + span->drift) + nsvcd__clearance(p);|(span->rounding + span->drift);
+block without bulge|stays + nsvcd__bulge_of(span, lever)|stays
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
 parting plane at the start only|nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met)|nsvcd__left_by_last(p, i, j, l, fixed, 1, span, along, met)
 lanes parted at the start only|nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby)|nsvcd__lanes_left_by_last(p, i, j, fixed, 1, span, margin, nearby)
 lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);|nsvcd__v_set(-lowest);
 rows parted by half the margin|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met)|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, 0.5f * margin, met)
-parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|quanta + span->rounding + nsvcd__clearance(p) + 0 * reach;
-parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
+parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);|quanta + span->rounding + nsvcd__clearance(p);
+parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
-a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      nsvcd__block_pose(p, \&span->start, 0);
+a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);
 bounds of half a window's block|low[k] = least;|low[k] = 0.5f * (least - negated);
 half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
 rays without rounding|const float rounding = NSVCD__ROUNDING * remote * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * remote * f->body->extent;
@@ -92,7 +98,7 @@ passing without a change of sides|  const int falls = before > least_before \&\&
 both turn, twist forgotten|nsvcd__v_mul(turn, nsvcd__v_add(turn, fixed_turn));|nsvcd__v_mul(turn, turn);
 both turn, half of the way|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_fma(fixed_turn, remote, way)
 both turn, no swing|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsvcd__v_add(way, way)
-arcs of both, twist forgotten|(arc->turn * arc->turn + twist);|(arc->turn * arc->turn);
+arcs of both, twist forgotten|arc->scale * twist;|arc->scale * 0 * twist;
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
 a leg from its pose|leg->from = (double)(first - begin) * per_tick;|leg->from = 0;
@@ -240,16 +246,18 @@ postures: handed over from the world|const nsvcd__d3 way = nsvcd__d3_sub(frame->
 verify: nothing is needed|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > -1e9)) return 0;
 verify: parted at the start alone|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (at == r->instants \&\& !(gap > least)) return 0;
 verify: parted at the ends by one of them|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BEYOND)) return 0;|if (!(gap > least)) return 0;
-verify: no strays|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;|(void)ra;
-verify: strays of a alone|+ at->stray_b[0] + at->stray_b[1] * rb;|;
-verify: strays of b alone|stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0]|stray = at->stray_b[0]
-verify: strays at the origin|at->stray_a[1] * ra|at->stray_a[1] * 0 * ra
-verify: no clearance|length * (r->clearance + stray + margin)|length * (stray + margin)
-verify: margins that are taken away|stray + margin);|stray - 1e4 * margin);
+verify: no strays|length * (r->clearance + margin) + stray;|length * (r->clearance + margin);
+verify: strays of a alone|+ verify__strays(r->b, \&v->b, \&at->b, at->stray_b, n, exact);|;
+verify: strays of b alone|stray = verify__strays(r->a, \&v->a, \&at->a, at->stray_a, n, exact) +|stray =
+verify: strays at the origin|* any + sqrt(verify__dot(across, across)) * turn;|* any;
+fits: half the distance from the axis|const double turn = stray[2] * verify__aside|const double turn = 0.5 * stray[2] * verify__aside
+fits: the axis of the body in the world|axis[i] = verify__dot(at->turn + 3 * i, stray + 3);|axis[i] = stray[3 + i] + 0 * at->turn[0];
+verify: no clearance|length * (r->clearance + margin) + stray|length * margin + stray
+verify: margins that are taken away|(r->clearance + margin) + stray;|(r->clearance - 1e4 * margin) + stray;
 verify: places without what they are reckoned from|mover->reach = verify__max(mover->reach, far_off);|(void)far_off;
 verify: edges that all close|if (balance != 0) m->open|if (0) m->open
 verify: edges one way|? 1 : weld[m->indices[e]] > weld[to] ? -1 : 0;|? 1 : weld[m->indices[e]] > weld[to] ? 1 : 0;
-verify: half the stray|stray[1] = 0.1250001 * h * h;|stray[1] = 0.06 * h * h;
+verify: half the stray|stray[2] = 0.1250001 * h * h;|stray[2] = 0.06 * h * h;
 verify: turns of half the angle|return 4 * atan2(|return 2 * atan2(
 verify: the first child alone|*node = child[1];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];|*node = child[0];\n  *(opens_a ? \&v[1].a : \&v[1].b) = child[0];
 verify: the second child alone|*node = child[1];|*node = child[1]; child[0] = child[1];
@@ -319,7 +327,7 @@ name, old, new = re.split(r'(?<!\\)\|', os.environ['LINE'], maxsplit=2)
 old, new = [part.replace('\\n', '\n').replace('\\&', '&').replace('\\|', '|') for part in (old, new)]
 new = new if name == 'none' or not new.endswith('|') else new.rstrip('|')
 text = open('neuralsvcd.h').read()
-if name.startswith(('verify:', 'checker:')):
+if name.startswith(('verify:', 'checker:', 'fits:')):
     sys.stdout.write(text)
     # in the one file of the checker that has it
     pattern = r'\s+'.join(map(re.escape, old.split()))
@@ -352,6 +360,7 @@ PYTHON
     postures:*) file=test_postures.c ;;
     verify:*) file=test_certificate.c ;;
     checker:*) file=test_checker.c ;;
+    fits:*) file=test_fits.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
   (ulimit -t "${LIMIT:-400}"; exec $work/test) >$work/out.txt 2>&1

@@ -818,18 +818,32 @@ static void certificates_refuse(void) {
 // checker places it where the oracle does. Of paths, then of what joints carry.
 static void cert_law_holds(const nsvcd_verify_mover *mover, double t0, double t1, const double *x,
                            const double (*true_at)[3], int count, double *tightest) {
-  double stray[2];
+  double stray[6] = {0};
+  double aside[3], axis[3];
   nsvcd_verify_place place;
   mover->stray(mover->motion, t0, t1, stray);
+  mover->place(mover->motion, t0, &place);
   const double scaled[3] = {mover->scale * x[0], mover->scale * x[1], mover->scale * x[2]};
-  const double most = stray[0] + stray[1] * oracle_length(scaled);
+  oracle_cross(scaled, stray + 3, aside);
+  oracle_rotate(place.turn, stray + 3, axis);
+  const double any = stray[0] + stray[1] * oracle_length(scaled);
+  const double turn = stray[2] * oracle_length(aside);
   for (int k = 0; k < count; k++) {
     const double share = (double)k / (count - 1);
     double off[3], placed_at[3];
     for (int i = 0; i < 3; i++)
       off[i] = true_at[k][i] - (1 - share) * true_at[0][i] - share * true_at[count - 1][i];
-    CHECK_LE(oracle_length(off), most + 1e-9);
-    if (most > 1e-6) *tightest = fmax(*tightest, oracle_length(off) / most);
+    for (int i = 0; i < 4; i++) {  // along the way off, and along the axes of the world
+      double n[3] = {i == 0, i == 1, i == 2};
+      double across[3];
+      const double length = oracle_length(off);
+      for (int c = 0; c < 3 && i == 3; c++) n[c] = length > 0 ? off[c] / length : 0;
+      oracle_cross(n, axis, across);
+      const double most = any + turn * oracle_length(across);
+      const double along = fabs(oracle_dot(n, off));
+      CHECK_LE(along, most + 1e-9);
+      if (most > 1e-6) *tightest = fmax(*tightest, along / most);
+    }
     mover->place(mover->motion, t0 + share * (t1 - t0), &place);
     oracle_rotate(place.turn, scaled, placed_at);
     for (int i = 0; i < 3; i++) off[i] = placed_at[i] + place.at[i] - true_at[k][i];

@@ -1057,19 +1057,27 @@ static void proof_spans_hold_the_motion(void) {
 // What points are off along a direction, over what the span allows for it; the worst found.
 static double proof_direction_use(const proof_motion *m, const nsvcd__span *span, double reach,
                                   shapes_rng *rng) {
+  const nsvcd__f3 own = nsvcd__own_axis(span);
+  const double own_axis[3] = {(double)own.x, (double)own.y, (double)own.z};
   double worst = 0;
   for (int k = 0; k < 8; k++) {
     const double share = shapes_uniform(rng, 0, 1);
     const double t = span->t_start + share * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
     const nsvcd__f3 special[3] = {span->axis, span->way, nsvcd__f3_cross(span->axis, span->way)};
-    double x[3];
-    double place[3];
-    double n[3];
+    double x[3], aside[3], place[3], n[3];
     double off = 0;
     shapes_direction(rng, x);
     shapes_direction(rng, n);
-    for (int i = 0; i < 3; i++) x[i] *= reach;
+    // anywhere, or near the axis, on either side of the origin
+    const double slim = k % 2 ? 1 : pow(10, shapes_uniform(rng, -4, 0));
+    const double side = shapes_pick(rng, 2) ? -reach : reach;
+    for (int i = 0; i < 3; i++)
+      x[i] = slim < 1 ? slim * reach * x[i] + sqrt(1 - slim * slim) * side * own_axis[i]
+                      : reach * x[i];
+    oracle_cross(x, own_axis, aside);
+    const nsvcd__lever lever = {1.000001f * (float)oracle_length(x),
+                                1.000001f * (float)oracle_length(aside)};
     if (k < 3) {
       const double wobble = k == 0 ? 0 : 0.01;
       n[0] = (double)special[k].x + wobble * n[0];
@@ -1092,10 +1100,9 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
     }
     const nsvcd__f3 unit =
         nsvcd__f3_of((float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length));
-    const double allowed =
-        (double)span->rounding + (double)nsvcd__deviation(span, unit, (float)reach);
+    const double allowed = (double)span->rounding + (double)nsvcd__deviation(span, unit, lever);
     const nsvcd__v_span spans = nsvcd__v_span_set(span);
-    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), (float)reach);
+    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), lever.reach);
     const double in_lanes = (double)span->rounding + (double)nsvcd__v_least(lanes);
     worst = fmax(worst, fabs(off) / fmin(allowed, in_lanes));
   }
@@ -1233,6 +1240,101 @@ static void proof_spans_hold_along_directions(void) {
   CHECK_LE(worst, 1);
   CHECK_LE(turned, 1);
   CHECK_GE(worst, 0.5);  // else the bound says little, or the worst is not here
+}
+
+// Wheels: both bodies turn about nearly one axis, the one perhaps about the other.
+static void proof_wheels_motion(shapes_rng *rng, proof_motion *m) {
+  const double tilt = shapes_pick(rng, 2) ? 0 : pow(10, shapes_uniform(rng, -4, 0));
+  double axis[3];
+  shapes_direction(rng, axis);
+  for (int n = 0; n < 2; n++) {
+    const double turn = shapes_uniform(rng, -2.5, 2.5);
+    oracle_pose poses[3];
+    double aside[3], step[4];
+    shapes_direction(rng, aside);
+    for (int k = 0; k < 3; k++) axis[k] += tilt * aside[k];
+    const double length = oracle_length(axis);
+    for (int k = 0; k < 3; k++) axis[k] /= length;
+    oracle_axis_angle(axis, turn, step);
+    shapes_quaternion(rng, poses[0].rotation);
+    for (int i = 0; i < 3; i++) {
+      if (i > 0) oracle_quat_mul(step, poses[i - 1].rotation, poses[i].rotation);
+      for (int k = 0; k < 3; k++) poses[i].position[k] = n * 0.3 * aside[k];
+    }
+    proof_track_set(n ? &m->moving : &m->fixed, poses, 3);
+  }
+}
+
+// What is said of arcs in double: a point's true way between two times, over what its couple allows
+// for along a direction; 0 where nothing bends.
+static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes_rng *rng) {
+  static nsvcd__proof proof;
+  nsvcd__couple couple;
+  double share, ends[3][3], n[3], x[3];
+  proof.ask.motion = motion;
+  proof.arc.ticks = 0;
+  const uint32_t first =
+      nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &share);
+  const nsvcd__arc *arc = nsvcd__arc_at(&proof, first);
+  const double length = pow(2, -shapes_pick(rng, 8));
+  const double u0 = shapes_uniform(rng, 0, 1 - length);
+  const double within = shapes_pick(rng, 2) ? 0.5 : shapes_uniform(rng, 0, 1);
+  const double u[3] = {u0, u0 + within * length, u0 + length};
+  const double slim = shapes_pick(rng, 2) ? 1 : pow(10, shapes_uniform(rng, -4, 0));
+  shapes_direction(rng, x);
+  shapes_direction(rng, n);
+  for (int k = 0; k < 3; k++) x[k] = slim * x[k] + (1 - slim) * (&arc->own_axis.x)[k];
+  for (int k = 0; k < 3; k++) couple.moving[k] = nsvcd__d3_of(x[0], x[1], x[2]);
+  const int looks = shapes_pick(rng, 4);
+  if (looks == 0) memcpy(n, &arc->axis.x, sizeof n);
+  if (looks == 1) {  // where it is off the most, if both turn about one axis
+    double out[3], place[3];
+    proof_place at = proof_place_at(m, nsvcd__time_in_arc(&proof, u[1]));
+    memset(at.position, 0, sizeof at.position);
+    proof_apply(&at, x, place);
+    const double axis[3] = {arc->axis.x, arc->axis.y, arc->axis.z};
+    for (int k = 0; k < 3; k++) out[k] = place[k] - oracle_dot(place, axis) * axis[k];
+    memcpy(n, out, sizeof n);
+  }
+  const double size = oracle_length(n);
+  if (!(size > 1e-9)) return 0;
+  for (int k = 0; k < 3; k++) {
+    const proof_place at = proof_place_at(m, nsvcd__time_in_arc(&proof, u[k]));
+    proof_apply(&at, x, ends[k]);
+  }
+  double off = 0;
+  for (int k = 0; k < 3; k++)
+    off += n[k] / size * (ends[1][k] - (1 - within) * ends[0][k] - within * ends[2][k]);
+  nsvcd__couple_reaches(arc, &couple);
+  const nsvcd__d3 unit = nsvcd__d3_of(n[0] / size, n[1] / size, n[2] / size);
+  const double allowed = length * length * nsvcd__off_chord_along(arc, &couple, unit);
+  const double lengths = 1 + oracle_length(ends[0]) + oracle_length(ends[2]);
+  const nsvcd__span span = nsvcd__span_of_arc(&proof, first, u0, u0 + length);
+  const nsvcd__lever lever =
+      nsvcd__lever_of(nsvcd__d3_narrow(couple.moving[0]), 0, nsvcd__own_axis(&span));
+  const double by_span = (double)nsvcd__deviation(&span, nsvcd__d3_narrow(unit), lever);
+  const double use = fabs(off) / (by_span + 2e-6 * lengths);
+  return fmax(use, fabs(off) / (allowed + 1e-12 * lengths));
+}
+
+static void proof_arcs_hold_along_directions(void) {
+  shapes_rng rng = {406};
+  double worst[3] = {0, 0, 0};
+  for (size_t trial = 0; trial < check_many(60000); trial++) {
+    const size_t kind = trial % 3;
+    proof_motion m;
+    nsvcd__motion motion;
+    if (kind == 0) proof_wandering_motion(&rng, &m);
+    if (kind == 1) proof_any_motion_of_both(&rng, &m);
+    if (kind == 2) proof_wheels_motion(&rng, &m);
+    proof_motion_init(&m, &motion);
+    nsvcd__cut_motion(&motion, 2, &any_query()->broad_phase);
+    worst[kind] = fmax(worst[kind], proof_arc_use(&m, &motion, &rng));
+  }
+  printf("  at most %.3g of what is allowed, %.3g where both move, %.3g of wheels\n", worst[0],
+         worst[1], worst[2]);
+  for (int k = 0; k < 3; k++) CHECK_LE(worst[k], 1);
+  for (int k = 0; k < 3; k++) CHECK_GE(worst[k], 0.5);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -2942,6 +3044,7 @@ void test_proof(void) {
   RUN(proof_crossings_are_never_free);
   RUN(proof_spans_hold_the_motion);
   RUN(proof_spans_hold_along_directions);
+  RUN(proof_arcs_hold_along_directions);
   RUN(proof_finds_first_contacts);
   RUN(proof_keeps_clearances);
   RUN(proof_may_forget);

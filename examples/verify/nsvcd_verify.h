@@ -29,10 +29,12 @@
 // So in the end any two triangles are parted at any time. A plane of normal n parts two nodes from
 // t0 to t1, with no knot between, if at both ends
 //   n.(p_a - p_b) + min over a's node of n.(s R x) - max over b's node of n.(s R x)          (1)
-// is more than (clearance + both strays) |n|. For of any two points, one of each node, n.(x - y) is
-// no less than (1) at the ends, so no less than the lesser on the chord between, and each point
-// leaves its chord by its stray at most. Over a box n.(s R x) is a sum over three sides; over few
-// triangles it is most and least at corners.
+// is more than clearance |n| and what both bodies' points stray along n. For of any two points, one
+// of each node, n.(x - y) is no less than (1) at the ends, so no less than the lesser on the chord
+// between, and each point leaves its chord by its stray at most. That goes with the distance from the
+// body's origin, or, in a turn about one axis, with that from the axis (nsvcd_verify_scene.h): a
+// shaft that turns in a bore hardly strays. Over a box n.(s R x) is a sum over three sides, and so is
+// each coordinate of x cross the axis; over few triangles both are most at corners.
 //   Surfaces that never meet do not get inside of each other later on, for how often one winds
 // about a point of the other changes only where they meet. If at some time the roots are parted,
 // nothing is inside then. Else a ray follows for each component of a, from a corner of it at t = 0,
@@ -91,6 +93,44 @@ static inline double verify__most(const nsvcd_verify_mover *mover, const nsvcd_v
   return most;
 }
 
+// No point of a node is farther from the line through its body's origin along a unit axis.
+static inline double verify__aside(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
+                                   const double *axis, int exact) {
+  const nsvcd_verify_mesh *m = mover->mesh;
+  const float *low = m->boxes + 6 * (size_t)node->box;
+  const int corners = exact && node->count <= VERIFY__EXACT;
+  double off[3], most = 0;
+  for (uint32_t c = 0; c < (corners ? 3 * node->count : 1); c++) {
+    const float *x = verify__corner(m, m->order[node->first + c / 3], c % 3);
+    double middle[3], half[3];
+    for (int i = 0; i < 3; i++) {
+      middle[i] = corners ? (double)x[i] : 0.5 * ((double)low[i] + (double)low[i + 3]);
+      half[i] = corners ? 0 : 0.5 * ((double)low[i + 3] - (double)low[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      off[i] = fabs(middle[j] * axis[k] - middle[k] * axis[j]) + half[j] * fabs(axis[k]) +
+               half[k] * fabs(axis[j]);
+    }
+    most = verify__max(most, verify__dot(off, off));
+  }
+  return 1.000001 * mover->scale * sqrt(most);
+}
+
+// What the points of a node stray along a normal, from a place on.
+static inline double verify__strays(const nsvcd_verify_mover *mover, const nsvcd_verify_node *node,
+                                    const nsvcd_verify_place *at, const double *stray,
+                                    const double *n, int exact) {
+  double axis[3], across[3];
+  for (int i = 0; i < 3; i++) axis[i] = verify__dot(at->turn + 3 * i, stray + 3);
+  for (int i = 0; i < 3; i++)
+    across[i] = n[(i + 1) % 3] * axis[(i + 2) % 3] - n[(i + 2) % 3] * axis[(i + 1) % 3];
+  const double turn = stray[2] * verify__aside(mover, node, stray + 3, exact);
+  const double any = stray[0] + stray[1] * verify__radius(mover, node);
+  return sqrt(verify__dot(n, n)) * any + sqrt(verify__dot(across, across)) * turn;
+}
+
 // Does the plane of the last normal part two nodes at all instants and between them?
 static inline int verify__parts(const verify__reader *r, const verify__visit *v, int exact) {
   const double *n = r->normals[0];
@@ -110,11 +150,12 @@ static inline int verify__parts(const verify__reader *r, const verify__visit *v,
     double gap = -verify__most(r->a, &v->a, at->a.turn, back, exact);
     gap -= verify__most(r->b, &v->b, at->b.turn, n, exact);
     for (int i = 0; i < 3; i++) gap += n[i] * (at->a.at[i] - at->b.at[i]);
-    const double least = length * (r->clearance + stray + margin);
+    const double least = length * (r->clearance + margin) + stray;
     if (!(gap > least && last > least && gap < VERIFY__BEYOND)) return 0;
     last = gap;
     last_lengths = lengths;
-    stray = at->stray_a[0] + at->stray_a[1] * ra + at->stray_b[0] + at->stray_b[1] * rb;
+    stray = verify__strays(r->a, &v->a, &at->a, at->stray_a, n, exact) +
+            verify__strays(r->b, &v->b, &at->b, at->stray_b, n, exact);
   }
   return 1;
 }

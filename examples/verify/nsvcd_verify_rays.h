@@ -26,7 +26,7 @@ typedef struct nsvcd_verify_report {
 typedef struct verify__instant {
   double t;
   nsvcd_verify_place a, b;
-  double stray_a[2], stray_b[2];  // from here to the next instant
+  double stray_a[6], stray_b[6];  // from here to the next instant
 } verify__instant;
 
 typedef struct verify__reader {

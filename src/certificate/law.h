@@ -12,10 +12,12 @@ typedef struct nsvcd__posed {
   nsvcd__d3 at;
 } nsvcd__posed;
 
-// By how much a point at r metres from the body's origin leaves its chord, at most: base +
-// per_metre r.
+// By how much a point leaves its chord, at most, along a unit direction n: base + per_metre r +
+// turn rho |n x R axis|. It is r metres from the body's origin, and rho from the line through that
+// along the axis, a unit vector of the body that R takes to the same one all the while.
 typedef struct nsvcd__off_chord {
-  double base, per_metre;
+  double base, per_metre, turn;
+  nsvcd__d3 axis;
 } nsvcd__off_chord;
 
 // A mesh that moves, t in [0,1]. A knot is a time at which the motion has a corner; between two of
@@ -114,17 +116,25 @@ static double nsvcd__mover_next(const void *motion, double t) {
   return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate has a second derivative of h^2 r, and leaves its chord by an
-// eighth of it.
+// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
+// and leaves its chord by an eighth of it: along n that is h^2 / 8 (n x a).(a x y).
 static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  nsvcd__off_chord out = {0, 0};
+  nsvcd__off_chord out;
+  memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
   const nsvcd_pose *a = &mover->poses[k];
   const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
-  const double h = 2 * nsvcd__turning_of(a, a + 1).half_angle * (t1 - t0) / whole;
-  out.per_metre = 0.1250001 * h * h;
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  const double h = 2 * arc.half_angle * (t1 - t0) / whole;
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  out.axis =
+      nsvcd__d3_unit(nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to)), none);
+  if (nsvcd__d3_length(out.axis) > 0)
+    out.turn = 0.1250001 * h * h;
+  else
+    out.per_metre = 0.1250001 * h * h;
   return out;
 }
 

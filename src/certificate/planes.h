@@ -158,6 +158,43 @@ static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *n
   return 1.000002 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
+// No point of a node is farther from the line through its body's origin along a unit axis.
+static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *node,
+                                nsvcd__d3 axis) {
+  const float *corners = rider->tree->corners + 9 * (size_t)node->first;
+  double square = 0;
+  if (node->count > NSVCD__EXACT) {
+    const nsvcd__box *box = &rider->tree->boxes[node->box];
+    const nsvcd__d3 low = nsvcd__d3_widen(box->low);
+    const nsvcd__d3 high = nsvcd__d3_widen(box->high);
+    const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+    const nsvcd__d3 a = nsvcd__d3_of(fabs(axis.x), fabs(axis.y), fabs(axis.z));
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_mix(low, high, 0.5), axis);
+    const double x = fabs(off.x) + half.y * a.z + half.z * a.y;
+    const double y = fabs(off.y) + half.z * a.x + half.x * a.z;
+    const double z = fabs(off.z) + half.x * a.y + half.y * a.x;
+    square = x * x + y * y + z * z;
+  }
+  for (size_t i = 0; i < 3 * (size_t)node->count && node->count <= NSVCD__EXACT; i++) {
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
+    square = nsvcd__max(square, nsvcd__d3_dot(off, off));
+  }
+  return 1.000002 * rider->scale * sqrt(square);
+}
+
+// By how much the points of a node, at r metres at most, leave their chords along a normal.
+static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
+                                 const nsvcd__posed *at, const nsvcd__off_chord *off,
+                                 nsvcd__d3 along) {
+  double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
+  if (off->turn > 0) {
+    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, off->axis);
+    const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+    leaves += off->turn * across * nsvcd__node_aside(rider, node, off->axis);
+  }
+  return leaves;
+}
+
 // Does a plane of this normal part two nodes, at all instants and between them?
 static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     nsvcd__d3 along) {
@@ -172,12 +209,12 @@ static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes 
     const double lengths = ra + rb + s->clearance + at->lengths;
     const double gap = nsvcd__gap_along(s, nodes, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
-    const double most = length * (s->clearance + leaves + margin);
+    const double most = length * (s->clearance + margin) + leaves;
     if (!(gap > most && last > most)) return 0;
     last = gap;
     last_lengths = lengths;
-    leaves = at->off_a.base + at->off_a.per_metre * ra;
-    leaves += at->off_b.base + at->off_b.per_metre * rb;
+    leaves = nsvcd__node_leaves(s->a, &nodes->a, ra, &at->a, &at->off_a, along);
+    leaves += nsvcd__node_leaves(s->b, &nodes->b, rb, &at->b, &at->off_b, along);
   }
   return 1;
 }

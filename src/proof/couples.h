@@ -142,8 +142,9 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
-  // of the moving one, from its body's origin, in its body's units
-  double reach;
+  // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
+  // at any time of the arc, from the axis of its turn
+  double reach, radial;
   // how far the meshes' own may be off, with rounding in double; and that
   double slack;
   double rounding;
@@ -151,15 +152,25 @@ typedef struct nsvcd__couple {
   double close;
 } nsvcd__couple;
 
+// How far its moving triangle is from the origin and from the axis.
+static void nsvcd__couple_reaches(const nsvcd__arc *arc, nsvcd__couple *couple) {
+  couple->reach = couple->radial = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 corner = couple->moving[k];
+    const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
+    couple->reach = nsvcd__max(couple->reach, nsvcd__d3_length(corner));
+    couple->radial = nsvcd__max(couple->radial, nsvcd__d3_length(across));
+  }
+  couple->radial += (arc->waver + 1e-6) * couple->reach;
+  couple->radial = nsvcd__min(couple->radial, couple->reach);
+}
+
 static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                       size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0};
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
   nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
   nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
-  for (size_t k = 0; k < 3; k++) {
-    const double reach = nsvcd__d3_length(couple.moving[k]);
-    couple.reach = reach > couple.reach ? reach : couple.reach;
-  }
+  nsvcd__couple_reaches(&p->arc, &couple);
   couple.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
   couple.slack = couple.rounding + nsvcd__off_meshes(p);
@@ -241,10 +252,19 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
-// times a point at r metres is off its chord by (u1 - u0)^2 (bulge r + drift), of the whole arc;
-// along a direction n, where the arc is a turn about one axis a, by |n x a| of that bulge: see
-// motion/segments.
+// By how much the points of a couple's moving triangle are off their chords along a unit direction
+// n, at most, over all of the arc; over a share of it by the square of that share. A point at r
+// metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a| + twist r
+// + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__couple *couple,
+                                     nsvcd__d3 n) {
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
+  const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
+  const double turn = arc->bulge * couple->radial * off_axis;
+  return turn + arc->twist * couple->reach + arc->drift;
+}
+
+// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                               double u1, nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
@@ -259,10 +279,8 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
-  double off_axis = 1;
-  if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
-  const double bulge = arc->bulge * couple->reach * off_axis;
-  const double deviation = (u1 - u0) * (u1 - u0) * (bulge + arc->drift);
+  const double off = nsvcd__off_chord_along(arc, couple, normal);
+  const double deviation = (u1 - u0) * (u1 - u0) * off;
   return lowest - highest > p->ask.clearance + couple->slack + deviation;
 }
 
@@ -527,7 +545,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         double u1) {
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
+  const double speed = arc->speed + arc->turn * arc->scale * couple->radial;
   const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double *ends = p->couple_ends;

@@ -112,7 +112,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
                                                const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
   const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const float reach = nsvcd__patch_reach(&p->moving, i);
+  const nsvcd__lever lever = nsvcd__patch_lever(&p->moving, i, span);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
@@ -138,7 +138,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, reach)) {
+    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, lever)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }

@@ -10,17 +10,16 @@
 // others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
 // when there is such a couple.
 static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                        size_t n, const nsvcd__span *span, float margin,
-                                        double u0, double u1, size_t patience) {
+                                        size_t n, const nsvcd__span *span, nsvcd__lever lever,
+                                        float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
-  const float reach = p->moving.body->extent + p->moving.quanta[i];
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
@@ -40,15 +39,22 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
                                                            double u1, size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
-                       nsvcd__clearance(p) + span->bulge * reach;
+  const nsvcd__f3 axis = nsvcd__own_axis(span);
+  const float stays =
+      nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
+  const float extent = p->moving.body->extent + p->moving.quanta[i];
+  const nsvcd__lever all = {extent, extent};
+  const int bends =
+      span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
+      const nsvcd__lever lever =
+          bends ? nsvcd__block_lever(p, axis, p->moving.quanta[i]) : all;
+      const float margin = stays + nsvcd__bulge_of(span, lever);
       nsvcd__block_pose(p, &span->start, 0);
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
@@ -64,7 +70,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
             NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
+              nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
           if (row != NSVCD__SETTLED) return row;
         }
       }
@@ -154,7 +160,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(&p->moving, i));
+        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(&p->moving, i, span));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -265,6 +271,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
 // keeps them. The last plane that held is tried on all before anything else: it often holds for
 // neighbours.
 static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+  const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
@@ -298,7 +305,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
           nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
       if (by_triangles == NSVCD__SETTLED) continue;
     }
-    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+    const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
+    if (has_hope && !item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {

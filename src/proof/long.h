@@ -64,7 +64,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
   const int is_try = p->ask.motion->arcs > 1;
   p->ask.is_brief = is_try;
   p->ask.share = is_try ? 0 : share;
-  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.aside;
   p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
   if (p->ask.share > 0) return nsvcd__prove_first(p, search);
   return nsvcd__prove_motion(p, search);
@@ -72,7 +72,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
 
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t share = p->given.work / NSVCD__IN_DOUBT;
+  const size_t share = p->given.aside;
   const size_t units = share < NSVCD__LOOK ? share : NSVCD__LOOK;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
@@ -130,7 +130,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.aside;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__starts_within(p)) {

@@ -93,7 +93,6 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   if (arc->fixed_moves) {
     // what both bodies' turns do: see nsvcd__cut_double_arc
     const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
@@ -105,34 +104,39 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
     const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-    arc->has_axis = !(angle > 0);
+    const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, 0));
+    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__leg_at(&arc->moving, 0));
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
-    arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+    arc->twist = 0.1250001 * arc->scale * twist;
     arc->drift = 0.1250001 * (2 * across + angle * swing);
-    arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    // where the fixed body only goes along, its axes are those of its start
-    if (arc->has_axis) arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
+    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+    arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+    arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
+    arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
     return arc;
   }
 
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
   arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
   arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
   arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
   const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
-  arc->has_axis = 1;
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
   arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
   arc->speed = nsvcd__d3_length(arc->moved);
   arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->drift = 0;
+  arc->waver = arc->twist = arc->drift = 0;
   return arc;
 }
 
 // Do all points of the moving body go along straight lines, seen from the fixed one?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
-  return !(arc->bulge > 0 || arc->drift > 0);
+  return !(arc->bulge > 0 || arc->twist > 0 || arc->drift > 0);
 }
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its

@@ -97,6 +97,7 @@
 #define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
 #define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
 #define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
+#define NSVCD__DESPAIR 128  // and before none is looked for, if all that is asked is yes or no
 #define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
 // What no plane parts is settled by its triangles, arc by arc.
@@ -104,7 +105,7 @@
 #define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
 // Parts that couples ask for, before the span is halved for all, if it is longer than this share of
 // an arc.
-#define NSVCD__PATIENCE_TO_PART 12
+#define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__HALVINGS 40       // of a span for one couple
@@ -179,13 +180,15 @@ typedef struct nsvcd__arc {
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
   nsvcd__d3 lift;
-  // of the turn, unit, if the fixed body does not turn
-  nsvcd__d3 axis;
-  int has_axis;
+  // of the turn where the arc begins, unit: as the fixed body has it, and as the moving one has it;
+  // and by how much it strays from either, an angle, where both bodies turn
+  nsvcd__d3 axis, own_axis;
+  double waver;
   // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
   double turn, speed;
-  // what points one metre from the moving body's origin, and that itself, leave their chord by
-  double bulge, drift;
+  // What points leave their chord by: a metre from the turn's axis; a metre from the moving body's
+  // origin besides, where both bodies turn; and that origin itself.
+  double bulge, twist, drift;
 } nsvcd__arc;
 
 // A pose in double.
@@ -312,8 +315,9 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken; each interval of a long motion may, if it grows
-  size_t work;
+  // units that may be taken, and each interval of a long motion may, if it grows; and what is beside
+  // the question, a doubt above all, may take of them
+  size_t work, aside;
   int grows;
 } nsvcd__given;
 
@@ -469,13 +473,12 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
 // What the search for the first contact may take; and, of the rest, what can be proven by time. The
 // last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.work / NSVCD__IN_DOUBT;
+  return p->ask.most - p->given.aside;
 }
 static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
-  const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
-  const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
+  const size_t most = p->given.aside / 2;
   const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->ask.most - (least > usual ? least : usual);
+  return p->ask.most - (most / 2 > usual ? most / 2 : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
@@ -487,7 +490,9 @@ static int nsvcd__is_spent(nsvcd__proof *p) {
       p->known.unsure < NSVCD__NEVER) {
     ask->doubts_end = 1;
     ask->end = nsvcd__min(ask->end, p->known.unsure);
+    const size_t left = (NSVCD__IN_DOUBT - 1) * p->given.aside;
     ask->limit = nsvcd__limit_of_first(p);
+    if (p->work + left < ask->limit) ask->limit = p->work + left;
   }
   return p->work > ask->limit;
 }
@@ -508,11 +513,19 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
 }
 
-// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
-// bulges have it.
-static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
-  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
-  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
+// How far points of the moving body are, in its own units, as bulges have it: none is farther from
+// its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
+typedef struct nsvcd__lever {
+  float reach, radial;
+} nsvcd__lever;
+
+// Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
+static nsvcd__lever nsvcd__lever_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_length(centre);
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const nsvcd__lever out = {1.000001f * (distance + radius),
+                            1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
 }
 
 // Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their

@@ -80,25 +80,49 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
   span.end = nsvcd__transform_of(&end);
   const float remote_start = nsvcd__f3_length(span.start.position);
   const float remote = remote_start + nsvcd__f3_length(span.end.position);
-  span.bulge = (float)(square * arc->bulge);
+  span.bulge = (float)(square * (arc->bulge + arc->twist) * 1.000001);
   span.drift = (float)(square * arc->drift * 1.000001);
   span.rounding = NSVCD__ROUNDING * (remote + p->given.lengths);
   span.drift_along_axis = span.drift_off_way = span.drift;
   span.axis = nsvcd__f3_round(arc->axis);
   span.way = span.axis;  // any
-  span.bulge_along_axis = arc->has_axis ? 1e-6f * span.bulge : span.bulge;
+  const double wavers = square * (arc->bulge * arc->waver + arc->twist);
+  span.bulge_along_axis = fminf((float)wavers + 1e-6f * span.bulge, span.bulge);
   span.t_start = nsvcd__time_in_arc(p, u0);
   span.t_end = nsvcd__time_in_arc(p, u1);
   return span;
 }
 
-// What the points of the moving body, none farther than `reach` from its origin, leave their chords
-// by along a direction n, times its length, but for rounding (which is times |n| too). With D the
-// difference between the true rotation and the chord's at some time, and d that of the positions, a
-// point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
-//   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
+// The axis as the moving body has it, unit.
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__span *span) {
+  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&span->start.rotation, span->axis);
+  const float length = nsvcd__f3_length(axis);
+  return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
+}
+
+// Of a patch's pieces.
+static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
+                                       const nsvcd__span *span) {
+  const float radius = nsvcd__body_r(f->body)[patch];
+  return nsvcd__lever_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
+}
+
+// What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
+// difference between the true rotation and the chord's at some time. Split x into its parts along
+// a', the axis as the moving body has it, and across it: then
+//   |D x| <= |D| |x x a'| + |D a'| |x.a'|
+// and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
+static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
+  const float by_axis = span->bulge * lever.radial + span->bulge_along_axis * lever.reach;
+  return fminf(span->bulge * lever.reach, by_axis);
+}
+
+// What the points of the moving body leave their chords by along a direction n, times its length,
+// but for rounding (which is times |n| too). With d the difference of the positions, a point x is
+// off by n.(D x + d). Split n into its parts along the axis and across it: then
+//   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {
+static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever lever) {
   const float along = fabsf(nsvcd__f3_dot(n, span->axis));
   const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
   const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
@@ -106,7 +130,8 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach)
   const float by_axis = along * span->drift_along_axis + across * span->drift;
   const float by_way = along_way * span->drift + across_way * span->drift_off_way;
   const float drift = by_axis < by_way ? by_axis : by_way;
-  return drift + reach * (along * span->bulge_along_axis + across * span->bulge);
+  const float turn = along * span->bulge_along_axis * lever.reach;
+  return drift + turn + across * nsvcd__bulge_of(span, lever);
 }
 
 // The same for a slice of directions, or one direction in a slice of spans.

@@ -83,7 +83,10 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
   p->given.skin = (double)q->skin / unit;
-  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
+  const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
+  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__IN_DOUBT;
   p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
@@ -208,7 +211,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   p->ask.share = kept / way;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
@@ -282,7 +285,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];

@@ -355,7 +355,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     mover->count = part->link ? count : 1;
   }
   question.method = NSVCD_METHOD_PROOF;
-  question.work = work;
+  question.work = work ? work : NSVCD_DEFAULT_WORK;
   return question;
 }
 

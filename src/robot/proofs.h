@@ -97,12 +97,14 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
   const nsvcd_scene *scene = c->checker->scene;
   const double n = (double)c->motion.degree;
   double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
-  nsvcd__off_chord outer = {0, 0};
-  nsvcd__off_chord out = {0, 0};
+  nsvcd__off_chord outer, out;
+  memset(&outer, 0, sizeof outer);
+  memset(&out, 0, sizeof out);
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
     const int slides = nsvcd__slides(c->checker, link - 1);
-    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0.0 : 1.0};
+    const double per_metre = slides ? 0 : 1;
+    const double base = slides ? 1 : reach;
     double p[NSVCD_MAX_DEGREE + 1];
     double most = 0;
     double speed = 0;
@@ -117,11 +119,10 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
     speed += off;
     bend += off;
     const double own = slides ? 0 : speed;
-    out.base += bend * lever.base + own * (2 * outer.base + own * lever.base);
-    out.per_metre +=
-        bend * lever.per_metre + own * (2 * outer.per_metre + own * lever.per_metre);
-    outer.base += speed * lever.base;
-    outer.per_metre += speed * lever.per_metre;
+    out.base += bend * base + own * (2 * outer.base + own * base);
+    out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
+    outer.base += speed * base;
+    outer.per_metre += speed * per_metre;
     const nsvcd__d3 offset = c->checker->links[link - 1].place;
     reach += nsvcd__d3_length(offset) + (slides ? most : 0);
   }

@@ -839,7 +839,7 @@ class Options(_Options):
     manifold   first: up to four contacts, which hold the body, are told, where else one is
     method     proof where both bodies have triangles, else network, which knows neither first, nor a clearance or a
                skin, and of a distance, where it is named, has an opinion: Answer.opinion.distance
-    work       units that a proof may take; 100000
+    work       units that a proof may take; 10000000, of a distance 100000
     segments   a motion is cut into at most so many, a multiple of 16 up to 64; 64
     Of the network:
     pairs      of patches that it looks at, 1 to 256; 8
