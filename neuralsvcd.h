@@ -919,7 +919,9 @@ typedef struct nsvcd_network_options {
   float swell;
 } nsvcd_network_options;
 
+// units; HIT and FIRST, whose verdict on a close fit may take as many, and nothing else does
 #define NSVCD_DEFAULT_WORK 100000
+#define NSVCD_DEFAULT_VERDICT_WORK 10000000
 #define NSVCD_NO_TRIANGLE 0xffffffffu
 // that an answer names at most
 #define NSVCD_MAX_CONTACTS 4
@@ -975,15 +977,16 @@ typedef struct nsvcd_question {
   // FIRST: 1: up to four contacts, which hold the body, are told, where else one is
   int manifold;
   nsvcd_method method;
-  // units that a proof may take, about. A unit is a plane sought for two patches, 16 triangles
-  // against the box of 16, one of them against these, two triangles at one time, or a ray against
-  // 16 or one. 0: NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see
-  // nsvcd_sweep), so that it grows with the length. What is named is for all of the motion, in the
-  // order of time: when it ends, what was proven until then is told; of DISTANCE each interval has
-  // the share that is its part of the time left. An eighth is left once surfaces have come too
-  // near to tell. Of FIRST an eighth is kept for what has not been decided by then: what of the
-  // motion is free until when, and whether they meet at all. A manifold, and the place of a lifted
-  // body, may take an eighth each besides. Before that, a question takes as many units whatever is
+  // units that a proof may take, about; 0: NSVCD_DEFAULT_VERDICT_WORK, of DISTANCE
+  // NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see nsvcd_sweep), so that it
+  // grows with the length. A unit is a plane sought for two patches, 16 triangles against the box
+  // of 16, one of them against these, two triangles at one time, or a ray against 16 or one. What
+  // is named is for all of the motion, in the order of time: when it ends, what was proven until
+  // then is told; of DISTANCE each interval has the share that is its part of the time left. An
+  // eighth is left once surfaces have come too near to tell. Of FIRST an eighth is kept for what
+  // has not been decided by then: what of the motion is free until when, and whether they meet at
+  // all. A manifold, and the place of a lifted body, may take an eighth each besides. By default an
+  // eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units whatever is
   // allowed
   size_t work;
   // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
@@ -12023,6 +12026,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
 #define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
 #define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
+#define NSVCD__DESPAIR 128  // and before none is looked for, if all that is asked is yes or no
 #define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
 // What no plane parts is settled by its triangles, arc by arc.
@@ -12030,7 +12034,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
 // Parts that couples ask for, before the span is halved for all, if it is longer than this share of
 // an arc.
-#define NSVCD__PATIENCE_TO_PART 12
+#define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__HALVINGS 40       // of a span for one couple
@@ -12105,13 +12109,15 @@ typedef struct nsvcd__arc {
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
   nsvcd__d3 lift;
-  // of the turn, unit, if the fixed body does not turn
-  nsvcd__d3 axis;
-  int has_axis;
+  // of the turn where the arc begins, unit: as the fixed body has it, and as the moving one has it;
+  // and by how much it strays from either, an angle, where both bodies turn
+  nsvcd__d3 axis, own_axis;
+  double waver;
   // over the arc, as the fixed body sees it: radians, and the way of the moving origin, at most
   double turn, speed;
-  // what points one metre from the moving body's origin, and that itself, leave their chord by
-  double bulge, drift;
+  // What points leave their chord by: a metre from the turn's axis; a metre from the moving body's
+  // origin besides, where both bodies turn; and that origin itself.
+  double bulge, twist, drift;
 } nsvcd__arc;
 
 // A pose in double.
@@ -12238,8 +12244,9 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken; each interval of a long motion may, if it grows
-  size_t work;
+  // units that may be taken, and each interval of a long motion may, if it grows; and what is
+  // beside the question, a doubt above all, may take of them
+  size_t work, aside;
   int grows;
 } nsvcd__given;
 
@@ -12395,13 +12402,12 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
 // What the search for the first contact may take; and, of the rest, what can be proven by time. The
 // last of it is for the question whether there is any contact.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
-  return p->ask.most - p->given.work / NSVCD__IN_DOUBT;
+  return p->ask.most - p->given.aside;
 }
 static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
-  const size_t most = p->given.work / (2 * NSVCD__IN_DOUBT);
-  const size_t least = p->given.work / (4 * NSVCD__IN_DOUBT);
+  const size_t most = p->given.aside / 2;
   const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->ask.most - (least > usual ? least : usual);
+  return p->ask.most - (most / 2 > usual ? most / 2 : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
@@ -12413,7 +12419,9 @@ static int nsvcd__is_spent(nsvcd__proof *p) {
       p->known.unsure < NSVCD__NEVER) {
     ask->doubts_end = 1;
     ask->end = nsvcd__min(ask->end, p->known.unsure);
+    const size_t left = (NSVCD__IN_DOUBT - 1) * p->given.aside;
     ask->limit = nsvcd__limit_of_first(p);
+    if (p->work + left < ask->limit) ask->limit = p->work + left;
   }
   return p->work > ask->limit;
 }
@@ -12434,11 +12442,19 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
   return p->ask.motion->scale * p->moving.quanta[i] + p->fixed.quanta[j];
 }
 
-// No point of the patch's pieces is farther from the body's origin; in the body's own units, as
-// bulges have it.
-static float nsvcd__patch_reach(const nsvcd__facets *f, size_t patch) {
-  const float distance = nsvcd__f3_length(nsvcd__facet_centre(f, patch));
-  return 1.000001f * (distance + nsvcd__body_r(f->body)[patch]);
+// How far points of the moving body are, in its own units, as bulges have it: none is farther from
+// its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
+typedef struct nsvcd__lever {
+  float reach, radial;
+} nsvcd__lever;
+
+// Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
+static nsvcd__lever nsvcd__lever_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+  const float distance = nsvcd__f3_length(centre);
+  const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
+  const nsvcd__lever out = {1.000001f * (distance + radius),
+                            1.000001f * (aside + radius) + 1e-6f * distance};
+  return out;
 }
 
 // Tests hear of every plane of discs, hulls and triangles (spheres and boxes have tests of their
@@ -12546,7 +12562,6 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
-  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   if (arc->fixed_moves) {
     // what both bodies' turns do: see nsvcd__cut_double_arc
     const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
@@ -12558,34 +12573,39 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double swing_to = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, end));
     const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
-    arc->has_axis = !(angle > 0);
+    const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, 0));
+    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__leg_at(&arc->moving, 0));
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
-    arc->bulge = 0.1250001 * arc->scale * (arc->turn * arc->turn + twist);
+    arc->twist = 0.1250001 * arc->scale * twist;
     arc->drift = 0.1250001 * (2 * across + angle * swing);
-    arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    // where the fixed body only goes along, its axes are those of its start
-    if (arc->has_axis) arc->axis = nsvcd__dmat3_apply_transpose(&fixed, arc->axis);
+    arc->axis = nsvcd__dmat3_apply_transpose(&fixed, axis);
+    arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, axis);
+    arc->waver = arc->turn > 0 ? nsvcd__min(1, twist / arc->turn) : 0;
+    arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
     return arc;
   }
 
+  const nsvcd__dmat3 fixed = nsvcd__dmat3_of(arc->fixed.start);
   arc->moving.start = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.start);
   arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
   arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
   arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
   const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
-  arc->has_axis = 1;
+  const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
+  arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
   arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
   arc->speed = nsvcd__d3_length(arc->moved);
   arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
-  arc->drift = 0;
+  arc->waver = arc->twist = arc->drift = 0;
   return arc;
 }
 
 // Do all points of the moving body go along straight lines, seen from the fixed one?
 static int nsvcd__is_straight(const nsvcd__arc *arc) {
-  return !(arc->bulge > 0 || arc->drift > 0);
+  return !(arc->bulge > 0 || arc->twist > 0 || arc->drift > 0);
 }
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
@@ -12743,25 +12763,49 @@ static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0
   span.end = nsvcd__transform_of(&end);
   const float remote_start = nsvcd__f3_length(span.start.position);
   const float remote = remote_start + nsvcd__f3_length(span.end.position);
-  span.bulge = (float)(square * arc->bulge);
+  span.bulge = (float)(square * (arc->bulge + arc->twist) * 1.000001);
   span.drift = (float)(square * arc->drift * 1.000001);
   span.rounding = NSVCD__ROUNDING * (remote + p->given.lengths);
   span.drift_along_axis = span.drift_off_way = span.drift;
   span.axis = nsvcd__f3_round(arc->axis);
   span.way = span.axis;  // any
-  span.bulge_along_axis = arc->has_axis ? 1e-6f * span.bulge : span.bulge;
+  const double wavers = square * (arc->bulge * arc->waver + arc->twist);
+  span.bulge_along_axis = fminf((float)wavers + 1e-6f * span.bulge, span.bulge);
   span.t_start = nsvcd__time_in_arc(p, u0);
   span.t_end = nsvcd__time_in_arc(p, u1);
   return span;
 }
 
-// What the points of the moving body, none farther than `reach` from its origin, leave their chords
-// by along a direction n, times its length, but for rounding (which is times |n| too). With D the
-// difference between the true rotation and the chord's at some time, and d that of the positions, a
-// point x is off by n.(D x + d). Split n into its parts along the axis and across it: then
-//   |n.D x| <= (|n.axis| |D^T axis| + |n x axis| |D|) |x|
+// The axis as the moving body has it, unit.
+static nsvcd__f3 nsvcd__own_axis(const nsvcd__span *span) {
+  const nsvcd__f3 axis = nsvcd__mat3_apply_transpose(&span->start.rotation, span->axis);
+  const float length = nsvcd__f3_length(axis);
+  return nsvcd__f3_scale(axis, length > 0 ? 1 / length : 0);
+}
+
+// Of a patch's pieces.
+static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
+                                       const nsvcd__span *span) {
+  const float radius = nsvcd__body_r(f->body)[patch];
+  return nsvcd__lever_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
+}
+
+// What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
+// difference between the true rotation and the chord's at some time. Split x into its parts along
+// a', the axis as the moving body has it, and across it: then
+//   |D x| <= |D| |x x a'| + |D a'| |x.a'|
+// and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
+static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
+  const float by_axis = span->bulge * lever.radial + span->bulge_along_axis * lever.reach;
+  return fminf(span->bulge * lever.reach, by_axis);
+}
+
+// What the points of the moving body leave their chords by along a direction n, times its length,
+// but for rounding (which is times |n| too). With d the difference of the positions, a point x is
+// off by n.(D x + d). Split n into its parts along the axis and across it: then
+//   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach) {
+static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever lever) {
   const float along = fabsf(nsvcd__f3_dot(n, span->axis));
   const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
   const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
@@ -12769,7 +12813,8 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, float reach)
   const float by_axis = along * span->drift_along_axis + across * span->drift;
   const float by_way = along_way * span->drift + across_way * span->drift_off_way;
   const float drift = by_axis < by_way ? by_axis : by_way;
-  return drift + reach * (along * span->bulge_along_axis + across * span->bulge);
+  const float turn = along * span->bulge_along_axis * lever.reach;
+  return drift + turn + across * nsvcd__bulge_of(span, lever);
 }
 
 // The same for a slice of directions, or one direction in a slice of spans.
@@ -13213,7 +13258,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
                                                const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
   const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const float reach = nsvcd__patch_reach(&p->moving, i);
+  const nsvcd__lever lever = nsvcd__patch_lever(&p->moving, i, span);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
@@ -13239,7 +13284,7 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, reach)) {
+    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, lever)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
@@ -13399,8 +13444,9 @@ static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *c
 typedef struct nsvcd__couple {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
-  // of the moving one, from its body's origin, in its body's units
-  double reach;
+  // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
+  // at any time of the arc, from the axis of its turn
+  double reach, radial;
   // how far the meshes' own may be off, with rounding in double; and that
   double slack;
   double rounding;
@@ -13408,15 +13454,25 @@ typedef struct nsvcd__couple {
   double close;
 } nsvcd__couple;
 
+// How far its moving triangle is from the origin and from the axis.
+static void nsvcd__couple_reaches(const nsvcd__arc *arc, nsvcd__couple *couple) {
+  couple->reach = couple->radial = 0;
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 corner = couple->moving[k];
+    const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
+    couple->reach = nsvcd__max(couple->reach, nsvcd__d3_length(corner));
+    couple->radial = nsvcd__max(couple->radial, nsvcd__d3_length(across));
+  }
+  couple->radial += (arc->waver + 1e-6) * couple->reach;
+  couple->radial = nsvcd__min(couple->radial, couple->reach);
+}
+
 static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
                                       size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0};
+  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
   nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
   nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
-  for (size_t k = 0; k < 3; k++) {
-    const double reach = nsvcd__d3_length(couple.moving[k]);
-    couple.reach = reach > couple.reach ? reach : couple.reach;
-  }
+  nsvcd__couple_reaches(&p->arc, &couple);
   couple.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
   couple.slack = couple.rounding + nsvcd__off_meshes(p);
@@ -13498,10 +13554,19 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// Does the plane with this unit normal part the couple from u0 to u1 of the arc? Between these
-// times a point at r metres is off its chord by (u1 - u0)^2 (bulge r + drift), of the whole arc;
-// along a direction n, where the arc is a turn about one axis a, by |n x a| of that bulge: see
-// motion/segments.
+// By how much the points of a couple's moving triangle are off their chords along a unit direction
+// n, at most, over all of the arc; over a share of it by the square of that share. A point at r
+// metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a| + twist r
+// + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__couple *couple,
+                                     nsvcd__d3 n) {
+  const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
+  const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
+  const double turn = arc->bulge * couple->radial * off_axis;
+  return turn + arc->twist * couple->reach + arc->drift;
+}
+
+// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
 static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
                               double u1, nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
@@ -13516,10 +13581,8 @@ static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, doub
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
     highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
   }
-  double off_axis = 1;
-  if (arc->has_axis) off_axis = nsvcd__d3_length(nsvcd__d3_cross(normal, arc->axis)) + 1e-6;
-  const double bulge = arc->bulge * couple->reach * off_axis;
-  const double deviation = (u1 - u0) * (u1 - u0) * (bulge + arc->drift);
+  const double off = nsvcd__off_chord_along(arc, couple, normal);
+  const double deviation = (u1 - u0) * (u1 - u0) * off;
   return lowest - highest > p->ask.clearance + couple->slack + deviation;
 }
 
@@ -13784,7 +13847,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
                                                         double u1) {
   const nsvcd__arc *arc = &p->arc;
   if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * couple->reach;
+  const double speed = arc->speed + arc->turn * arc->scale * couple->radial;
   const double close = couple->close;
   nsvcd__d3 *plane = &p->memo.parting;
   double *ends = p->couple_ends;
@@ -13902,6 +13965,24 @@ static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transfo
       nsvcd__v3_store(p->posed[which][k], l, nsvcd__v3_transform(at, corner));
     }
   }
+}
+
+// Of the moving block's corners. axis: unit, as the body has it.
+static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
+  nsvcd__v far = nsvcd__v_set(0);
+  nsvcd__v aside = far;
+  for (size_t k = 0; k < 3; k++) {
+    NSVCD__EACH_SLICE(l) {
+      const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
+      const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
+      far = nsvcd__v_max(far, nsvcd__v3_dot(corner, corner));
+      aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
+    }
+  }
+  const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(far))) + quantum;
+  const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
+  const nsvcd__lever out = {reach, radial + 1e-6f * reach};
+  return out;
 }
 
 // Replaces the boxes of the moving block by those of its posed corners, at `ends` (1 or 2) poses.
@@ -14663,17 +14744,16 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
 // others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
 // when there is such a couple.
 static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                        size_t n, const nsvcd__span *span, float margin,
-                                        double u0, double u1, size_t patience) {
+                                        size_t n, const nsvcd__span *span, nsvcd__lever lever,
+                                        float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
-  const float reach = p->moving.body->extent + p->moving.quanta[i];
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
     const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
     const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, reach);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
@@ -14693,15 +14773,22 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
                                                            double u1, size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
-  const float reach = p->moving.body->extent + p->moving.quanta[i];
-  const float margin = nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) +
-                       nsvcd__clearance(p) + span->bulge * reach;
+  const nsvcd__f3 axis = nsvcd__own_axis(span);
+  const float stays =
+      nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
+  const float extent = p->moving.body->extent + p->moving.quanta[i];
+  const nsvcd__lever all = {extent, extent};
+  const int bends =
+      span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
+      const nsvcd__lever lever =
+          bends ? nsvcd__block_lever(p, axis, p->moving.quanta[i]) : all;
+      const float margin = stays + nsvcd__bulge_of(span, lever);
       nsvcd__block_pose(p, &span->start, 0);
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
@@ -14717,7 +14804,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
             NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__settle_row(p, i, j, l, n, span, margin, u0, u1, patience);
+              nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
           if (row != NSVCD__SETTLED) return row;
         }
       }
@@ -14807,7 +14894,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_reach(&p->moving, i));
+        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(&p->moving, i, span));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -14918,6 +15005,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
 // keeps them. The last plane that held is tried on all before anything else: it often holds for
 // neighbours.
 static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+  const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, search);
   for (size_t n = 0; n < p->fresh_count; n++) {
@@ -14951,7 +15039,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
           nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
       if (by_triangles == NSVCD__SETTLED) continue;
     }
-    if (!item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+    const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
+    if (has_hope && !item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
     if (p->count == NSVCD__ITEMS) {
@@ -16090,7 +16179,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
   const int is_try = p->ask.motion->arcs > 1;
   p->ask.is_brief = is_try;
   p->ask.share = is_try ? 0 : share;
-  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.aside;
   p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
   if (p->ask.share > 0) return nsvcd__prove_first(p, search);
   return nsvcd__prove_motion(p, search);
@@ -16098,7 +16187,7 @@ static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *sear
 
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t share = p->given.work / NSVCD__IN_DOUBT;
+  const size_t share = p->given.aside;
   const size_t units = share < NSVCD__LOOK ? share : NSVCD__LOOK;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
@@ -16156,7 +16245,7 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.work / NSVCD__IN_DOUBT;
+  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.aside;
   if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__starts_within(p)) {
@@ -18453,7 +18542,10 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   p->given.clearance = (double)q->clearance / unit + p->given.round;
   p->ask.clearance = p->given.clearance;
   p->given.skin = (double)q->skin / unit;
-  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : NSVCD_DEFAULT_WORK;
+  const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
+  const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
+  p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
+  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__IN_DOUBT;
   p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
   p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
@@ -18578,7 +18670,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   p->ask.share = kept / way;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
@@ -18652,7 +18744,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   p->ask.motion = &still;
   p->ask.gathers = NSVCD__SUPPORTING;
   p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
-  p->ask.limit = p->work + p->given.work / NSVCD__IN_DOUBT;
+  p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
     int chosen[NSVCD_MAX_CONTACTS];
@@ -19888,12 +19980,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__block_box NSVCD__AT(block_box)
 #define nsvcd__block_corners NSVCD__AT(block_corners)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
+#define nsvcd__block_lever NSVCD__AT(block_lever)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
 #define nsvcd__box_of_lane NSVCD__AT(box_of_lane)
 #define nsvcd__boxes NSVCD__AT(boxes)
 #define nsvcd__boxes_of_groups NSVCD__AT(boxes_of_groups)
+#define nsvcd__bulge_of NSVCD__AT(bulge_of)
 #define nsvcd__by_contact NSVCD__AT(by_contact)
 #define nsvcd__by_facts NSVCD__AT(by_facts)
 #define nsvcd__by_frame NSVCD__AT(by_frame)
@@ -19952,6 +20046,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
 #define nsvcd__couple_of NSVCD__AT(couple_of)
 #define nsvcd__couple_passes NSVCD__AT(couple_passes)
+#define nsvcd__couple_reaches NSVCD__AT(couple_reaches)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut NSVCD__AT(cut)
@@ -20088,6 +20183,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__leg_at NSVCD__AT(leg_at)
 #define nsvcd__leg_init NSVCD__AT(leg_init)
 #define nsvcd__leg_turn NSVCD__AT(leg_turn)
+#define nsvcd__lever NSVCD__AT(lever)
+#define nsvcd__lever_of NSVCD__AT(lever_of)
 #define nsvcd__lift_along NSVCD__AT(lift_along)
 #define nsvcd__lift_motion NSVCD__AT(lift_motion)
 #define nsvcd__lift_off NSVCD__AT(lift_off)
@@ -20152,8 +20249,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__not_parted_anew NSVCD__AT(not_parted_anew)
 #define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
+#define nsvcd__off_chord_along NSVCD__AT(off_chord_along)
 #define nsvcd__off_meshes NSVCD__AT(off_meshes)
 #define nsvcd__outcome NSVCD__AT(outcome)
+#define nsvcd__own_axis NSVCD__AT(own_axis)
 #define nsvcd__pace NSVCD__AT(pace)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
@@ -20163,7 +20262,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__passage NSVCD__AT(passage)
 #define nsvcd__passing NSVCD__AT(passing)
 #define nsvcd__passing_turns NSVCD__AT(passing_turns)
-#define nsvcd__patch_reach NSVCD__AT(patch_reach)
+#define nsvcd__patch_lever NSVCD__AT(patch_lever)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__place_point NSVCD__AT(place_point)
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
@@ -20902,10 +21001,12 @@ typedef struct nsvcd__posed {
   nsvcd__d3 at;
 } nsvcd__posed;
 
-// By how much a point at r metres from the body's origin leaves its chord, at most: base +
-// per_metre r.
+// By how much a point leaves its chord, at most, along a unit direction n: base + per_metre r +
+// turn rho |n x R axis|. It is r metres from the body's origin, and rho from the line through that
+// along the axis, a unit vector of the body that R takes to the same one all the while.
 typedef struct nsvcd__off_chord {
-  double base, per_metre;
+  double base, per_metre, turn;
+  nsvcd__d3 axis;
 } nsvcd__off_chord;
 
 // A mesh that moves, t in [0,1]. A knot is a time at which the motion has a corner; between two of
@@ -21004,17 +21105,25 @@ static double nsvcd__mover_next(const void *motion, double t) {
   return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
 }
 
-// A turn by h at a constant rate has a second derivative of h^2 r, and leaves its chord by an
-// eighth of it.
+// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
+// and leaves its chord by an eighth of it: along n that is h^2 / 8 (n x a).(a x y).
 static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  nsvcd__off_chord out = {0, 0};
+  nsvcd__off_chord out;
+  memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
   const nsvcd_pose *a = &mover->poses[k];
   const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
-  const double h = 2 * nsvcd__turning_of(a, a + 1).half_angle * (t1 - t0) / whole;
-  out.per_metre = 0.1250001 * h * h;
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  const double h = 2 * arc.half_angle * (t1 - t0) / whole;
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  out.axis =
+      nsvcd__d3_unit(nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to)), none);
+  if (nsvcd__d3_length(out.axis) > 0)
+    out.turn = 0.1250001 * h * h;
+  else
+    out.per_metre = 0.1250001 * h * h;
   return out;
 }
 
@@ -21208,6 +21317,43 @@ static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *n
   return 1.000002 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
+// No point of a node is farther from the line through its body's origin along a unit axis.
+static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *node,
+                                nsvcd__d3 axis) {
+  const float *corners = rider->tree->corners + 9 * (size_t)node->first;
+  double square = 0;
+  if (node->count > NSVCD__EXACT) {
+    const nsvcd__box *box = &rider->tree->boxes[node->box];
+    const nsvcd__d3 low = nsvcd__d3_widen(box->low);
+    const nsvcd__d3 high = nsvcd__d3_widen(box->high);
+    const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+    const nsvcd__d3 a = nsvcd__d3_of(fabs(axis.x), fabs(axis.y), fabs(axis.z));
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_mix(low, high, 0.5), axis);
+    const double x = fabs(off.x) + half.y * a.z + half.z * a.y;
+    const double y = fabs(off.y) + half.z * a.x + half.x * a.z;
+    const double z = fabs(off.z) + half.x * a.y + half.y * a.x;
+    square = x * x + y * y + z * z;
+  }
+  for (size_t i = 0; i < 3 * (size_t)node->count && node->count <= NSVCD__EXACT; i++) {
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
+    square = nsvcd__max(square, nsvcd__d3_dot(off, off));
+  }
+  return 1.000002 * rider->scale * sqrt(square);
+}
+
+// By how much the points of a node, at r metres at most, leave their chords along a normal.
+static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
+                                 const nsvcd__posed *at, const nsvcd__off_chord *off,
+                                 nsvcd__d3 along) {
+  double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
+  if (off->turn > 0) {
+    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, off->axis);
+    const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+    leaves += off->turn * across * nsvcd__node_aside(rider, node, off->axis);
+  }
+  return leaves;
+}
+
 // Does a plane of this normal part two nodes, at all instants and between them?
 static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
                                     nsvcd__d3 along) {
@@ -21222,12 +21368,12 @@ static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes 
     const double lengths = ra + rb + s->clearance + at->lengths;
     const double gap = nsvcd__gap_along(s, nodes, at, along);
     const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
-    const double most = length * (s->clearance + leaves + margin);
+    const double most = length * (s->clearance + margin) + leaves;
     if (!(gap > most && last > most)) return 0;
     last = gap;
     last_lengths = lengths;
-    leaves = at->off_a.base + at->off_a.per_metre * ra;
-    leaves += at->off_b.base + at->off_b.per_metre * rb;
+    leaves = nsvcd__node_leaves(s->a, &nodes->a, ra, &at->a, &at->off_a, along);
+    leaves += nsvcd__node_leaves(s->b, &nodes->b, rb, &at->b, &at->off_b, along);
   }
   return 1;
 }
@@ -22680,7 +22826,7 @@ static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_bod
     mover->count = part->link ? count : 1;
   }
   question.method = NSVCD_METHOD_PROOF;
-  question.work = work;
+  question.work = work ? work : NSVCD_DEFAULT_WORK;
   return question;
 }
 
@@ -23063,12 +23209,14 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
   const nsvcd_scene *scene = c->checker->scene;
   const double n = (double)c->motion.degree;
   double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
-  nsvcd__off_chord outer = {0, 0};
-  nsvcd__off_chord out = {0, 0};
+  nsvcd__off_chord outer, out;
+  memset(&outer, 0, sizeof outer);
+  memset(&out, 0, sizeof out);
   for (size_t link = scene->parts[c->part].link; link != c->base;
        link = scene->joints[link - 1].parent) {
     const int slides = nsvcd__slides(c->checker, link - 1);
-    const nsvcd__off_chord lever = {slides ? 1 : reach, slides ? 0.0 : 1.0};
+    const double per_metre = slides ? 0 : 1;
+    const double base = slides ? 1 : reach;
     double p[NSVCD_MAX_DEGREE + 1];
     double most = 0;
     double speed = 0;
@@ -23083,11 +23231,10 @@ static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, 
     speed += off;
     bend += off;
     const double own = slides ? 0 : speed;
-    out.base += bend * lever.base + own * (2 * outer.base + own * lever.base);
-    out.per_metre +=
-        bend * lever.per_metre + own * (2 * outer.per_metre + own * lever.per_metre);
-    outer.base += speed * lever.base;
-    outer.per_metre += speed * lever.per_metre;
+    out.base += bend * base + own * (2 * outer.base + own * base);
+    out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
+    outer.base += speed * base;
+    outer.per_metre += speed * per_metre;
     const nsvcd__d3 offset = c->checker->links[link - 1].place;
     reach += nsvcd__d3_length(offset) + (slides ? most : 0);
   }

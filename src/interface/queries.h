@@ -121,14 +121,15 @@ typedef struct nsvcd_question {
   nsvcd_method method;
   // units that a proof may take, about; 0: NSVCD_DEFAULT_VERDICT_WORK, of DISTANCE
   // NSVCD_DEFAULT_WORK, which each interval of a long motion may take (see nsvcd_sweep), so that it
-  // grows with the length. A unit is a plane sought for two patches, 16 triangles against the box of
-  // 16, one of them against these, two triangles at one time, or a ray against 16 or one. What is
-  // named is for all of the motion, in the order of time: when it ends, what was proven until then
-  // is told; of DISTANCE each interval has the share that is its part of the time left. An eighth is
-  // left once surfaces have come too near to tell. Of FIRST an eighth is kept for what has not been
-  // decided by then: what of the motion is free until when, and whether they meet at all. A
-  // manifold, and the place of a lifted body, may take an eighth each besides. By default an eighth
-  // is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units whatever is allowed
+  // grows with the length. A unit is a plane sought for two patches, 16 triangles against the box
+  // of 16, one of them against these, two triangles at one time, or a ray against 16 or one. What
+  // is named is for all of the motion, in the order of time: when it ends, what was proven until
+  // then is told; of DISTANCE each interval has the share that is its part of the time left. An
+  // eighth is left once surfaces have come too near to tell. Of FIRST an eighth is kept for what
+  // has not been decided by then: what of the motion is free until when, and whether they meet at
+  // all. A manifold, and the place of a lifted body, may take an eighth each besides. By default an
+  // eighth is one of NSVCD_DEFAULT_WORK. Before that, a question takes as many units whatever is
+  // allowed
   size_t work;
   // a motion, or each interval of a long one, is cut into at most so many, a multiple of 16 up to
   // 64; 0: 64. Fewer take less memory, and make intervals shorter

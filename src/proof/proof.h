@@ -315,8 +315,8 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken, and each interval of a long motion may, if it grows; and what is beside
-  // the question, a doubt above all, may take of them
+  // units that may be taken, and each interval of a long motion may, if it grows; and what is
+  // beside the question, a doubt above all, may take of them
   size_t work, aside;
   int grows;
 } nsvcd__given;
