@@ -1,6 +1,8 @@
 // Solids with a flaw: what does no harm is mended, what does is told, and nothing inside of either
 // is free; sheets stay sheets.
 #define NSVCD_NO_NETWORK
+#define NSVCD_STATIC
+#define NEURALSVCD_IMPLEMENTATION
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
 #include "../src/body/shapes.h"
