@@ -16,6 +16,8 @@ check_state check;
 
 void test_results(void);
 void test_round(void);
+void test_exact(void);
+void test_floor(void);
 void test_robot(void);
 void test_postures(void);
 void test_certificate(void);
@@ -84,6 +86,8 @@ static const test_file files[] = {
     OF(normals),
     OF(solids),
     OF(round),
+    OF(exact),
+    OF(floor),
     OF(robot),
     OF(postures),
     OF(certificate),
