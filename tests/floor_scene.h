@@ -279,7 +279,7 @@ static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer,
   if ((double)answer->time.low * s->speed > s->lands * s->speed + rounded + hair) return "too late";
   const double high = floor_height(s, (double)answer->time.high);
   const double now = floor_height(s, fmax((double)answer->time.high * (1 - 1.2e-7), 0));
-  *first = high > 0 ? high : now < 0 ? -now : 0;
+  if (s->lands > 0) *first = high > 0 ? high : now < 0 ? -now : 0;
   return high > s->to + hair ? "in contact above the floor" : NULL;
 }
 
