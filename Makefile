@@ -153,8 +153,8 @@ uninstall:  ## takes it away again
 
 HELPERS = $(wildcard tests/*.h tests/data/*.h) $(ROOMS) $(VERIFIER)
 PEERS = $(wildcard tests/bench/*.h)
-# Each test file holds the rooms of src/ that it is about, test_asks.c, test_round.c, test_exact.c, test_floor.c and test_processor.c the header as users have it, and
-# uses only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
+# Each test file holds the rooms of src/ that it is about, test_asks.c, test_round.c, test_exact.c, test_floor.c and test_processor.c the
+# header as users have it, and uses only a part of their private functions. One instruction set is enough for most: test_processor.c has all that the processor knows,
 # whatever the flags.
 TEST_WARNINGS = -I. -Wall -Wextra -Werror -Wno-unused-function -DNSVCD_NO_DISPATCH
 # Tests take less time to compile than -O3 costs: both together decide.
@@ -405,8 +405,12 @@ check-rest: build/check_rest  # what lies flat on a table: depth, lift, safe pla
 	@mkdir -p build/options && tar xzf examples/scenery/meshes/random_urdfs.tar.gz -C build/options
 	build/check_rest $(RESTING) $(or $(SEED),1) build/options/random_urdfs/*.obj
 
-check-extremes: build/problems build/svcd  # tiny, huge, far, thin, spinning ...
+# FLOORED=1000 for more questions a floor.
+FLOORED = 100
+check-extremes: build/problems build/svcd build/check_floors  # tiny, huge, far, thin, spinning; large floors; a table of what is decided
 	tests/bench/extremes.sh
+	@mkdir -p build/options && tar xzf examples/scenery/meshes/random_urdfs.tar.gz -C build/options
+	build/check_floors $(FLOORED) build/options/random_urdfs/*[05].obj
 
 check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of instructions, and under QEMU and node
 	CC="$(CC)" tests/one_path.sh
