@@ -259,6 +259,8 @@ static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer,
   const int ask = s->question.ask;
   *first = 0;
   if (skin > 0) {
+    // what comes to touch later is no contact at the start
+    if (floor_height(s, 0) > 0.04 * skin) return NULL;
     const int is_free = depth < 0.95 * skin;
     if (answer->verdict == NSVCD_UNDECIDED || fabs(depth - skin) < 0.06 * skin) return NULL;
     if (is_free != (answer->verdict == NSVCD_FREE)) return is_free ? "stands" : "is pressed in";

@@ -264,7 +264,7 @@ typedef struct edge_tally {
 #define CLOSE 1e-9   // of the lengths: what is that near may be left undecided
 #define FLOATS 4e-6  // of a number: how an answer is rounded
 
-static nsvcd_answer edge_ask(const edge_scene *s, nsvcd_ask ask, double to) {
+static nsvcd_answer edge_ask_within(const edge_scene *s, nsvcd_ask ask, double to, size_t work) {
   static NSVCD_MEMORY(workspace, NSVCD_PROOF_WORKSPACE_BYTES(16, 16, 64));
   nsvcd_question q;
   nsvcd_answer answer;
@@ -279,9 +279,14 @@ static nsvcd_answer edge_ask(const edge_scene *s, nsvcd_ask ask, double to) {
   }
   q.ask = ask;
   q.to = (float)to;
+  q.work = work;
   q.clearance = s->clearance;
   CHECK_EQ(nsvcd_sweep(&q, workspace, sizeof workspace, &answer), NSVCD_OK);
   return answer;
+}
+
+static nsvcd_answer edge_ask(const edge_scene *s, nsvcd_ask ask, double to) {
+  return edge_ask_within(s, ask, to, 0);
 }
 
 // What is false of a verdict, or left open without need; NULL: nothing.
@@ -466,7 +471,41 @@ static void exact_distances_are_right(void) {
   CHECK_GE(apart, 1);
 }
 
+// Floats that are equal or denormal, and no area: refused by name, unless something is left.
+static void exact_refuses_what_is_nothing(void) {
+  uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
+  static float positions[4][18] = {
+      {1, 2, 3, 1, 2, 3, 1, 2, 3},                                   // a point
+      {0, 0, 0, 1e-40f, 0, 0, 0, 1e-40f, 0},                         // denormal
+      {0, 0, 0, 1, 1, 1, 2, 2, 2},                                   // a segment
+      {0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 0, 0, 1e-40f, 0, 1, 0, 1, 0}};  // and a triangle
+  for (int n = 0; n < 4; n++) {
+    const nsvcd_mesh mesh = {positions[n], indices, n == 3 ? 6 : 3, n == 3 ? 2 : 1};
+    const nsvcd_body *body = NULL;
+    const nsvcd_result result = nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body);
+    CHECK_EQ(result, n == 3 ? NSVCD_OK : NSVCD_ERROR_EMPTY);
+    nsvcd_body_free(body, NULL);
+  }
+}
+
+// However little work is allowed, what is said is true.
+static void exact_verdicts_of_little_work(void) {
+  rng_state = 47;
+  for (size_t i = 0; i < check_many(300); i++) {
+    edge_scene s;
+    if (edge_make(&s)) {
+      const nsvcd_answer answer = edge_ask_within(&s, NSVCD_ASK_HIT, 0, 1 + i % 4);
+      const char *fault = answer.verdict == NSVCD_UNDECIDED ? NULL : edge_fault(&s, &answer);
+      if (fault) edge_tell(&s, fault, &answer);
+      CHECK(!fault);
+    }
+    for (int n = 0; n < 2; n++) nsvcd_body_free(s.sides[n].body, NULL);
+  }
+}
+
 void test_exact(void) {
+  RUN(exact_refuses_what_is_nothing);
+  RUN(exact_verdicts_of_little_work);
   RUN(exact_distances_are_right);
   RUN(exact_verdicts_at_the_edge);
   RUN(exact_configurations_far_away);
