@@ -469,6 +469,7 @@ static void solids_are_not_certified_free(void) {
     const nsvcd_certify_options options = {&answer, 0};
     nsvcd_question q;
     nsvcd_certificate made;
+    memset(&made, 0, sizeof made);
     memset(&q, 0, sizeof q);
     const size_t size = nsvcd_certify_workspace_size(&q, trees[0], trees[1]);
     void *workspace = malloc(size);
