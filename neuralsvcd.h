@@ -9781,6 +9781,7 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->fixed.ticks = motion->ticks / b;
 }
 
+#ifndef NSVCD_NO_PROOF
 // Makes ticks finer, where there are few. Returns how many one becomes.
 static double nsvcd__motion_refine(nsvcd__motion *motion) {
   uint32_t finer = 1;
@@ -9792,6 +9793,7 @@ static double nsvcd__motion_refine(nsvcd__motion *motion) {
   }
   return (double)finer;
 }
+#endif
 
 // The ticks of a motion of which poses have times: the poses of a uniform body times a power of
 // two, so that these, and times of few bits, are at ticks.
@@ -10868,6 +10870,14 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
 
 // ---- intervals
 
+// All of a motion.
+static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__choose_segments(motion, search);
+}
+
+#ifndef NSVCD_NO_PROOF
 // No more knots than this come after a tick.
 static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
   const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
@@ -10883,13 +10893,6 @@ static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search,
   const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
   motion->from = from;
   motion->arcs = arcs < left ? arcs : (uint32_t)left;
-  nsvcd__choose_segments(motion, search);
-}
-
-// All of a motion.
-static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
   nsvcd__choose_segments(motion, search);
 }
 
@@ -10926,6 +10929,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uin
   nsvcd__motion_set_box(&part, &moving, &fixed);
   return nsvcd__motion_gap(&part);
 }
+#endif
 
 #ifndef NSVCD_NO_NETWORK
 static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
@@ -13738,7 +13742,7 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
     }
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
     const double beyond = nsvcd__beyond(n, posed, fixed);
-    if (nsvcd__d3_dot(n, guess) < 0.9 || !(beyond > best)) continue;
+    if (!(beyond > best)) continue;
     *plane = n;
     best = beyond;
   }

@@ -275,7 +275,7 @@ extern "C" {
 // ======================================================================== motion: where bodies are
 #include "motion/motion.h"    // the moving body's poses as the fixed one sees them
 #include "motion/segments.h"  // how far a point strays from a straight line
-#include "motion/choice.h"    // which segments a motion is cut into, and a long one which intervals
+#include "motion/choice.h"  // which segments a motion is cut into, and a long one which intervals
 
 // ================================================================== search: which patches may meet
 #include "search/apart.h"      // pairs of patches that a plane parts, by their tips

@@ -152,6 +152,14 @@ static void nsvcd__choose_segments(nsvcd__motion *motion, nsvcd__search *search)
 
 // ---- intervals
 
+// All of a motion.
+static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
+  motion->from = motion->arcs = 0;
+  motion->is_fine = 0;
+  nsvcd__choose_segments(motion, search);
+}
+
+#ifndef NSVCD_NO_PROOF
 // No more knots than this come after a tick.
 static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
   const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
@@ -167,13 +175,6 @@ static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search,
   const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
   motion->from = from;
   motion->arcs = arcs < left ? arcs : (uint32_t)left;
-  nsvcd__choose_segments(motion, search);
-}
-
-// All of a motion.
-static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
-  motion->from = motion->arcs = 0;
-  motion->is_fine = 0;
   nsvcd__choose_segments(motion, search);
 }
 
@@ -210,6 +211,7 @@ static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uin
   nsvcd__motion_set_box(&part, &moving, &fixed);
   return nsvcd__motion_gap(&part);
 }
+#endif
 
 #ifndef NSVCD_NO_NETWORK
 static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,

@@ -180,6 +180,7 @@ static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   motion->fixed.ticks = motion->ticks / b;
 }
 
+#ifndef NSVCD_NO_PROOF
 // Makes ticks finer, where there are few. Returns how many one becomes.
 static double nsvcd__motion_refine(nsvcd__motion *motion) {
   uint32_t finer = 1;
@@ -191,6 +192,7 @@ static double nsvcd__motion_refine(nsvcd__motion *motion) {
   }
   return (double)finer;
 }
+#endif
 
 // The ticks of a motion of which poses have times: the poses of a uniform body times a power of
 // two, so that these, and times of few bits, are at ticks.

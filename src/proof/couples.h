@@ -436,7 +436,7 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
     }
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
     const double beyond = nsvcd__beyond(n, posed, fixed);
-    if (nsvcd__d3_dot(n, guess) < 0.9 || !(beyond > best)) continue;
+    if (!(beyond > best)) continue;
     *plane = n;
     best = beyond;
   }
