@@ -417,8 +417,8 @@ check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of
 
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
-CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches
-RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
+CHECKS = text rooms header examples newcomer tools processor fast-math levels extremes motions sanitizers fuzz python trainer benches
+RELEASE = exact packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
 	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(CORES) $(CHECKED))

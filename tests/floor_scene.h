@@ -221,7 +221,11 @@ static void floor_make(floor_scene *s, shapes_rng *rng) {
   q->clearance = (float)s->clearance;
   if (s->act == FLOOR_STANDS || s->act == FLOOR_LEAVES) q->skin = (float)s->skin;
   if (falls && s->act != FLOOR_COMES) q->ask = NSVCD_ASK_FIRST;
-  if (s->act == FLOOR_MEASURED) q->ask = NSVCD_ASK_DISTANCE;
+  if (s->act == FLOOR_MEASURED) {
+    // a bracket of 1 um over a million triangles takes more than the default
+    q->ask = NSVCD_ASK_DISTANCE;
+    q->work = 10 * NSVCD_DEFAULT_WORK;
+  }
   if (q->ask) q->to = (float)s->to;
 }
 
