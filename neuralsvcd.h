@@ -16203,7 +16203,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
   nsvcd__motion *motion = p->ask.motion;
   const double asked = p->ask.share;
   nsvcd__outcome outcome = NSVCD__SETTLED;
-  nsvcd__known open;
+  nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
   double share = asked;
   int is_open = 0;

@@ -769,7 +769,7 @@ expect 1 'unproven.cert: not written' build/svcd sweep "$PWD/examples/assets/mug
 grep -q certificate "$dir/out" && fail "a certificate that is none: $(cat "$dir/out")"
 expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
 # a certificate that is asked for and not made is no success
-expect 1 'certificates: 0 written, of 4 answers' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --visits 1
+expect 1 'certificates: [0-3] written, of 4 answers' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --visits 1
 build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" >/dev/null 2>&1
 # Who asks one question waits for its answer: a shaft that turns in a bore, 50 um wider, takes more work than usual.
 awk -v pi=3.14159265358979 'BEGIN {

