@@ -69,17 +69,17 @@ static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transfo
 
 // Of the moving block's corners. axis: unit, as the body has it.
 static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
-  nsvcd__v far = nsvcd__v_set(0);
-  nsvcd__v aside = far;
+  nsvcd__v remote = nsvcd__v_set(0);
+  nsvcd__v aside = remote;
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
       const nsvcd__v3 across = nsvcd__v3_cross(corner, nsvcd__v3_set(axis));
-      far = nsvcd__v_max(far, nsvcd__v3_dot(corner, corner));
+      remote = nsvcd__v_max(remote, nsvcd__v3_dot(corner, corner));
       aside = nsvcd__v_max(aside, nsvcd__v3_dot(across, across));
     }
   }
-  const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(far))) + quantum;
+  const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(remote))) + quantum;
   const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
   const nsvcd__lever out = {reach, radial + 1e-6f * reach};
   return out;
