@@ -765,7 +765,7 @@ expect 0 '' build/verify "$dir/sweep.txt" "$dir"
 grep -q '^sweep	accepted	hit	' "$dir/out" || fail "a sweep's certificate: $(cat "$dir/out")"
 expect 2 'ends in .cert' build/svcd sweep a.obj b.obj --certificate x.txt
 expect 1 'unproven.cert: not written' build/svcd sweep "$PWD/examples/assets/mug.obj" "$PWD/examples/assets/dish_rack.obj" \
-  --from 0,-0.4,0.18 --to 0,0.4,0.18 --rotate z,90 --certificate "$dir/unproven.cert" --visits 1
+  --from 0,-0.4,0.16 --to 0,0.4,0.16 --rotate z,90 --certificate "$dir/unproven.cert" --visits 1
 grep -q certificate "$dir/out" && fail "a certificate that is none: $(cat "$dir/out")"
 expect 2 'nor with --skin' build/svcd check "$dir/proofs.txt" --certificates "$dir/certs" --skin 0.001
 # a certificate that is asked for and not made is no success
