@@ -342,7 +342,7 @@ verdict '^free' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5 --skin 0
 verdict '^hit at t = 0.0000' "$dir/cube.obj" "$dir/cube.obj" --from 0,0,1 --to 0,0,5
 # Faces that slide along each other at 30 um, nearer than triangles are stored: whatever the processor and the work.
 verdict '^undecided, taken as a hit; free until t = 0.33[0-9]*: nearer than' "$dir/cube.obj" "$dir/cube.obj" \
-  --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+  --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30 --work 1
 # For scripts: the answer as exit status, which no failure has. answers STATUS ARGUMENTS...
 answers() {
   wanted=$1
@@ -356,7 +356,7 @@ answers 1 "$dir/cube.obj" "$dir/cube.obj" --scale .5,1 --from .25,.25,5 --to .25
 answers 1 "$dir/cube.obj" "$dir/cube.obj" --from 2,0,5 --to 2,0,-5 --clearance 1.1
 answers 1 "$dir/cube.obj" "$dir/mm.obj" --from 5,5,5 --to 6,6,6 --first 0
 answers 1 "$dir/cube.obj" "$dir/cube.obj" --method network
-answers 3 "$dir/cube.obj" "$dir/cube.obj" --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30
+answers 3 "$dir/cube.obj" "$dir/cube.obj" --from -3,0,1.00003 --to 3,0,1.00003 --rotate z,30 --work 1
 answers 2 "$dir/none.obj" "$dir/cube.obj"
 answers 2 "$dir/bad.obj" "$dir/cube.obj"
 answers 2 "$dir/cube.obj"
