@@ -7718,21 +7718,25 @@ static size_t nsvcd__corner_bytes(size_t points) {
   return points <= 256 ? 1 : 2;
 }
 
+// The number of a vertex that reference n is.
+NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__facets *f, size_t n) {
+  uint32_t number;
+  uint16_t narrow;
+  if (nsvcd__reference_bytes(f) == 4) {
+    memcpy(&number, f->references + 4 * n, sizeof number);
+    return number;
+  }
+  memcpy(&narrow, f->references + 2 * n, sizeof narrow);
+  return narrow;
+}
+
 // The place of point i of a patch, which is no stored one, (3).
 NSVCD__INLINE const float *nsvcd__place_of(const nsvcd__facets *f, size_t patch,
                                            nsvcd__patch_points points, size_t i) {
   i -= points.stored;
   if (i < points.own) return f->places + 3 * (f->first_own[patch] + i);
   const size_t at = f->first_reference[patch] + i - points.own;
-  uint32_t number = 0;
-  uint16_t narrow;
-  if (f->place_count > 65536) {
-    memcpy(&number, f->references + 4 * at, sizeof number);
-  } else {
-    memcpy(&narrow, f->references + 2 * at, sizeof narrow);
-    number = narrow;
-  }
-  return f->places + 3 * (size_t)number;
+  return f->places + 3 * nsvcd__reference_at(f, at);
 }
 
 // The point, of its patch, of corner k (0..2) of listing n.
@@ -8152,14 +8156,8 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 #ifndef NSVCD_NO_PROOF
 // Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
 static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
-  const size_t wide = nsvcd__reference_bytes(f);
-  for (size_t n = 0; n < f->reference_count; n++) {
-    uint32_t number = 0;
-    uint16_t narrow = 0;
-    if (wide == 4) memcpy(&number, f->references + 4 * n, 4);
-    if (wide == 2) memcpy(&narrow, f->references + 2 * n, 2);
-    if (number + narrow >= f->place_count) return 0;
-  }
+  for (size_t n = 0; n < f->reference_count; n++)
+    if (nsvcd__reference_at(f, n) >= f->place_count) return 0;
   for (size_t n = 0; n < f->cut_count; n++) {
     if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
     for (size_t k = 0; k < 3; k++)
@@ -13718,6 +13716,14 @@ static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 
   return lowest - highest;
 }
 
+// The direction across an edge of each of two triangles, unit: the k-th of 9. 0 if they are
+// parallel.
+static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, size_t k) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a[(k + 1) % 3], a[k % 3]);
+  const nsvcd__d3 v = nsvcd__d3_sub(b[(k / 3 + 1) % 3], b[k / 3]);
+  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+}
+
 // The direction that separates a couple at a time: that of its nearest points. It is off by their
 // roundings over their distance: where that is little, beside large triangles, a normal of one, or
 // across an edge of each, may separate them better.
@@ -13727,19 +13733,14 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
   nsvcd__d3 *plane = &p->memo.parting;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
-  const nsvcd__d3 none = {0, 0, 0};
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
   for (size_t k = 0; k < 11; k++) {
-    nsvcd__d3 n = k == 0 ? nsvcd__face_direction(posed) : nsvcd__face_direction(fixed);
-    if (k > 1) {
-      const nsvcd__d3 a = nsvcd__d3_sub(posed[(k - 1) % 3], posed[(k - 2) % 3]);
-      const nsvcd__d3 b = nsvcd__d3_sub(fixed[((k - 2) / 3 + 1) % 3], fixed[(k - 2) / 3]);
-      n = nsvcd__d3_unit(nsvcd__d3_cross(a, b), none);
-    }
+    nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
+                        : nsvcd__across_edges(posed, fixed, k - 2);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
     const double beyond = nsvcd__beyond(n, posed, fixed);
     if (!(beyond > best)) continue;
@@ -14495,21 +14496,7 @@ static double nsvcd__hair(const nsvcd__proof *p) {
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
-  double lowest = HUGE_VAL;
-  double highest = -HUGE_VAL;
-  for (size_t k = 0; k < 3; k++) {
-    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, t->moving[k]));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(n, t->fixed[k]));
-  }
-  return highest - lowest;
-}
-
-// The direction across an edge of each triangle of a touch, unit: the k-th of 9. 0 if they are
-// parallel.
-static nsvcd__d3 nsvcd__across_edges(const nsvcd__touch *t, size_t k) {
-  const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
-  const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
-  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+  return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
 // Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
@@ -14518,7 +14505,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
   const double most = p->ask.skin - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
+    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
       const double lifted = nsvcd__d3_dot(lift, n);
@@ -16404,7 +16391,7 @@ static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
   // an edge on an edge
   for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
     const nsvcd__touch *t = &p->of.touches[k / 9];
-    const nsvcd__d3 n = nsvcd__across_edges(t, k % 9);
+    const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
     nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);
@@ -16629,7 +16616,7 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
 // products of edges, both ways. 0: none.
 enum { NSVCD__AXES = 22 };
 static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
-  const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t, k / 2 - 2);
+  const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 

@@ -225,6 +225,21 @@ static void floor_make(floor_scene *s, shapes_rng *rng) {
   if (q->ask) q->to = (float)s->to;
 }
 
+// A prop over a floor of this half side, whose middle is so far aside of its own origin, and that so
+// far away from the world's.
+static floor_scene floor_under(const floor_prop *floor, const floor_prop *prop, double half,
+                               double aside, double away) {
+  floor_scene s;
+  memset(&s, 0, sizeof s);
+  s.floor = floor;
+  s.prop = prop;
+  s.half = half;
+  s.aside = aside;
+  s.origin[0] = away;
+  s.origin[1] = -away;
+  return s;
+}
+
 // The i-th of many: every act, gaps of 10 um to 10 mm both ways; the floor is set.
 static void floor_draw(floor_scene *s, shapes_rng *rng, size_t i) {
   s->act = (floor_act)(i % FLOOR_ACTS);

@@ -42,14 +42,7 @@ static void floor_check(double half, int cells, double aside, double away, size_
   memset(&sum, 0, sizeof sum);
   CHECK(floor.body != NULL);
   for (size_t i = 0; i < count; i++) {
-    floor_scene s;
-    memset(&s, 0, sizeof s);
-    s.floor = &floor;
-    s.prop = &props[shapes_pick(&rng, PROPS)];
-    s.half = half;
-    s.aside = aside;
-    s.origin[0] = away;
-    s.origin[1] = -away;
+    floor_scene s = floor_under(&floor, &props[shapes_pick(&rng, PROPS)], half, aside, away);
     floor_draw(&s, &rng, i);
     floor_ask(&s, floor_workspace(), nsvcd_sweep_workspace_size(NULL), 6, &sum);
   }

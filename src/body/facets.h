@@ -202,21 +202,25 @@ static size_t nsvcd__corner_bytes(size_t points) {
   return points <= 256 ? 1 : 2;
 }
 
+// The number of a vertex that reference n is.
+NSVCD__INLINE size_t nsvcd__reference_at(const nsvcd__facets *f, size_t n) {
+  uint32_t number;
+  uint16_t narrow;
+  if (nsvcd__reference_bytes(f) == 4) {
+    memcpy(&number, f->references + 4 * n, sizeof number);
+    return number;
+  }
+  memcpy(&narrow, f->references + 2 * n, sizeof narrow);
+  return narrow;
+}
+
 // The place of point i of a patch, which is no stored one, (3).
 NSVCD__INLINE const float *nsvcd__place_of(const nsvcd__facets *f, size_t patch,
                                            nsvcd__patch_points points, size_t i) {
   i -= points.stored;
   if (i < points.own) return f->places + 3 * (f->first_own[patch] + i);
   const size_t at = f->first_reference[patch] + i - points.own;
-  uint32_t number = 0;
-  uint16_t narrow;
-  if (f->place_count > 65536) {
-    memcpy(&number, f->references + 4 * at, sizeof number);
-  } else {
-    memcpy(&narrow, f->references + 2 * at, sizeof narrow);
-    number = narrow;
-  }
-  return f->places + 3 * (size_t)number;
+  return f->places + 3 * nsvcd__reference_at(f, at);
 }
 
 // The point, of its patch, of corner k (0..2) of listing n.

@@ -136,14 +136,8 @@ static int nsvcd__patch_is_laid_out(const nsvcd__facets *f, size_t i) {
 #ifndef NSVCD_NO_PROOF
 // Are all numbers of vertices, and of triangles that are listed in pieces, of some that there are?
 static int nsvcd__numbers_are_sound(const nsvcd__facets *f) {
-  const size_t wide = nsvcd__reference_bytes(f);
-  for (size_t n = 0; n < f->reference_count; n++) {
-    uint32_t number = 0;
-    uint16_t narrow = 0;
-    if (wide == 4) memcpy(&number, f->references + 4 * n, 4);
-    if (wide == 2) memcpy(&narrow, f->references + 2 * n, 2);
-    if (number + narrow >= f->place_count) return 0;
-  }
+  for (size_t n = 0; n < f->reference_count; n++)
+    if (nsvcd__reference_at(f, n) >= f->place_count) return 0;
   for (size_t n = 0; n < f->cut_count; n++) {
     if (f->cut[n] >= f->body->triangles || (n > 0 && f->cut[n] <= f->cut[n - 1])) return 0;
     for (size_t k = 0; k < 3; k++)

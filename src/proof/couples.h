@@ -412,6 +412,14 @@ static double nsvcd__beyond(nsvcd__d3 n, const nsvcd__d3 *over, const nsvcd__d3 
   return lowest - highest;
 }
 
+// The direction across an edge of each of two triangles, unit: the k-th of 9. 0 if they are
+// parallel.
+static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, size_t k) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a[(k + 1) % 3], a[k % 3]);
+  const nsvcd__d3 v = nsvcd__d3_sub(b[(k / 3 + 1) % 3], b[k / 3]);
+  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+}
+
 // The direction that separates a couple at a time: that of its nearest points. It is off by their
 // roundings over their distance: where that is little, beside large triangles, a normal of one, or
 // across an edge of each, may separate them better.
@@ -421,19 +429,14 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
   nsvcd__d3 *plane = &p->memo.parting;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
   if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
-  const nsvcd__d3 none = {0, 0, 0};
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
   for (size_t k = 0; k < 11; k++) {
-    nsvcd__d3 n = k == 0 ? nsvcd__face_direction(posed) : nsvcd__face_direction(fixed);
-    if (k > 1) {
-      const nsvcd__d3 a = nsvcd__d3_sub(posed[(k - 1) % 3], posed[(k - 2) % 3]);
-      const nsvcd__d3 b = nsvcd__d3_sub(fixed[((k - 2) / 3 + 1) % 3], fixed[(k - 2) / 3]);
-      n = nsvcd__d3_unit(nsvcd__d3_cross(a, b), none);
-    }
+    nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
+                        : nsvcd__across_edges(posed, fixed, k - 2);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
     const double beyond = nsvcd__beyond(n, posed, fixed);
     if (!(beyond > best)) continue;

@@ -66,7 +66,7 @@ static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
   // an edge on an edge
   for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
     const nsvcd__touch *t = &p->of.touches[k / 9];
-    const nsvcd__d3 n = nsvcd__across_edges(t, k % 9);
+    const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
     const double side = nsvcd__d3_dot(n, out) < 0 ? -1 : 1;
     nsvcd__try_lift(p, nsvcd__d3_scale(n, side), &best);

@@ -13,21 +13,7 @@ static double nsvcd__hair(const nsvcd__proof *p) {
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
-  double lowest = HUGE_VAL;
-  double highest = -HUGE_VAL;
-  for (size_t k = 0; k < 3; k++) {
-    lowest = nsvcd__min(lowest, nsvcd__d3_dot(n, t->moving[k]));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(n, t->fixed[k]));
-  }
-  return highest - lowest;
-}
-
-// The direction across an edge of each triangle of a touch, unit: the k-th of 9. 0 if they are
-// parallel.
-static nsvcd__d3 nsvcd__across_edges(const nsvcd__touch *t, size_t k) {
-  const nsvcd__d3 u = nsvcd__d3_sub(t->moving[(k + 1) % 3], t->moving[k % 3]);
-  const nsvcd__d3 v = nsvcd__d3_sub(t->fixed[(k / 3 + 1) % 3], t->fixed[k / 3]);
-  return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
+  return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
 // Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
@@ -36,7 +22,7 @@ static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
   const double most = p->ask.skin - p->given.clearance;
   for (size_t k = 0; k < 12; k++) {
-    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t, k - 3);
+    nsvcd__d3 n = k < 3 ? t->ways[k] : nsvcd__across_edges(t->moving, t->fixed, k - 3);
     if (!(nsvcd__d3_dot(n, n) > 0.5)) continue;
     for (int side = 0; side < 2; side++) {
       const double lifted = nsvcd__d3_dot(lift, n);

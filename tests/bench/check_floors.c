@@ -46,14 +46,7 @@ static void check_floor(double half, int cells, double aside, double away, size_
   shapes_rng rng = {46};
   memset(&sum, 0, sizeof sum);
   for (size_t i = 0; i < count; i++) {
-    floor_scene s;
-    memset(&s, 0, sizeof s);
-    s.floor = &floor;
-    s.prop = &props[shapes_pick(&rng, prop_count)];
-    s.half = half;
-    s.aside = aside;
-    s.origin[0] = away;
-    s.origin[1] = -away;
+    floor_scene s = floor_under(&floor, &props[shapes_pick(&rng, prop_count)], half, aside, away);
     floor_draw(&s, &rng, i);
     floor_ask(&s, workspace, workspace_size, 3, &sum);
   }
