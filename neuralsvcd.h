@@ -16616,7 +16616,8 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
 // products of edges, both ways. 0: none.
 enum { NSVCD__AXES = 22 };
 static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
-  const nsvcd__d3 n = k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
+  const nsvcd__d3 n =
+      k < 4 ? t->ways[1 - k / 2] : nsvcd__across_edges(t->moving, t->fixed, k / 2 - 2);
   return nsvcd__d3_scale(n, k % 2 ? -1 : 1);
 }
 
