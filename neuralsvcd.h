@@ -12205,6 +12205,8 @@ typedef enum nsvcd__verdict {
 typedef enum nsvcd__outcome {
   // parted, or kept as a doubt, or no longer asked about
   NSVCD__SETTLED,
+  // the same of all triangles of both patches
+  NSVCD__ALL_SETTLED,
   // where a contact was looked for, there is none
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -12301,6 +12303,7 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
+  size_t again; int tried;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
@@ -13791,6 +13794,29 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
   return nsvcd__take_contact(p, couple, when, &nearest);
 }
 
+// Where the least distance is measured and the moving body only goes along: looks between u0 and u1
+// of the arc for when a triangle pair is nearest. The distance is convex, and falls where the
+// nearest points approach each other. Steps of `measure` would not get there.
+static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
+                                          double u0, double u1) {
+  const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
+  const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
+  for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
+    const double middle = 0.5 * (u0 + u1);
+    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+    const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    p->work++;
+    if (sqrt(nearest.square) < p->high &&
+        nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+      return NSVCD__ANSWERED;
+    if (nsvcd__d3_dot(way, moved) < 0)
+      u0 = middle;
+    else
+      u1 = middle;
+  }
+  return NSVCD__SHRUNK;
+}
+
 // Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
 // distance is a convex function of time, and no less than the plane at its nearest points says, its
 // tangent: Newton's method, from the start on, comes to the first contact and never past it.
@@ -13817,6 +13843,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
     const double above = distance - p->ask.clearance;
     if (above <= couple->rounding) {
       if (nsvcd__take_contact(p, couple, at, &nearest) == NSVCD__ANSWERED)
+        return NSVCD__ANSWERED;
+      if (p->ask.measure > 0 && nsvcd__take_nearest(p, couple, u, end) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
@@ -14730,10 +14758,46 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
 // its triangles, or in contact, or kept as a doubt.
 
 #ifndef NSVCD_NO_PROOF
+// Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
+// of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
+static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
+                                             double u1) {
+  const size_t moving_first = p->moving.first_triangle[i];
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_first = p->fixed.first_triangle[j];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  size_t top = fixed_first;
+  double highest = -HUGE_VAL;
+  for (size_t b = fixed_first; b < fixed_end; b++) {
+    nsvcd__d3 corners[3];
+    nsvcd__facet_triangle(&p->fixed, j, b, corners);
+    for (size_t k = 0; k < 3; k++) {
+      const double height = nsvcd__d3_dot(p->memo.parting, corners[k]);
+      if (height > highest) top = b;
+      highest = nsvcd__max(highest, height);
+    }
+  }
+  p->work += (fixed_end - fixed_first) / NSVCD__LANES;
+  for (size_t a = moving_first; a < moving_end; a++) {
+    const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+    if ((a - moving_first) % 4 == 0) p->work++;
+    if (!nsvcd__plane_parts(p, &couple, u0, u1, p->memo.parting)) return 0;
+  }
+#ifdef NSVCD__CERTIFIES
+  for (size_t a = moving_first; a < moving_end; a++) {
+    for (size_t b = fixed_first; b < fixed_end; b++) {
+      const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, b);
+      nsvcd__certify_couple(p, &couple, u0, u1);
+    }
+  }
+#endif
+  return 1;
+}
+
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
 // the window: couples that planes do not part are settled one by one, and what parts one may part
-// others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
-// when there is such a couple.
+// others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more than
+// `patience` parts of the span; without any, when there is such a couple.
 static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                         size_t n, const nsvcd__span *span, nsvcd__lever lever,
                                         float margin, double u0, double u1, size_t patience) {
@@ -14742,18 +14806,24 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+    const nsvcd__d3 before = p->memo.parting;
+    const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along =
         quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
+    if (p->memo.again > 0 && !p->memo.tried) {
+      p->memo.tried = 1;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
+    }
     const size_t listing = p->moving_block.first + l;
     const nsvcd__couple couple =
         nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
+    p->memo.again = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.again + 1;
   }
   return NSVCD__SETTLED;
 }
@@ -14772,6 +14842,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
+  p->memo.tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
@@ -14796,6 +14867,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
               nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
+          if (row == NSVCD__ALL_SETTLED) return NSVCD__SETTLED;
           if (row != NSVCD__SETTLED) return row;
         }
       }
@@ -19887,6 +19959,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
 // ---- the names, as src/make_header.py writes them
+#define NSVCD__ALL_SETTLED NSVCD__NUMBER_AT(ALL_SETTLED)
 #define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
 #define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
 #define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
@@ -20256,6 +20329,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__passing_turns NSVCD__AT(passing_turns)
 #define nsvcd__patch_lever NSVCD__AT(patch_lever)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
+#define nsvcd__patches_apart NSVCD__AT(patches_apart)
 #define nsvcd__place_point NSVCD__AT(place_point)
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
 #define nsvcd__placed NSVCD__AT(placed)
@@ -20378,6 +20452,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__sweep_size NSVCD__AT(sweep_size)
 #define nsvcd__take_contact NSVCD__AT(take_contact)
 #define nsvcd__take_doubt NSVCD__AT(take_doubt)
+#define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
 #define nsvcd__takes_lift NSVCD__AT(takes_lift)
 #define nsvcd__task NSVCD__AT(task)

@@ -5,10 +5,46 @@
 #include "witnesses.h"
 
 #ifndef NSVCD_NO_PROOF
+// Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
+// of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
+static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
+                                             double u1) {
+  const size_t moving_first = p->moving.first_triangle[i];
+  const size_t moving_end = p->moving.first_triangle[i + 1];
+  const size_t fixed_first = p->fixed.first_triangle[j];
+  const size_t fixed_end = p->fixed.first_triangle[j + 1];
+  size_t top = fixed_first;
+  double highest = -HUGE_VAL;
+  for (size_t b = fixed_first; b < fixed_end; b++) {
+    nsvcd__d3 corners[3];
+    nsvcd__facet_triangle(&p->fixed, j, b, corners);
+    for (size_t k = 0; k < 3; k++) {
+      const double height = nsvcd__d3_dot(p->memo.parting, corners[k]);
+      if (height > highest) top = b;
+      highest = nsvcd__max(highest, height);
+    }
+  }
+  p->work += (fixed_end - fixed_first) / NSVCD__LANES;
+  for (size_t a = moving_first; a < moving_end; a++) {
+    const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+    if ((a - moving_first) % 4 == 0) p->work++;
+    if (!nsvcd__plane_parts(p, &couple, u0, u1, p->memo.parting)) return 0;
+  }
+#ifdef NSVCD__CERTIFIES
+  for (size_t a = moving_first; a < moving_end; a++) {
+    for (size_t b = fixed_first; b < fixed_end; b++) {
+      const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, b);
+      nsvcd__certify_couple(p, &couple, u0, u1);
+    }
+  }
+#endif
+  return 1;
+}
+
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
 // the window: couples that planes do not part are settled one by one, and what parts one may part
-// others. TOO_LONG when they have asked for more than `patience` parts of the span; without any,
-// when there is such a couple.
+// others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more than
+// `patience` parts of the span; without any, when there is such a couple.
 static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                         size_t n, const nsvcd__span *span, nsvcd__lever lever,
                                         float margin, double u0, double u1, size_t patience) {
@@ -17,18 +53,24 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+    const nsvcd__d3 before = p->memo.parting;
+    const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along =
         quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
+    if (p->memo.again > 0 && !p->memo.tried) {
+      p->memo.tried = 1;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
+    }
     const size_t listing = p->moving_block.first + l;
     const nsvcd__couple couple =
         nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
+    p->memo.again = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.again + 1;
   }
   return NSVCD__SETTLED;
 }
@@ -47,6 +89,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
+  p->memo.tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);
@@ -71,6 +114,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
               nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
+          if (row == NSVCD__ALL_SETTLED) return NSVCD__SETTLED;
           if (row != NSVCD__SETTLED) return row;
         }
       }

@@ -274,6 +274,8 @@ typedef enum nsvcd__verdict {
 typedef enum nsvcd__outcome {
   // parted, or kept as a doubt, or no longer asked about
   NSVCD__SETTLED,
+  // the same of all triangles of both patches
+  NSVCD__ALL_SETTLED,
   // where a contact was looked for, there is none
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -370,6 +372,7 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
+  size_t again; int tried;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
