@@ -12303,7 +12303,8 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  size_t again; int tried;
+  // it has separated two triangle pairs, one after the other
+  int is_shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
@@ -12378,6 +12379,8 @@ typedef struct nsvcd__proof {
   double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
   size_t parts;
+  // has a plane been tried on all of both patches?
+  int all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
@@ -12391,6 +12394,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->is_shared = 0;
   memo->window = 0;
   memo->has_block = 0;
 }
@@ -14813,8 +14817,8 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (p->memo.again > 0 && !p->memo.tried) {
-      p->memo.tried = 1;
+    if (p->memo.is_shared && !p->all_tried) {
+      p->all_tried = 1;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
     }
     const size_t listing = p->moving_block.first + l;
@@ -14823,7 +14827,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.again = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.again + 1;
+    p->memo.is_shared = !(nsvcd__d3_distance2(p->memo.parting, before) > 0);
   }
   return NSVCD__SETTLED;
 }
@@ -14842,7 +14846,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
-  p->memo.tried = 0;
+  p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);

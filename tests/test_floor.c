@@ -70,11 +70,44 @@ static void floor_far_from_its_origin(void) {
   floor_check(100, 1, 0, 1e5, 40);
 }
 
+// A plate that slides flat over a floor, nearer than floats tell: its triangle pairs are not settled
+// one by one, and the least distance is not sought in steps of the tolerance.
+static void floor_flat_takes_little(void) {
+  const floor_prop floor = floor_of(10, 30, 1, 0);
+  shapes_mesh shape;
+  floor_tally sum;
+  shapes_rng rng = {46};
+  memset(&shape, 0, sizeof shape);
+  memset(&sum, 0, sizeof sum);
+  shapes_box(&shape, 4, 3, 0.5, 8);
+  const floor_prop plate = floor_prop_of_shape(&shape, 1);
+  CHECK(floor.body && plate.body);
+  for (size_t i = 0; i < 24; i++) {
+    floor_scene s = floor_under(&floor, &plate, 10, 0, 0);
+    s.act = i % 2 ? FLOOR_MEASURED : FLOOR_SLIDES;
+    s.gap = pow(10, -2 - (double)(i / 2 % 4));
+    s.scale = 1;
+    s.way = 0.5;
+    s.is_tilted = i % 3 == 0;
+    s.to = 1e-6;
+    floor_make(&s, &rng);
+    s.question.work = 30000;
+    floor_ask(&s, floor_workspace(), nsvcd_sweep_workspace_size(NULL), 6, &sum);
+  }
+  CHECK_EQ(sum.wrong, 0);
+  CHECK_EQ(sum.open, 0);
+  nsvcd_body_free(floor.body, NULL);
+  nsvcd_body_free(plate.body, NULL);
+  free(plate.vertices);
+  free(floor.vertices);
+}
+
 void test_floor(void) {
   RUN(floor_of_twelve_triangles);
   RUN(floor_of_one_triangle);
   RUN(floor_of_many_triangles);
   RUN(floor_far_from_its_origin);
+  RUN(floor_flat_takes_little);
 }
 
 CHECK_ALONE(test_floor)

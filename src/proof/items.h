@@ -60,8 +60,8 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (p->memo.again > 0 && !p->memo.tried) {
-      p->memo.tried = 1;
+    if (p->memo.is_shared && !p->all_tried) {
+      p->all_tried = 1;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
     }
     const size_t listing = p->moving_block.first + l;
@@ -70,7 +70,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.again = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.again + 1;
+    p->memo.is_shared = !(nsvcd__d3_distance2(p->memo.parting, before) > 0);
   }
   return NSVCD__SETTLED;
 }
@@ -89,7 +89,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
-  p->memo.tried = 0;
+  p->all_tried = 0;
   for (size_t b = p->fixed.first_triangle[j]; b < fixed_end;
        b += NSVCD__WINDOW * NSVCD__LANES) {
     nsvcd__window_load(p, j, b);

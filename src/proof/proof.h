@@ -372,7 +372,8 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  size_t again; int tried;
+  // it has separated two triangle pairs, one after the other
+  int is_shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
@@ -447,6 +448,8 @@ typedef struct nsvcd__proof {
   double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
   size_t parts;
+  // has a plane been tried on all of both patches?
+  int all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
@@ -460,6 +463,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->is_shared = 0;
   memo->window = 0;
   memo->has_block = 0;
 }
