@@ -15095,7 +15095,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     if (nsvcd__item_is_parted(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
-    if (p->ask.first > 0 && nsvcd__is_straight(nsvcd__arc_at(p, first))) {
+    if ((p->ask.first > 0 || p->memo.is_shared) &&
+        nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
       if (outcome != NSVCD__SETTLED) return outcome;
       continue;
