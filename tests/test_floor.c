@@ -73,14 +73,14 @@ static void floor_far_from_its_origin(void) {
 // A plate that slides flat over a floor, nearer than floats tell: its triangle pairs are not settled
 // one by one, and the least distance is not sought in steps of the tolerance.
 static void floor_flat_takes_little(void) {
-  const floor_prop floor = floor_of(10, 30, 1, 0);
+  floor_prop floor = floor_of(10, 30, 1, 0);
   shapes_mesh shape;
   floor_tally sum;
   shapes_rng rng = {46};
   memset(&shape, 0, sizeof shape);
   memset(&sum, 0, sizeof sum);
   shapes_box(&shape, 4, 3, 0.5, 8);
-  const floor_prop plate = floor_prop_of_shape(&shape, 1);
+  floor_prop plate = floor_prop_of_shape(&shape, 1);
   CHECK(floor.body && plate.body);
   for (size_t i = 0; i < 24; i++) {
     floor_scene s = floor_under(&floor, &plate, 10, 0, 0);
@@ -96,10 +96,64 @@ static void floor_flat_takes_little(void) {
   }
   CHECK_EQ(sum.wrong, 0);
   CHECK_EQ(sum.open, 0);
-  nsvcd_body_free(floor.body, NULL);
-  nsvcd_body_free(plate.body, NULL);
-  free(plate.vertices);
-  free(floor.vertices);
+  floor_prop_free(&floor);
+  floor_prop_free(&plate);
+}
+
+// A game's loop, 60 frames a second: a box of 0.5 m is pushed along a channel of 36 large triangles
+// and against its walls, with 1.5 mm of room at either side, and slides all of the way.
+static void floor_channel_is_slid_along(void) {
+  const float frame = 1.0f / 60;
+  shapes_mesh level, shape;
+  memset(&level, 0, sizeof level);
+  memset(&shape, 0, sizeof shape);
+  shapes_box_at(&level, 0, 0, -0.5, 10, 10, 1);
+  for (int k = -1; k <= 1; k += 2)
+    shapes_box_at(&level, k * (0.2515 + 0.15), 0, 1.0005, 0.3, 4, 1.999);
+  shapes_box(&shape, 0.5, 0.5, 0.5, 1);
+  floor_prop channel = floor_prop_of_shape(&level, 1);
+  floor_prop box = floor_prop_of_shape(&shape, 1);
+  CHECK(channel.body && box.body);
+  for (int round = 0; round < 3; round++) {
+    nsvcd_pose path[2] = {{{0, -1, 0.2512f}, {0, 0, 0, 1}}, {{0, 0, 0}, {0, 0, 0, 1}}};
+    const float push[3] = {(float)(round - 1) * 2 * frame, 0.5f, -9.81f * frame};
+    float speed[3] = {0, 0, 0};
+    nsvcd_question q;
+    memset(&q, 0, sizeof q);
+    q.a.body = box.body;
+    q.a.poses = path;
+    q.a.count = 2;
+    q.b.body = channel.body;
+    q.ask = NSVCD_ASK_FIRST;
+    q.to = 5e-5f;
+    q.clearance = 5e-4f;
+    q.skin = 1e-3f;
+    q.manifold = 1;
+    for (int k = 0; k < 120; k++) {
+      float left = 1;
+      speed[1] = 0;
+      for (int i = 0; i < 3; i++) speed[i] += push[i];
+      for (int part = 0; part < 4 && left > 1e-3f; part++) {
+        nsvcd_answer answer;
+        path[1] = path[0];
+        for (int i = 0; i < 3; i++) path[1].position[i] += left * frame * speed[i];
+        CHECK_EQ(nsvcd_sweep(&q, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), 0);
+        CHECK(answer.verdict != NSVCD_UNDECIDED);
+        path[0] = answer.safe.a;
+        left *= 1 - answer.safe.time;
+        for (size_t c = 0; c < answer.contact_count; c++) {
+          const float *n = answer.contacts[c].normal;
+          const float along = speed[0] * n[0] + speed[1] * n[1] + speed[2] * n[2];
+          for (int i = 0; i < 3 && along < 0; i++) speed[i] -= along * n[i];
+        }
+      }
+    }
+    CHECK_NEAR((double)path[0].position[1], 0, 0.02);
+    CHECK_LE(fabs((double)path[0].position[0]), 0.0016);
+    CHECK_NEAR((double)path[0].position[2], 0.25, 0.0021);
+  }
+  floor_prop_free(&channel);
+  floor_prop_free(&box);
 }
 
 void test_floor(void) {
@@ -108,6 +162,7 @@ void test_floor(void) {
   RUN(floor_of_many_triangles);
   RUN(floor_far_from_its_origin);
   RUN(floor_flat_takes_little);
+  RUN(floor_channel_is_slid_along);
 }
 
 CHECK_ALONE(test_floor)
