@@ -280,11 +280,9 @@ static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer,
     const int is_free = depth < 0.95 * skin;
     if (answer->verdict == NSVCD_UNDECIDED || fabs(depth - skin) < 0.06 * skin) return NULL;
     if (is_free != (answer->verdict == NSVCD_FREE)) return is_free ? "stands" : "is pressed in";
-    // what poses in float are off by
-    const double off = 2.4e-7 * (fabs(s->aside) + oracle_length(s->origin));
     const double tells = (double)answer->depth;
-    return is_free && fabs(tells - fmax(depth, 0)) > 0.05 * fabs(depth) + off + 1e-6 ? "its depth"
-                                                                                     : NULL;
+    const double true_depth = fmax(-floor_height(s, 0), 0);
+    return is_free && fabs(tells - true_depth) > 0.05 * true_depth + 1e-6 ? "its depth" : NULL;
   }
   if (fabs(gap) <= hair || answer->verdict == NSVCD_UNDECIDED) return NULL;
   if ((gap > 0) != (answer->verdict == NSVCD_FREE)) return "verdict";
