@@ -12038,6 +12038,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
+// Triangle pairs that one plane separates, one after the other, for each time that it is tried on
+// all of two patches.
+#define NSVCD__SHARED 4
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
@@ -12303,8 +12306,8 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  // it has separated two triangle pairs, one after the other
-  int is_shared;
+  // how many triangle pairs it has separated after that, one after the other
+  size_t shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
@@ -12379,8 +12382,8 @@ typedef struct nsvcd__proof {
   double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
   size_t parts;
-  // has a plane been tried on all of both patches?
-  int all_tried;
+  // how often a plane has been tried on all of both patches
+  size_t all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
@@ -12394,7 +12397,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
-  memo->is_shared = 0;
+  memo->shared = 0;
   memo->window = 0;
   memo->has_block = 0;
 }
@@ -13813,7 +13816,10 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    if (nsvcd__d3_dot(way, moved) < 0)
+    const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
+    // a tangent is nowhere above it
+    if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
+    if (slope < 0)
       u0 = middle;
     else
       u1 = middle;
@@ -13823,7 +13829,8 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
 
 // Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
 // distance is a convex function of time, and no less than the plane at its nearest points says, its
-// tangent: Newton's method, from the start on, comes to the first contact and never past it.
+// tangent: Newton's method, from the start on, comes to the first contact and never past it. The
+// plane that separated a pair last is tried before.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
                                                           const nsvcd__couple *couple,
                                                           double u0, double u1) {
@@ -13835,6 +13842,12 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
+  const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
+  if (u0 < all && nsvcd__plane_parts(p, couple, u0, all, *plane)) {
+    p->work++;
+    nsvcd__certify_couple(p, couple, u0, all);
+    return NSVCD__SETTLED;
+  }
   for (double u = u0;;) {  // before u it is parted
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
@@ -14817,8 +14830,8 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (p->memo.is_shared && !p->all_tried) {
-      p->all_tried = 1;
+    if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
+      p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
     }
     const size_t listing = p->moving_block.first + l;
@@ -14827,7 +14840,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.is_shared = !(nsvcd__d3_distance2(p->memo.parting, before) > 0);
+    p->memo.shared = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.shared + 1;
   }
   return NSVCD__SETTLED;
 }
@@ -15095,7 +15108,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     if (nsvcd__item_is_parted(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
-    if ((p->ask.first > 0 || p->memo.is_shared) &&
+    if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
       if (outcome != NSVCD__SETTLED) return outcome;

@@ -502,7 +502,10 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
     if (sqrt(nearest.square) < p->high &&
         nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
-    if (nsvcd__d3_dot(way, moved) < 0)
+    const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
+    // a tangent is nowhere above it
+    if (!(fabs(slope) * (u1 - u0) > p->ask.measure)) break;
+    if (slope < 0)
       u0 = middle;
     else
       u1 = middle;
@@ -512,7 +515,8 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
 
 // Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
 // distance is a convex function of time, and no less than the plane at its nearest points says, its
-// tangent: Newton's method, from the start on, comes to the first contact and never past it.
+// tangent: Newton's method, from the start on, comes to the first contact and never past it. The
+// plane that separated a pair last is tried before.
 static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
                                                           const nsvcd__couple *couple,
                                                           double u0, double u1) {
@@ -524,6 +528,12 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
+  const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
+  if (u0 < all && nsvcd__plane_parts(p, couple, u0, all, *plane)) {
+    p->work++;
+    nsvcd__certify_couple(p, couple, u0, all);
+    return NSVCD__SETTLED;
+  }
   for (double u = u0;;) {  // before u it is parted
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
     if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;

@@ -60,8 +60,8 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
-    if (p->memo.is_shared && !p->all_tried) {
-      p->all_tried = 1;
+    if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
+      p->all_tried++;
       if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
     }
     const size_t listing = p->moving_block.first + l;
@@ -70,7 +70,7 @@ static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, siz
     const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
     if (one != NSVCD__SETTLED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.is_shared = !(nsvcd__d3_distance2(p->memo.parting, before) > 0);
+    p->memo.shared = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.shared + 1;
   }
   return NSVCD__SETTLED;
 }
@@ -338,7 +338,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     if (nsvcd__item_is_parted(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
-    if ((p->ask.first > 0 || p->memo.is_shared) &&
+    if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
       const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
       if (outcome != NSVCD__SETTLED) return outcome;

@@ -107,6 +107,9 @@
 // an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
+// Triangle pairs that one plane separates, one after the other, for each time that it is tried on
+// all of two patches.
+#define NSVCD__SHARED 4
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
 #define NSVCD__HALVINGS 40       // of a span for one couple
 #define NSVCD__PLACED 8          // poses, remembered
@@ -372,8 +375,8 @@ typedef struct nsvcd__memo {
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
   // unit: of the plane that parted a couple last
   nsvcd__d3 parting;
-  // it has separated two triangle pairs, one after the other
-  int is_shared;
+  // how many triangle pairs it has separated after that, one after the other
+  size_t shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
   size_t window;
   int has_block;
@@ -448,8 +451,8 @@ typedef struct nsvcd__proof {
   double arc_ends[NSVCD__ARC_PARTS];
   double couple_ends[NSVCD__HALVINGS + 2];
   size_t parts;
-  // has a plane been tried on all of both patches?
-  int all_tried;
+  // how often a plane has been tried on all of both patches
+  size_t all_tried;
 
   // triangles that a ray has crossed
   uint32_t crossed[NSVCD__CROSSED];
@@ -463,7 +466,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
   memo->parting = nsvcd__d3_of(0, 0, 0);
-  memo->is_shared = 0;
+  memo->shared = 0;
   memo->window = 0;
   memo->has_block = 0;
 }
