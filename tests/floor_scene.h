@@ -260,8 +260,7 @@ static void floor_draw(floor_scene *s, shapes_rng *rng, size_t i) {
 // answers
 
 typedef struct floor_tally {
-  // of what is open, verdicts that stand, with a distance that is not known as narrowly as asked
-  size_t asked, open, wrong, wide;
+  size_t asked, open, wrong;
   double first;  // how far a contact that was told is from the truth, metres
 } floor_tally;
 
@@ -319,7 +318,6 @@ static void floor_ask(floor_scene *s, void *workspace, size_t size, int tells, f
   sum->asked++;
   sum->wrong += fault != NULL;
   sum->open += (size_t)is_open;
-  sum->wide += (size_t)(is_open && s->act == FLOOR_MEASURED && answer.verdict == NSVCD_FREE);
   sum->first = fmax(sum->first, first);
   if (!(fault || is_open) || sum->wrong + sum->open > (size_t)tells) return;
   printf("  %s: %s; half %g m, size %g m, gap %.9g m, nearest %.9g m, lands %.9g\n",
