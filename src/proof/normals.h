@@ -162,7 +162,7 @@ static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) 
 // Gives the contact that is known its normal.
 static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
   nsvcd__contact *found = &p->known.found;
-  const double until = nsvcd__min(nsvcd__clear_until(p), found->tick);
+  const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
   const double since = p->given.share > 0 ? until : 0;
   const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
   nsvcd__approach now;

@@ -17,13 +17,14 @@
 #define CLEARANCE 5e-4
 #define TO 5e-4
 #define TABLES 3
+// what a time in float is off by, of a way of 50 mm, metres
+#define HAIR 6e-9
 
 typedef struct resting {
   const nsvcd_body *body;
   double *points;  // (count, 3), as the body's mesh has them, scaled
   size_t count;
   float scale;
-  double hair;  // of its quanta and the table's
   const char *name;
 } resting;
 
@@ -234,19 +235,19 @@ static void check_skin(const resting *r, const double *up, shapes_rng *rng, doub
   nsvcd_question question = question_about(r, path, tables[shapes_pick(rng, TABLES)], clearance);
   question.skin = (float)SKIN;
   const nsvcd_answer answer = ask(&question);
-  const int is_free = deepest < SKIN - r->hair;
-  if (!is_free && deepest < SKIN + r->hair) return;
+  const int is_free = deepest < SKIN - HAIR;
+  if (!is_free && deepest < SKIN + HAIR) return;
   if ((answer.verdict == NSVCD_FREE) != is_free) blame(r, "verdict", answer.verdict, is_free);
   if (!is_free && answer.depth < HUGE_VALF) blame(r, "too deep, but", (double)answer.depth, 0);
   if (!is_free || answer.verdict != NSVCD_FREE) return;
-  const double off = fmax(fabs((double)answer.depth - depth) - r->hair, 0);
+  const double off = fmax(fabs((double)answer.depth - depth) - HAIR, 0);
   worst_depth = depth > 0 ? fmax(worst_depth, off / depth) : worst_depth;
   if (off > 0.01 * depth) blame(r, "depth", (double)answer.depth, depth);
   // of a body that stands on an edge it may be along a side's normal
   if ((double)answer.lift[2] < 0.8 * SKIN && press > -1e-7)
     blame(r, "lift upward", (double)answer.lift[2], SKIN);
   const double above = lowest_of(r, &answer.safe.a) - clearance;
-  const double kept = fmax(0.02 * SKIN, 2 * r->hair);
+  const double kept = fmax(0.02 * SKIN, 2 * HAIR);
   if (above < -1e-7) blame(r, "safe place below", above, 0);
   if (above > 1.1 * kept + 0.01 * SKIN + fmax(-press, 0)) blame(r, "safe place above", above, kept);
 }
@@ -300,17 +301,17 @@ static void check_manifold(const resting *r, const double *up, shapes_rng *rng) 
   }
   const double low = 0.03 - 0.05 * (double)answer.time.low;
   const double high = 0.03 - 0.05 * (double)answer.time.high;
-  if (low < -r->hair) blame(r, "height that is called free", low, 0);
-  if (high > r->hair) blame(r, "height that is called a contact", high, 0);
+  if (low < -HAIR) blame(r, "height that is called free", low, 0);
+  if (high > HAIR) blame(r, "height that is called a contact", high, 0);
   if (low - high > 1.01 * TO && !answer.why) blame(r, "height between these", low - high, TO);
   if (lowest_of(r, &answer.safe.a) < 0) blame(r, "safe place", lowest_of(r, &answer.safe.a), 0);
   double told[2 * NSVCD_MAX_CONTACTS];
   for (size_t k = 0; k < answer.contact_count; k++) {
     const nsvcd_contact *c = &answer.contacts[k];
     for (int i = 0; i < 2; i++) told[2 * k + (size_t)i] = (double)c->point[i];
-    if (fabs((double)c->point[2]) > 1.01 * TO + r->hair) blame(r, "point", (double)c->point[2], 0);
+    if (fabs((double)c->point[2]) > 1.01 * TO + HAIR) blame(r, "point", (double)c->point[2], 0);
     if (c->normal[2] < 0.6f) blame(r, "normal", (double)c->normal[2], 1);
-    if ((double)c->gap > 1.01 * TO + r->hair) blame(r, "gap", (double)c->gap, TO);
+    if ((double)c->gap > 1.01 * TO + HAIR) blame(r, "gap", (double)c->gap, TO);
   }
   double *places = (double *)allocate(2 * (r->count + 1) * sizeof *places);
   double middle[2] = {0, 0};
@@ -339,7 +340,6 @@ int main(int argc, char **argv) {
   const size_t count = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 0;
   const uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
   shapes_rng rng = {seed};
-  double hair = 0;
   if (count == 0) return complain("COUNT [SEED [FILE.obj ...]]"), USAGE;
   workspace = allocate(nsvcd_sweep_workspace_size(NULL));
   for (int k = 0; k < TABLES; k++) {
@@ -348,7 +348,6 @@ int main(int argc, char **argv) {
     shapes_box(&shape, 3, 3, 0.1, k == 0 ? 1 : k == 1 ? 16 : 48);
     for (size_t i = 0; i < shape.vertices; i++) shape.positions[3 * i + 2] -= 0.05;
     tables[k] = encode(&shape);
-    hair = fmax(hair, (double)nsvcd_body_describe(tables[k]).quantum);
     shapes_free(&shape);
   }
   for (size_t n = 0; n < count; n++) {
@@ -358,8 +357,6 @@ int main(int argc, char **argv) {
     const int is_file = argc > 3 && n % 2;
     if (!is_file) make_primitive(&rng, &r);
     if (is_file && !make_file(argv[3 + n / 2 % (size_t)(argc - 3)], &r)) continue;
-    const double scale = is_file ? (double)r.scale : 1;
-    r.hair = 2 * (hair + scale * (double)nsvcd_body_describe(r.body).quantum);
     if (find_side(&r, &rng, up)) {
       check_skin(&r, up, &rng, 0);
       check_skin(&r, up, &rng, CLEARANCE);
