@@ -578,6 +578,36 @@ static void asks_first_keeps_what_is_proven(void) {
   nsvcd_body_free(box, NULL);
 }
 
+// What slides over a table, a tenth of a millimetre above it or with a skin. A contact is named
+// within the motion, also where it is nearer than the clearance from the start; and whoever has
+// budget left has an answer, however little there was.
+static void asks_first_within_the_motion(void) {
+  const nsvcd_body *table = asks_table(1, 16);
+  shapes_rng rng = {46};
+  for (int n = 0; n < STANDING; n++) {
+    const nsvcd_body *body = asks_standing(n, &rng);
+    for (int m = 0; m < 48; m++) {
+      const double turn = m % 3 ? 0 : 0.3;
+      const double z = m % 2 ? 1e-4 : 0;
+      const nsvcd_pose path[2] = {asks_pose(-0.2, 0, z, 0), asks_pose(0, 0.02, z, turn)};
+      nsvcd_question question = question_of(body, path, 2, table, NULL, NULL);
+      question.ask = NSVCD_ASK_FIRST;
+      question.to_time = m % 4 < 2 ? 0.1f : 1e-3f;
+      question.skin = m % 2 ? 0 : 1e-2f;
+      question.clearance = m % 8 == 1 ? 1e-2f : 0;
+      question.work = (size_t)(16 * pow(1.15, m));
+      const nsvcd_answer answer = asks(&question);
+      CHECK_GE(answer.nearest.time, 0);
+      CHECK_LE(answer.nearest.time, 1);
+      if (answer.verdict == NSVCD_UNDECIDED) CHECK_LE((double)answer.time.low, 1 - 1e-6);
+      if (question.clearance > 0 && z > 0 && answer.verdict == NSVCD_HIT)
+        CHECK_EQ(answer.time.low, 0);
+    }
+    nsvcd_body_free(body, NULL);
+  }
+  nsvcd_body_free(table, NULL);
+}
+
 // A piston goes through a thin plate where it starts, then turns into its cylinder, a hundredth of a
 // millimetre from it all around; or the other way. The ends are looked at before all the rest.
 static void asks_contacts_at_the_ends(void) {
@@ -1125,6 +1155,7 @@ void test_asks(void) {
   RUN(asks_skin_of_what_is_near);
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);
+  RUN(asks_first_within_the_motion);
   RUN(asks_contacts_at_the_ends);
   RUN(asks_names_what_meets_inside);
 }

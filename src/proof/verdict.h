@@ -148,14 +148,14 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
   nsvcd__known known = p->known;
   const double ticks = (double)p->ask.motion->ticks;
   const double all = (double)search->segments;
-  double end = nsvcd__min(p->ask.end, ticks);
+  double end = p->ask.end;
   double from = 0;
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
   while (from < all && (double)search->begin[(size_t)from + 1] <= known.settled) from++;
   p->ask.is_brief = 1;
-  while (p->work < limit && known.settled < nsvcd__min(end, known.unsure)) {
+  while (p->work < limit && known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure))) {
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
@@ -171,7 +171,7 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
       units = 8 * (p->work - before) + NSVCD__PART;
     }
   }
-  known.lost = known.settled < nsvcd__min(end, known.unsure);
+  known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
