@@ -14538,6 +14538,11 @@ static double nsvcd__hair(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
+// The same of what is told in double.
+static double nsvcd__grain(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+}
+
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -14584,9 +14589,9 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most, double hair) {
+                                          double most, double grain) {
   // parallel faces meet at one time only
-  const double reach = clearance + nsvcd__min(0.003 * most, 0.5 * hair);
+  const double reach = clearance + nsvcd__min(0.003 * most, grain);
   const double square = reach * reach;
   // as it nearly always is
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
@@ -14620,7 +14625,8 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__hair(p));
+  const double depth =
+      lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__grain(p));
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
@@ -16576,10 +16582,9 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // there, until it touches nothing.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double apart = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__lift_off(p, apart, 1);
+    const nsvcd__d3 least = nsvcd__lift_off(p, 0.5 * nsvcd__hair(p), 1);
     double before = 0;
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
@@ -20194,6 +20199,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gathers_on NSVCD__AT(gathers_on)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
+#define nsvcd__grain NSVCD__AT(grain)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)

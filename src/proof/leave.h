@@ -161,10 +161,9 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // there, until it touches nothing.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double apart = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__lift_off(p, apart, 1);
+    const nsvcd__d3 least = nsvcd__lift_off(p, 0.5 * nsvcd__hair(p), 1);
     double before = 0;
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];

@@ -10,6 +10,11 @@ static double nsvcd__hair(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
+// The same of what is told in double.
+static double nsvcd__grain(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+}
+
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -56,9 +61,9 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
 static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most, double hair) {
+                                          double most, double grain) {
   // parallel faces meet at one time only
-  const double reach = clearance + nsvcd__min(0.003 * most, 0.5 * hair);
+  const double reach = clearance + nsvcd__min(0.003 * most, grain);
   const double square = reach * reach;
   // as it nearly always is
   if (nsvcd__gap_after(t, n, 0.998 * most) <= square) return most;
@@ -92,7 +97,8 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__hair(p));
+  const double depth =
+      lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__grain(p));
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
