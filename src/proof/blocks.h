@@ -3,20 +3,19 @@
 #include "hulls.h"
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one
-// repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
+// Corner k of listings first .. first + count - 1, as vertices of their patch: what
+// nsvcd__facet_corner says of each, the patch asked once.
 static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
-  const size_t last = count - 1;
-  if (bytes == 1) {
-    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
-    return;
+  for (size_t l = 0; l < count; l++) {
+    if (bytes == 1)
+      vertices[l] = corners[3 * l];
+    else
+      memcpy(vertices + l, corners + 6 * l, 2);
   }
-  for (size_t l = 0; l < NSVCD__LANES; l++)
-    memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
 }
 
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
@@ -33,7 +32,7 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
     uint16_t corners[NSVCD__LANES];
     float(*to)[NSVCD__LANES] = out->corners[k];
     nsvcd__block_corners(f, patch, first, count, k, corners);
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
+    for (size_t l = 0; l < count; l++) {
       const size_t i = corners[l];
       if (i < points.stored) {
         to[0][l] = centre.x + step * (float)stored.x[i];
@@ -46,6 +45,8 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       to[1][l] = place[1];
       to[2][l] = place[2];
     }
+    for (size_t l = count; l < NSVCD__LANES; l++)
+      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
