@@ -156,6 +156,39 @@ static void floor_channel_is_slid_along(void) {
   floor_prop_free(&box);
 }
 
+// A box slides over a floor, both of many triangles, as far above it as its clearance, and its skin
+// is the same: it is lifted off by no more than a float tells, and that takes no look at each pair of
+// triangles.
+static void floor_clearance_is_the_gap(void) {
+  floor_prop floor = floor_of(0.5, 12, 0.1, 0);
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_box(&shape, 0.3, 0.3, 0.25, 8);
+  floor_prop box = floor_prop_of_shape(&shape, 1);
+  CHECK(floor.body && box.body);
+  for (int round = 0; round < 6; round++) {
+    const float turn = 0.13f * (float)round;
+    const float gap = round % 2 ? 2e-4f : 1e-3f;
+    nsvcd_pose path[2] = {{{-0.05f, 0.01f, 0.125f}, {0, 0, sinf(turn), cosf(turn)}}};
+    nsvcd_question q;
+    nsvcd_answer answer;
+    path[0].position[2] += gap;
+    path[1] = path[0];
+    path[1].position[0] = 0.05f;
+    memset(&q, 0, sizeof q);
+    q.a.body = box.body;
+    q.a.poses = path;
+    q.a.count = 2;
+    q.b.body = floor.body;
+    q.clearance = q.skin = gap;
+    CHECK_EQ(nsvcd_sweep(&q, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), 0);
+    CHECK_EQ(answer.verdict, NSVCD_FREE);
+    CHECK_LE(answer.work, 1000);
+  }
+  floor_prop_free(&floor);
+  floor_prop_free(&box);
+}
+
 void test_floor(void) {
   RUN(floor_of_twelve_triangles);
   RUN(floor_of_one_triangle);
@@ -163,6 +196,7 @@ void test_floor(void) {
   RUN(floor_far_from_its_origin);
   RUN(floor_flat_takes_little);
   RUN(floor_channel_is_slid_along);
+  RUN(floor_clearance_is_the_gap);
 }
 
 CHECK_ALONE(test_floor)

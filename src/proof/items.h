@@ -235,9 +235,9 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
 // earlier in their segment, and once there is a contact that of the earlier segment.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
                             const nsvcd__item *b) {
-  const int in_time = p->ask.first > 0;
-  if (a->segment == b->segment) return in_time ? a->share < b->share : a->depth > b->depth;
-  return in_time && p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
+  if (!(p->ask.first > 0)) return a->depth > b->depth;
+  if (a->segment == b->segment) return a->share < b->share;
+  return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
 
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
