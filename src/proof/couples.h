@@ -422,18 +422,18 @@ static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, siz
 
 // The direction that separates a couple at a time: that of its nearest points. It is off by their
 // roundings over their distance: where that is little, beside large triangles, a normal of one, or
-// across an edge of each, may separate them better.
-static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
+// across an edge of each, may separate them better. The result is by how much it does.
+static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
                                           double u, const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
   nsvcd__d3 *plane = &p->memo.parting;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
-  if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
+  if (distance > NSVCD__FAINT * (double)p->given.lengths) return best;
   for (size_t k = 0; k < 11; k++) {
     nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
                         : nsvcd__across_edges(posed, fixed, k - 2);
@@ -443,6 +443,7 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
     *plane = n;
     best = beyond;
   }
+  return best;
 }
 
 // A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
@@ -553,9 +554,9 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    nsvcd__aim_plane(p, couple, at, &nearest);
+    const double lift = nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = above - couple->slack - couple->rounding;
+    const double room = lift - p->ask.clearance - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
       nsvcd__certify_couple(p, couple, u, until);
@@ -609,7 +610,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
         shrunk = 1;
         continue;
       }
-      nsvcd__aim_plane(p, couple, middle, &nearest);
+      (void)nsvcd__aim_plane(p, couple, middle, &nearest);
       apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     }
     if (apart) {
