@@ -420,9 +420,10 @@ static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, siz
   return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
 }
 
-// The direction that separates a couple at a time: that of its nearest points. It is off by their
-// roundings over their distance: where that is little, beside large triangles, a normal of one, or
-// across an edge of each, may separate them better. The result is by how much it does.
+// The direction that separates a couple at a time: that of its nearest points. Their roundings
+// over their distance put it off, and points as near to a digit put it off by the root of that.
+// Where it keeps less than half of what is above the clearance, a normal of a triangle, or the
+// direction across an edge of each, may keep more. The result is how far it separates them.
 static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
                                           double u, const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
@@ -433,7 +434,8 @@ static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
-  if (distance > NSVCD__FAINT * (double)p->given.lengths) return best;
+  const double limit = p->ask.clearance + couple->slack;
+  if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 11; k++) {
     nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
                         : nsvcd__across_edges(posed, fixed, k - 2);

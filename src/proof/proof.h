@@ -116,7 +116,6 @@
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__TOO_NEAR \
   1e-9                     // of all lengths: it is not worth halving for a distance as short
-#define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
 #define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
 // What else a question asks.
