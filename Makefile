@@ -310,8 +310,8 @@ $(foreach kind,apart sanitized threads covered,$(eval $(call flavour,$(kind))))
 .PRECIOUS: $(TESTS:%=build/sanitized/test_%) $(TESTS:%=build/threads/test_%) $(TESTS:%=build/covered/test_%)
 check-tools: $(patsubst %,build/apart/test_%.txt,$(filter-out processor,$(TESTS_APART)))  # the oracle and the planners that tests and benchmarks use
 check-processor: build/apart/test_processor.txt  # SSE2, AVX2 and AVX-512 in one program: answers agree
-check-exact: build/apart/test_exact  # 100,000 pairs of triangles at the edge against exact arithmetic
-	TEST_MANY=100 build/apart/test_exact
+check-exact: build/apart/test_exact  # 50,000 pairs of triangles at the edge against exact arithmetic; TEST_MANY=100: twice as many
+	TEST_MANY=$(or $(TEST_MANY),50) build/apart/test_exact
 can_link = $(shell echo 'int main(void) { return 0; }' | $(1) -x c - -o /dev/null 2>/dev/null && echo 1)
 
 # The address and the undefined behaviour sanitizer; test_processor.c has what is for AVX2 and AVX-512 too.
@@ -417,8 +417,8 @@ check-one-path:  # NSVCD_ONE_PATH: the same bits from several compilers, sets of
 
 # What a change must pass beside `make test`, within 25 minutes on two cores; and what a release must: CONTRIBUTING.md says
 # what each catches. Programs that several of them use are made first, so that no two make the same file at once.
-CHECKS = text rooms header examples newcomer tools processor fast-math levels extremes motions sanitizers fuzz python trainer benches
-RELEASE = exact packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
+CHECKS = text rooms header examples newcomer tools processor fast-math levels exact extremes motions sanitizers fuzz python trainer benches
+RELEASE = packages gradient tiles many 32 options robots rest one-path problems threads cross mingw firmware web sanitizers-all mutants
 CHECKED = build/svcd build/verify $(DEMOS) build/make_assets build/problems build/check_motions build/check_rest
 check:  ## what else a change must pass; the last line is `N passed, N failed, N skipped`; ONLY="text rooms"
 	@$(if $(filter 1,$(words $(ONLY))),,$(MAKE) --no-print-directory -j$(CORES) $(CHECKED))

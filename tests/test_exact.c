@@ -1,7 +1,7 @@
 // Verdicts at the edge, held against exact arithmetic: two triangles, or bodies of two, that touch,
 // or miss or cross each other by a float's last digit or by as little as 1e-12 of their size; of any
 // size, far from each other in size, flat, thin, without area, round, scaled, turned by rotations
-// that floats have exactly; at rest, or moved straight. `make check-exact` asks 100,000 of them.
+// that floats have exactly; at rest, or moved straight. `make check-exact` asks 50,000 of them.
 #undef NSVCD_NO_DISPATCH
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC

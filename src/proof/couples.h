@@ -425,7 +425,7 @@ static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, siz
 // Where it keeps less than half of what is above the clearance, a normal of a triangle, or the
 // direction across an edge of each, may keep more. The result is how far it separates them.
 static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
-                                          double u, const nsvcd__nearest *nearest) {
+                                            double u, const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
   nsvcd__d3 *plane = &p->memo.parting;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
