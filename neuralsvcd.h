@@ -12047,7 +12047,6 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__TOO_NEAR \
   1e-9                     // of all lengths: it is not worth halving for a distance as short
-#define NSVCD__FAINT 1e-5  // of all lengths: nearest points as near tell little of a direction
 #define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
 #define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
 // What else a question asks.
@@ -13734,20 +13733,22 @@ static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, siz
   return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
 }
 
-// The direction that separates a couple at a time: that of its nearest points. It is off by their
-// roundings over their distance: where that is little, beside large triangles, a normal of one, or
-// across an edge of each, may separate them better.
-static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
-                                          double u, const nsvcd__nearest *nearest) {
+// The direction that separates a couple at a time: that of its nearest points. Their roundings
+// over their distance put it off, and points as near to a digit put it off by the root of that.
+// Where it keeps less than half of what is above the clearance, a normal of a triangle, or the
+// direction across an edge of each, may keep more. The result is how far it separates them.
+static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
+                                            double u, const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
   nsvcd__d3 *plane = &p->memo.parting;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
-  if (distance > NSVCD__FAINT * (double)p->given.lengths) return;
   const nsvcd__d3 *fixed = couple->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
   nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
+  const double limit = p->ask.clearance + couple->slack;
+  if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 11; k++) {
     nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
                         : nsvcd__across_edges(posed, fixed, k - 2);
@@ -13757,6 +13758,7 @@ static NSVCD__APART void nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *
     *plane = n;
     best = beyond;
   }
+  return best;
 }
 
 // A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
@@ -13867,9 +13869,9 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    nsvcd__aim_plane(p, couple, at, &nearest);
+    const double lift = nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = above - couple->slack - couple->rounding;
+    const double room = lift - p->ask.clearance - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
       nsvcd__certify_couple(p, couple, u, until);
@@ -13923,7 +13925,7 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
         shrunk = 1;
         continue;
       }
-      nsvcd__aim_plane(p, couple, middle, &nearest);
+      (void)nsvcd__aim_plane(p, couple, middle, &nearest);
       apart = nsvcd__plane_parts(p, couple, u, end, *plane);
     }
     if (apart) {
@@ -13953,20 +13955,19 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
 // In: 16 triangles of a patch, and a plane or other triangles. Out: which of them may meet.
 
 #ifndef NSVCD_NO_PROOF
-// Corner k of listings first .. first + count - 1, as vertices of their patch, the last one
-// repeated to 16: what nsvcd__facet_corner says of each, the patch asked once.
+// Corner k of listings first .. first + count - 1, as vertices of their patch: what
+// nsvcd__facet_corner says of each, the patch asked once.
 static void nsvcd__block_corners(const nsvcd__facets *f, size_t patch, size_t first,
                                  size_t count, size_t k, uint16_t *vertices) {
   const size_t bytes = nsvcd__corner_bytes(nsvcd__points_of(f, patch).all);
   const size_t at = 3 * (first - f->first_triangle[patch]) + k;
   const unsigned char *corners = f->listings + f->first_byte[patch] + bytes * at;
-  const size_t last = count - 1;
-  if (bytes == 1) {
-    for (size_t l = 0; l < NSVCD__LANES; l++) vertices[l] = corners[3 * (l < last ? l : last)];
-    return;
+  for (size_t l = 0; l < count; l++) {
+    if (bytes == 1)
+      vertices[l] = corners[3 * l];
+    else
+      memcpy(vertices + l, corners + 6 * l, 2);
   }
-  for (size_t l = 0; l < NSVCD__LANES; l++)
-    memcpy(vertices + l, corners + 6 * (l < last ? l : last), 2);
 }
 
 // Listings first .. first + count - 1 of a patch, at most 16; the last is repeated. Stored points
@@ -13983,7 +13984,7 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
     uint16_t corners[NSVCD__LANES];
     float(*to)[NSVCD__LANES] = out->corners[k];
     nsvcd__block_corners(f, patch, first, count, k, corners);
-    for (size_t l = 0; l < NSVCD__LANES; l++) {
+    for (size_t l = 0; l < count; l++) {
       const size_t i = corners[l];
       if (i < points.stored) {
         to[0][l] = centre.x + step * (float)stored.x[i];
@@ -13996,6 +13997,8 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
       to[1][l] = place[1];
       to[2][l] = place[2];
     }
+    for (size_t l = count; l < NSVCD__LANES; l++)
+      for (size_t axis = 0; axis < 3; axis++) to[axis][l] = to[axis][count - 1];
   }
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 a = nsvcd__v3_load(out->corners[0], l);
@@ -15011,9 +15014,9 @@ static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
 // earlier in their segment, and once there is a contact that of the earlier segment.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
                             const nsvcd__item *b) {
-  const int in_time = p->ask.first > 0;
-  if (a->segment == b->segment) return in_time ? a->share < b->share : a->depth > b->depth;
-  return in_time && p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
+  if (!(p->ask.first > 0)) return a->depth > b->depth;
+  if (a->segment == b->segment) return a->share < b->share;
+  return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
 
 static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
@@ -15153,6 +15156,10 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
     if (p->ask.gathers == NSVCD__TOUCHING) {
+      // what was lifted off just so is farther than the clearance by less than floats tell
+      (void)nsvcd__arc_at(p, 0);
+      if (p->normal_count > 0 && nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0))
+        continue;
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     } else if (p->count < NSVCD__ITEMS) {
       p->of.kept.items[p->count++] = *item;
