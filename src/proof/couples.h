@@ -420,10 +420,19 @@ static nsvcd__d3 nsvcd__across_edges(const nsvcd__d3 *a, const nsvcd__d3 *b, siz
   return nsvcd__d3_unit(nsvcd__d3_cross(u, v), nsvcd__d3_of(0, 0, 0));
 }
 
+// A direction made normal to the edge from a to b, unit; 0 if it is along that.
+static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 edge = nsvcd__d3_unit(nsvcd__d3_sub(b, a), none);
+  const nsvcd__d3 along = nsvcd__d3_scale(edge, nsvcd__d3_dot(n, edge));
+  return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
+}
+
 // The direction that separates a couple at a time: that of its nearest points. Their roundings
 // over their distance put it off, and points as near to a digit put it off by the root of that.
-// Where it keeps less than half of what is above the clearance, a normal of a triangle, or the
-// direction across an edge of each, may keep more. The result is how far it separates them.
+// Where it keeps less than half of what is above the clearance, a normal of a triangle, the
+// direction across an edge of each, or the same direction made normal to an edge, may keep more.
+// The result is how far it separates them.
 static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
                                             double u, const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
@@ -436,9 +445,11 @@ static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple
   double best = nsvcd__beyond(guess, posed, fixed);
   const double limit = p->ask.clearance + couple->slack;
   if (best - limit > 0.5 * (distance - limit)) return best;
-  for (size_t k = 0; k < 11; k++) {
-    nsvcd__d3 n = k < 2 ? nsvcd__face_direction(k == 0 ? posed : fixed)
-                        : nsvcd__across_edges(posed, fixed, k - 2);
+  for (size_t k = 0; k < 17; k++) {
+    const nsvcd__d3 *of = k % 2 ? fixed : posed;
+    nsvcd__d3 n = k < 2   ? nsvcd__face_direction(of)
+                  : k < 8 ? nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])
+                          : nsvcd__across_edges(posed, fixed, k - 8);
     if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);
     const double beyond = nsvcd__beyond(n, posed, fixed);
     if (!(beyond > best)) continue;
