@@ -522,8 +522,8 @@ class Page(Hands):
                     out = subprocess.run([VERIFY, motion / "proof.txt", path, *flags], capture_output=True, text=True)
                     verdict = ["accepted", kind] if kind == other else ["refused"]
                     self.assertEqual(out.stdout.split("\t")[1:][:len(verdict)], verdict, (kind, other, out))
-        # within what is a solid but for one face: undecided
-        open_cube = cube(0.5).rstrip("\n").rsplit("\n", 1)[0] + "\n"
+        # within what is a solid but for half a face: undecided
+        open_cube = cube(0.5).rstrip("\n").rsplit(" ", 1)[0] + "\n"
         self.drop(0, [["small.obj", cube(0.1)], ["open.obj", open_cube]])
         self.set_poses("0 0 0 0 0 0 1", "0.1 0 0 0 0 0 1")
         self.until(lambda: "proven" in self.find("save").get_attribute("title"))
