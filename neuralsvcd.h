@@ -12071,7 +12071,7 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
-#define NSVCD__DEEPEN 4    // looks at what is touched on the way off
+#define NSVCD__DEEPEN 16   // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
 #define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
@@ -16596,13 +16596,16 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 }
 
 // What is not in touch at the start may be where the body is lifted to, and there may have been too
-// many touches: so it is lifted by no more than the depths that are known, to see what it touches
-// there, until it touches nothing.
+// many touches: so it is lifted by little more than the depths that are known, to see what it
+// touches there, until that is no more. Triangles that follow each other, as on a slope, each come
+// free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
+  const double hair = 0.5 * nsvcd__hair(p);
+  double more = hair;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
-    const nsvcd__d3 least = nsvcd__lift_off(p, 0.5 * nsvcd__hair(p), 1);
+    const nsvcd__d3 least = nsvcd__lift_off(p, more, 1);
     double before = 0;
     double after = 0;
     for (size_t k = 0; k < p->normal_count; k++) before += p->depths[k];
@@ -16612,7 +16615,9 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
     for (size_t n = 0; n < p->touch_count; n++)
       nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
-    if (!(after > 1.002 * before)) break;
+    const int is_deeper = after > before;
+    if (!is_deeper && more <= nsvcd__max(hair, 0.002 * after)) break;
+    more = is_deeper ? 2 * more : nsvcd__max(hair, 0.125 * more);
   }
   still->lift = lift;
 }

@@ -140,7 +140,7 @@
 #define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
-#define NSVCD__DEEPEN 4    // looks at what is touched on the way off
+#define NSVCD__DEEPEN 16   // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
 #define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
 #define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
