@@ -62,6 +62,25 @@ static void query_patch_radius_is_honoured(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
+// A finer mesh has more patches, of 50 triangles in the mean, from 192 to 512.
+static void query_finer_meshes_have_more_patches(void) {
+  const int segments[4] = {40, 80, 128, 256};  // 5,120 to 32,768 triangles
+  const size_t wanted[4] = {192, 204, 327, 512};
+  for (int i = 0; i < 4; i++) {
+    shapes_mesh torus;
+    memset(&torus, 0, sizeof torus);
+    shapes_torus(&torus, 0.1, 0.03, segments[i], 64);
+    nsvcd_mesh mesh = query_mesh(&torus, 1);
+    shapes_free(&torus);
+    CHECK_EQ(mesh.triangle_count, 128 * segments[i]);
+    const nsvcd_body *body = NULL;
+    CHECK_EQ(nsvcd_encode(&mesh, NULL, NULL, NULL, 0, &body), NSVCD_OK);
+    CHECK_EQ(nsvcd_body_describe(body).patches, wanted[i]);
+    nsvcd_body_free(body, NULL);
+    nsvcd_mesh_free(&mesh, NULL);
+  }
+}
+
 // nsvcd_encode with one thing wrong leaves *body alone.
 static void query_encode_refuses(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
                                  void *memory, size_t capacity, nsvcd_result expected) {
@@ -162,6 +181,7 @@ void test_encoding(void) {
   RUN(query_bodies_are_the_same_to_the_bit);
   RUN(query_bodies_are_small);
   RUN(query_patch_radius_is_honoured);
+  RUN(query_finer_meshes_have_more_patches);
   RUN(query_encode_allocates);
   RUN(query_encode_refuses_bad_input);
   RUN(query_encode_survives_every_failed_allocation);

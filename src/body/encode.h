@@ -250,10 +250,12 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
   if (!triangles) return NSVCD_DEFAULT_NETWORK_PATCHES;
   if (mesh->triangle_count <= NSVCD_LEAST_PATCHES) return NSVCD_LEAST_PATCHES;
   if (mesh->triangle_count <= NSVCD_VERY_FEW_TRIANGLES) return mesh->triangle_count;
-  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_PATCHES;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_PATCHES;
-  const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
-  return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
+  const int is_level = mesh->triangle_count > NSVCD_MANY_TRIANGLES;
+  const size_t each = is_level ? NSVCD_LEVEL_TRIANGLES : NSVCD_PATCH_TRIANGLES;
+  const size_t limit = is_level ? NSVCD_MAX_PATCHES : NSVCD_SMALL_PATCHES;
+  const size_t count = mesh->triangle_count / each;
+  if (count < NSVCD_DEFAULT_PATCHES) return NSVCD_DEFAULT_PATCHES;
+  return count < limit ? count : limit;
 }
 
 // Checks options and mesh, and fills in the defaults.

@@ -19,11 +19,12 @@ typedef struct nsvcd_body nsvcd_body;
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
-// fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
-// of more is a level, with a patch for each 12 triangles.
+// fewer than LEAST; of up to MANY, a patch for each NSVCD_PATCH_TRIANGLES, but no fewer than
+// NSVCD_DEFAULT_PATCHES and no more than NSVCD_SMALL_PATCHES. A mesh of more is a level, with a
+// patch for each 12 triangles.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
-#define NSVCD_FEW_TRIANGLES 32768
+#define NSVCD_PATCH_TRIANGLES 50
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
 // metres
