@@ -248,7 +248,8 @@ static nsvcd_result path_edge(const robot_in_room *in, const nsvcd_joint_motion 
     // what time cuts short names no pair: then what was known before stands
     if (result || !asked.stop || last.verdict != NSVCD_UNDECIDED) *answer = last;
     if (result || last.verdict != NSVCD_UNDECIDED || last.why != NSVCD_WHY_WORK) return result;
-    const size_t more = more_work(wait, asked.work, seconds() - start);
+    const size_t work = asked.work ? asked.work : NSVCD_DEFAULT_WORK;
+    const size_t more = more_work(wait, work, seconds() - start);
     if (!more) return result;
     asked.work = more;
     asked.stop = time_is_over;

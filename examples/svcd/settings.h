@@ -67,11 +67,11 @@ static waiting wait_for(const settings *options) {
   return out;
 }
 
-// The work with which a question is asked again that `work` did not decide and that took so many
-// seconds; 0: it is not. Not more than there is time for, as far as that can be told.
+// The work with which a question is asked again that took `work` units and so many seconds, and was
+// not decided; 0: it is not. Not more than there is time for, as far as that can be told.
 static size_t more_work(waiting *w, size_t work, double taken) {
   const double now = seconds();
-  const double least = work ? (double)work : NSVCD_DEFAULT_WORK;
+  const double least = (double)work;
   const double most = fmin(8 * least, least * (w->end - now) / fmax(taken, 1e-6));
   if (w->is_bounded || !(most > 1.5 * least) || most > 1e9) return 0;
   if (now - w->began > 0.5 && is_terminal()) {

@@ -63,7 +63,7 @@ static int sweep_decided(sweep_job *job, size_t work, nsvcd_answer *answer) {
     good = sweep_once(job, answer);
     again = 0;
     if (good && job->by_proof && answer->why == NSVCD_WHY_WORK) {
-      work = more_work(&job->wait, work, seconds() - start);
+      work = more_work(&job->wait, answer->work > work ? answer->work : work, seconds() - start);
       again = work > 0;
     }
   }
