@@ -669,11 +669,12 @@ typedef struct nsvcd_body nsvcd_body;
 // A body of more patches is a level: its patches are in a tree.
 #define NSVCD_SMALL_PATCHES 512
 // Where the options do not say, a mesh of up to VERY_FEW triangles has a patch for each, but no
-// fewer than LEAST; of up to FEW, NSVCD_DEFAULT_PATCHES; of up to MANY, NSVCD_SMALL_PATCHES. A mesh
-// of more is a level, with a patch for each 12 triangles.
+// fewer than LEAST; of up to MANY, a patch for each NSVCD_PATCH_TRIANGLES, but no fewer than
+// NSVCD_DEFAULT_PATCHES and no more than NSVCD_SMALL_PATCHES. A mesh of more is a level, with a
+// patch for each 12 triangles.
 #define NSVCD_LEAST_PATCHES 12
 #define NSVCD_VERY_FEW_TRIANGLES 48
-#define NSVCD_FEW_TRIANGLES 32768
+#define NSVCD_PATCH_TRIANGLES 50
 #define NSVCD_MANY_TRIANGLES 131072
 #define NSVCD_LEVEL_TRIANGLES 12
 // metres
@@ -8927,10 +8928,12 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
   if (!triangles) return NSVCD_DEFAULT_NETWORK_PATCHES;
   if (mesh->triangle_count <= NSVCD_LEAST_PATCHES) return NSVCD_LEAST_PATCHES;
   if (mesh->triangle_count <= NSVCD_VERY_FEW_TRIANGLES) return mesh->triangle_count;
-  if (mesh->triangle_count <= NSVCD_FEW_TRIANGLES) return NSVCD_DEFAULT_PATCHES;
-  if (mesh->triangle_count <= NSVCD_MANY_TRIANGLES) return NSVCD_SMALL_PATCHES;
-  const size_t fine = mesh->triangle_count / NSVCD_LEVEL_TRIANGLES;
-  return fine < NSVCD_MAX_PATCHES ? fine : NSVCD_MAX_PATCHES;
+  const int is_level = mesh->triangle_count > NSVCD_MANY_TRIANGLES;
+  const size_t each = is_level ? NSVCD_LEVEL_TRIANGLES : NSVCD_PATCH_TRIANGLES;
+  const size_t limit = is_level ? NSVCD_MAX_PATCHES : NSVCD_SMALL_PATCHES;
+  const size_t count = mesh->triangle_count / each;
+  if (count < NSVCD_DEFAULT_PATCHES) return NSVCD_DEFAULT_PATCHES;
+  return count < limit ? count : limit;
 }
 
 // Checks options and mesh, and fills in the defaults.
