@@ -144,6 +144,10 @@ round: gaps of the skeletons|(float)(fmax(found->distance - p->given.round, 0) *
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|*round *= scale;|
+two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
+two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);|nsvcd__min(nsvcd__clear_until(p), found->tick);
+asks: proven by parts to the end, but not free|double end = p->ask.end; double from = 0;|double end = nsvcd__min(p->ask.end, ticks); double from = 0;
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
