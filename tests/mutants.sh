@@ -1,7 +1,7 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `round:`, `robot:` or `postures:`, tests/test_level.c and so on; of
-# `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
+# fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `solids:`, `round:`,
+# `robot:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
 # tests/test_checker.c has to fail, of `fits:` tests/test_fits.c. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
 # 16th of them, in a folder of its own.
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -48,7 +48,7 @@ groups' spheres without slack|const double radius = (double)f->slacks[i] + round
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.slacks[j] * length - highest;|-highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
-pair without quanta|couple.slack = moving_quantum + (double)p->fixed.quanta[j] + couple.rounding;|couple.slack = 0 * moving_quantum + couple.rounding;
+pair of coarse copies as if they were the meshes|couple.slack = couple.rounding + nsvcd__off_meshes(p);|couple.slack = couple.rounding;
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(*plane, moved);|const double fall = nsvcd__d3_dot(*plane, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
 doubts forgotten|    nsvcd__take_doubt(p, couple, u0, u1);\n    return NSVCD__SETTLED;|    return NSVCD__SETTLED;
@@ -73,14 +73,14 @@ parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + 
 parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
-a window forgotten|b < fixed_end; b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);|b < fixed_end; b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);
+a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const
 bounds of half a window's block|low[k] = least;|low[k] = 0.5f * (least - negated);
 half of the box|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(outer->box[3 + k] + rounding));|slice \&= nsvcd__v_le(at[k], nsvcd__v_set(0.5f * outer->box[k] + 0.5f * outer->box[3 + k]));
 rays without rounding|const float rounding = NSVCD__ROUNDING * remote * f->body->extent;|const float rounding = 0 * NSVCD__ROUNDING * remote * f->body->extent;
-rays past half the groups|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {|while (!*unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;
+rays past half the groups|while (!sum.unclear \&\& nsvcd__walk_next(\&walk, \&g)) {|while (!sum.unclear \&\& nsvcd__walk_next(\&walk, \&g)) {\n    if (g % 2) continue;
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
-containment one way|if (outer->open) return 0;\n  if (e->inner->components|if (outer->open + !e->inner_moves) return 0;\n  if (e->inner->components
+containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + !e->inner_moves) return 0;\n  const int is_one
 long: an interval passed over|if (is_settled) motion->from = until;|if (is_settled) motion->from = until;\n  if (is_settled \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_knot(motion, until);
 long: a try in vain is believed|is_settled \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
@@ -138,7 +138,7 @@ margin of small normals|nsvcd__v_pick(square, nsvcd__v_set(1e-30f), nsvcd__v_set
 round: the fixed one is not|p->given.round = moving_round + (double)p->fixed.round;|p->given.round = moving_round;
 round: without the scale|(double)p->moving.round * task->motion.ratio;|(double)p->moving.round;
 round: distances of the skeletons|high = fmax(high - p->given.round, 0);|
-round: as near as the skeletons|  low = fmax(low - p->given.round, 0);|
+round: as near as the skeletons|p->low) - p->given.round;|p->low);
 round: points on the skeleton|fmin((double)p->fixed.round, found->distance);|0;
 round: gaps of the skeletons|(float)(fmax(found->distance - p->given.round, 0) * world.unit);|(float)(found->distance * world.unit);
 round: a point on either|    contact->point[k] += gap * contact->normal[k];|
@@ -148,14 +148,54 @@ two patches by a plane of any triangle|if (height > highest) top = b;|if (height
 two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);|nsvcd__min(nsvcd__clear_until(p), found->tick);
 asks: proven by parts to the end, but not free|double end = p->ask.end; double from = 0;|double end = nsvcd__min(p->ask.end, ticks); double from = 0;
+pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_parts(p, couple, u0, all, *plane)|u0 < all \&\& nsvcd__plane_parts(p, couple, u0, u0, *plane)
+exact: pairs without slack|> p->ask.clearance + couple->slack + deviation;|> p->ask.clearance + deviation;
+exact: pairs without rounding|NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));|0;
+exact: a ratio of scales in float|motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;|motion->ratio = (double)(nsvcd__scale_of(moving) / motion->unit);
+turning contacts that are too near|distance <= p->ask.clearance + couple->rounding|distance <= p->ask.clearance + couple->close
+exact: straight contacts that are too near|if (above <= couple->rounding) {|if (above <= couple->close) {
+exact: planes of nearest points alone|for (size_t k = 0; k < 17; k++) {\n    const nsvcd__d3 *of|for (size_t k = 17; k < 17; k++) {\n    const nsvcd__d3 *of
+exact: no planes of faces|n = k < 2 ? nsvcd__face_direction(of)|n = k < 2 ? guess
+exact: no planes across edges|: nsvcd__across_edges(posed, fixed, k - 8);|: guess;
+exact: no planes made normal to an edge|nsvcd__off_edge(guess, of[k / 2 - 1], of[k / 2 % 3])|guess
+exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);\n    const double beyond|const double beyond
+pieces by their stored corners|} else if (f->cut_count > 0) {|} else if (0) {
+a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
+asks: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
+asks: parts of the time that were lost|if (part->lost) return end;|
+asks: what no part settled|known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));|known.lost = 0;
+long: gaps by other poses|part.poses += first;|
+long: gaps without the lift|- p->given.lengths - lifted;|- p->given.lengths;
+long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_settled|!is_open \&\& !is_settled
+long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__SETTLED;|outcome = NSVCD__SETTLED;
+long: work of the first interval for all|if (p->given.grows) p->ask.most = p->work + p->given.work;|
+solids: corners that are not joined|const double widest = nsvcd__join_corners(m, arena->allocator);|const double widest = 0;
+solids: corners joined from afar|#define NSVCD__JOINED 1e-4|#define NSVCD__JOINED 1e-3
+solids: gaps that are not remembered|out->gap = nsvcd__max(out->gap, sqrt(square));|
+solids: rays through a gap|ray.margin += (double)nsvcd__off_mesh(f) + (double)f->gap;|ray.margin += (double)nsvcd__off_mesh(f);
+solids: faces that stay twice|m->alive[n] = m->first[third] == 0;|
+solids: fins that stay|nsvcd__peel(m);\n  for|for
+solids: walls that stay|pass < 8 \&\& nsvcd__drop_walls(m, parts) > 0|pass < 0
+solids: turned faces are a sheet's|part->odd == 0 \&\& is_most ? NSVCD__EITHER_WAY|0 ? NSVCD__EITHER_WAY
+solids: a house on a terrain turned round|part->area >= 0.5 * whole->area;|1;
+solids: slits are holes|const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;|const int is_slit = 0;
+solids: rims are holes|if (!is_slit \&\& !is_flush) whole->is_sheet = 1;|
+solids: doors are holes|if (!is_slit \&\& !is_three \&\& !(whole->volume > 0)) whole->is_sheet = 1;|
+solids: holes of any size|whole->holes < NSVCD__HOLES * whole->area|1
+solids: a missing face is all of its hole|(is_three ? NSVCD__HOLE_OF_THREE : 1)|1
+solids: a whole that is closed in part|whole->closed >= 0.5 * whole->area;|whole->closed > 0;
+solids: edges of what is closed|is_closed ? 0 : whole->odd;|whole->odd;
+solids: nearly a solid is a sheet|*kind = NSVCD__NEARLY;|*kind = NSVCD__SHEET;
+solids: rays count nothing of what is nearly a solid|odd += sum.nearly % 2 != 0 \|\| sum.winds != 0;|
+solids: faces turned either way wind|if (sum.winds == 0 \&\& sum.either_way % 2 != 0) return 1;|
 asks: faces without area|length > 1e-9 * longest|length > 0
 asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t->ways[1]) > -0.3|n, t->ways[0]) > -0.3 \&\& nsvcd__d3_dot(n, t->ways[1]) > -0.3
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
-asks: ends not looked at|p->work + 4 * NSVCD__LONG < limit|p->work + 4 * NSVCD__LONG < 0
-asks: the start only|!(p->ask.share > 0) \&\& nsvcd__meets_at(p, search, 1, NSVCD__LOOK)|0
+asks: ends not looked at|is_brief \&\& p->work + NSVCD__LONG < limit;|0;
+asks: the start only|if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK))|if (!at_end \&\& nsvcd__meets_at(p, search, at_end, NSVCD__LOOK))
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
 asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
-asks: a bracket as wide as may be|while (is_enough \&\& p->ask.measure > finest) {|while (0 \&\& is_enough) {
+asks: a bracket as wide as may be|while (!p->wide \&\& p->ask.measure > finest) {|while (0 \&\& !p->wide) {
 asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
@@ -354,11 +394,14 @@ PYTHON
   tile=  # those of tiles are looked for where small bodies make several
   file=test_proof.c
   fused=  # as the Makefile compiles these
+  many=1
   case "$name" in
     tile:*) tile=-DNSVCD__TILE=2 ;;
     level:*) file=test_level.c ;;
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
     long:*) file=test_long.c ;;
+    exact:*) file=test_exact.c many=50 ;;
+    solids:*) file=test_solids.c ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
     postures:*) file=test_postures.c ;;
@@ -367,7 +410,7 @@ PYTHON
     fits:*) file=test_fits.c ;;
   esac
   $CC -O2 -march=native -std=c99 -w -DNSVCD_NO_DISPATCH $tile $fused -DTEST_ALONE -DCHECK_ENDS_EARLY -o $work/test $work/tests/$file -lm || exit 1
-  (ulimit -t "${LIMIT:-400}"; exec $work/test) >$work/out.txt 2>&1
+  (ulimit -t "${LIMIT:-400}"; TEST_MANY=$many exec $work/test) >$work/out.txt 2>&1
   code=$?
   if [ $code = 137 ] || [ $code = 152 ]; then echo "NO END    $name: raise LIMIT, CPU seconds"; survived=1; continue; fi
   if [ $code = 0 ]; then

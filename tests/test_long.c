@@ -362,6 +362,36 @@ static void long_slides(void) {
   nsvcd_body_free(wall, NULL);
 }
 
+// A small ball starts on a large one, from which a skin lifts it, and shakes there for so long that
+// the rest is searched by itself. It goes round the large one and comes near from below: nearer
+// than it was lifted, or not.
+static void long_lifts_are_kept(void) {
+  const double corners[6][2] = {{0, 1.0625}, {3, 1.0625}, {3, -3}, {0, -3}, {0, -1.0665}, {0, -3}};
+  const nsvcd_body *bodies[2] = {NULL, NULL};
+  CHECK_EQ(nsvcd_encode_sphere(0.0625f, NULL, &bodies[0]), NSVCD_OK);
+  CHECK_EQ(nsvcd_encode_sphere(1, NULL, &bodies[1]), NSVCD_OK);
+  for (size_t n = 0; n < 1501; n++) {
+    const double at = n < 1000 ? 0 : (double)(n - 1000) / 100;
+    const size_t leg = at < 5 ? (size_t)at : 4;
+    const double u = at - (double)leg;
+    const double *from = corners[leg];
+    const double *to = corners[leg + 1];
+    memset(&poses[n], 0, sizeof poses[n]);
+    poses[n].position[0] = (float)((1 - u) * from[0] + u * to[0]);
+    poses[n].position[1] = n < 1000 && n % 2 ? 0.4f : 0;
+    poses[n].position[2] = (float)((1 - u) * from[1] + u * to[1]);
+    poses[n].rotation[3] = 1;
+  }
+  for (int trial = 0; trial < 2; trial++) {
+    nsvcd_question q = question_of(bodies[0], poses, 1501, bodies[1], NULL, NULL);
+    q.skin = trial ? 0.008f : 0.002f;
+    const nsvcd_answer answer = long_ask(&q);
+    CHECK_NEAR((double)answer.lift[2], (double)q.skin, 0.01 * (double)q.skin);
+    CHECK_EQ(answer.verdict, trial ? NSVCD_HIT : NSVCD_FREE);
+  }
+  for (int n = 0; n < 2; n++) nsvcd_body_free(bodies[n], NULL);
+}
+
 void test_long(void) {
   RUN(long_one_pose_is_low);
   RUN(long_pieces_agree);
@@ -369,6 +399,7 @@ void test_long(void) {
   RUN(long_work_is_held);
   RUN(long_open_intervals_stay);
   RUN(long_slides);
+  RUN(long_lifts_are_kept);
 }
 
 CHECK_ALONE(test_long)

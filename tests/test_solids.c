@@ -61,6 +61,7 @@ enum {
   FACE_BOTH_WAYS,
   HALF_TWICE,
   FIN,
+  TWO_FINS,
   FLAP,
   STRAY,
   SLIVER,
@@ -149,7 +150,8 @@ static void solids_spoil(shapes_mesh *mesh, const double *inside, shapes_rng *rn
          i++)
       mesh->indices[3 * n + i] = solids_copy(mesh, rng, n, i, flaw == SOUP ? 0 : off);
   }
-  if (flaw == FIN) shapes_triangle(mesh, a, b, solids_copy(mesh, rng, t, k, 0.3));
+  for (int n = 0; n < (flaw == FIN) + 2 * (flaw == TWO_FINS); n++)
+    shapes_triangle(mesh, a, b, solids_copy(mesh, rng, t, k, 0.3));
   if (flaw == FLAP) {
     const uint32_t d = solids_copy(mesh, rng, t, k, 0.3);
     shapes_quad(mesh, a, b, d, solids_copy(mesh, rng, t, k, 0.3));
@@ -275,7 +277,9 @@ enum {
   HALF_PIPE,
   TENT,
   ROOM_WITH_A_DOOR,
+  HOUSE_WITH_A_GATE,
   HOUSE_ON_TERRAIN,
+  TENT_ON_TERRAIN,
   SHEETS
 };
 
@@ -303,7 +307,8 @@ static void solids_sheet(int kind, shapes_mesh *mesh, shapes_rng *rng, double *a
     for (int k = 0; k < 4; k++) shapes_vertex(mesh, k & 1 ? 9 : -9, k & 2 ? 9 : -9, -0.34);
     shapes_quad(mesh, 0, 1, 3, 2);
   }
-  if (kind == TERRAIN || kind == TERRAIN_WITH_HOLES || kind == HOUSE_ON_TERRAIN) {
+  if (kind == TERRAIN || kind == TERRAIN_WITH_HOLES || kind == HOUSE_ON_TERRAIN ||
+      kind == TENT_ON_TERRAIN) {
     const uint32_t n = 24;
     for (uint32_t k = 0; k < n * n; k++) {
       const double x = 0.2 * (k % n - 11.5);
@@ -328,6 +333,18 @@ static void solids_sheet(int kind, shapes_mesh *mesh, shapes_rng *rng, double *a
     shapes_quad(mesh, roof[0], roof[1], roof[2], roof[3]);
     at[0] = at[1] = -0.2;
     at[2] = -0.2;
+  }
+  if (kind == TENT_ON_TERRAIN) {  // closed, on an edge of the ground
+    const uint32_t from = 24 * 10 + 10;
+    const double *x = mesh->positions + 3 * (size_t)from;
+    const double y = x[1];
+    const uint32_t left = shapes_vertex(mesh, x[0], y - 0.1, 0);
+    const uint32_t right = shapes_vertex(mesh, mesh->positions[3 * (size_t)from], y + 0.1, 0);
+    shapes_triangle(mesh, from, from + 1, right);
+    shapes_triangle(mesh, from, left, from + 1);
+    shapes_triangle(mesh, from, right, left);
+    shapes_triangle(mesh, from + 1, left, right);
+    at[0] = 0.3;
   }
   if (kind == BIN || kind == CUT_BIN) shapes_box(mesh, 1, 0.8, 1.2, kind == BIN ? 1 : 5);
   if (kind == CUP) shapes_cylinder(mesh, 0.4, 0.9, 16);
@@ -357,17 +374,16 @@ static void solids_sheet(int kind, shapes_mesh *mesh, shapes_rng *rng, double *a
     if (above) solids_drop(mesh, t, 1);
   }
   if (kind == HALF_PIPE) at[0] = -0.15;
-  if (kind == ROOM_WITH_A_DOOR) {
+  if (kind == ROOM_WITH_A_DOOR || kind == HOUSE_WITH_A_GATE) {
+    const double high_door = kind == ROOM_WITH_A_DOOR ? 0.3 : 0.8;
     shapes_box(mesh, 4, 5, 2.5, 10);
-    shapes_flip(mesh, 0);
+    if (kind == ROOM_WITH_A_DOOR) shapes_flip(mesh, 0);
     for (size_t t = mesh->triangles; t-- > 0;) {
-      const double *x = solids_corner(mesh, t, 0);
-      const double *y = solids_corner(mesh, t, 1);
-      const double *z = solids_corner(mesh, t, 2);
-      const double *all[3] = {x, y, z};
       int in_door = 1;
-      for (int k = 0; k < 3; k++)
-        in_door &= all[k][0] > 1.99 && fabs(all[k][1]) < 0.51 && all[k][2] < 0.8;
+      for (size_t k = 0; k < 3; k++) {
+        const double *x = solids_corner(mesh, t, k);
+        in_door &= x[0] > 1.99 && fabs(x[1]) < 0.51 && x[2] < high_door;
+      }
       if (in_door) solids_drop(mesh, t, 1);
     }
   }
@@ -380,7 +396,8 @@ static void solids_of_sheets(void) {
     shapes_mesh mesh, ball;
     double at[3], q[4];
     solids_sheet(kind, &mesh, &rng, at);
-    if (n / SHEETS == 1 && kind != ROOM_WITH_A_DOOR) shapes_flip(&mesh, 0);
+    if (n / SHEETS == 1 && kind != ROOM_WITH_A_DOOR && kind != HOUSE_WITH_A_GATE)
+      shapes_flip(&mesh, 0);
     const uint32_t centre = shapes_vertex(&mesh, at[0], at[1], at[2]);
     shapes_quaternion(&rng, q);
     shapes_place(&mesh, 0, n < SHEETS ? NULL : q, 0, 0, 0);
@@ -439,6 +456,42 @@ static void solids_with_gaps(void) {
   }
 }
 
+// Through a gap that counts as closed a ray would leave without crossing anything: what is inside of a
+// box that is split off its middle is not free, wherever it is.
+static void solids_seen_through_a_gap(void) {
+  shapes_rng rng = {50};
+  shapes_mesh mesh, ball;
+  size_t wrong = 0;
+  memset(&mesh, 0, sizeof mesh);
+  memset(&ball, 0, sizeof ball);
+  for (int half = 0; half < 2; half++) {
+    const size_t first = mesh.vertices;
+    shapes_box(&mesh, 2, 2, half ? 0.5 : 1.5, 2);
+    shapes_place(&mesh, first, NULL, 0, 0, half ? 0.75 + 2.5e-4 : -0.25);
+  }
+  for (size_t t = mesh.triangles; t-- > 0;) {
+    int is_within = 1;
+    for (size_t k = 0; k < 3; k++) is_within &= fabs(solids_corner(&mesh, t, k)[2] - 0.5) < 1e-3;
+    if (is_within) solids_drop(&mesh, t, 1);
+  }
+  shapes_ellipsoid(&ball, 1e-3, 1e-3, 1e-3, 4);
+  const nsvcd_body *small = solids_encode(&ball, 0);
+  const nsvcd_body *body = solids_encode(&mesh, 0);
+  CHECK_EQ(nsvcd_body_describe(body).open_components, 0);
+  for (int n = 0; n < 4000; n++) {
+    double at[3];
+    for (int k = 0; k < 3; k++)
+      at[k] = shapes_uniform(&rng, k == 2 ? 0.3 : 0.7, k == 2 ? 0.49 : 0.95);
+    at[n % 2] *= shapes_uniform(&rng, -1, 1);
+    wrong += solids_ask(small, at, at, body).verdict != NSVCD_HIT;
+  }
+  CHECK_EQ(wrong, 0);
+  nsvcd_body_free(body, NULL);
+  nsvcd_body_free(small, NULL);
+  shapes_free(&mesh);
+  shapes_free(&ball);
+}
+
 // Where the answer says so, no certificate says FREE of what is inside of a solid with a flaw.
 static void solids_are_not_certified_free(void) {
   for (int flaw = FACE_TWICE; flaw < FLAWS; flaw += FACE_MISSING - FACE_TWICE) {
@@ -488,6 +541,7 @@ static void solids_are_not_certified_free(void) {
 }
 
 void test_solids(void) {
+  RUN(solids_seen_through_a_gap);
   RUN(solids_are_not_certified_free);
   RUN(solids_with_gaps);
   RUN(solids_with_a_flaw);
