@@ -608,6 +608,41 @@ static void asks_first_within_the_motion(void) {
   nsvcd_body_free(table, NULL);
 }
 
+// A piston turns in its cylinder, half a millimetre from it all around, and goes through a plate on
+// its way, or just after it starts, or there is none: contacts that take a lot of work to find.
+// However little there is, what is told is true, and with more of it no less is proven, but for `to_time`.
+static void asks_first_of_little_work(void) {
+  static const double plates[3] = {0.205, 0.1003, 1};
+  static const double meets[3] = {(1 + 0.105 / 0.15) / 3, 0.0003 / 0.15 / 3, 1};
+  shapes_mesh shape;
+  memset(&shape, 0, sizeof shape);
+  shapes_cylinder(&shape, 0.1, 0.2, 48);
+  const nsvcd_body *piston = asks_body(&shape, 0);
+  for (int n = 0; n < 3; n++) {
+    memset(&shape, 0, sizeof shape);
+    shapes_ring(&shape, 0.12, 0.1005, 0.2, 48);
+    shapes_box_at(&shape, 0.05, 0, plates[n] + 0.005, 0.03, 0.03, 0.01);
+    const nsvcd_body *cylinder = asks_body(&shape, 0);
+    const nsvcd_pose path[4] = {asks_pose(0, 0, 0, 0), asks_pose(0, 0, n == 1 ? 0.15 : 0, 1.5),
+                                asks_pose(0, 0, 0.15, 1.6), asks_pose(0, 0, 0, 3)};
+    nsvcd_question question = question_of(piston, path, 4, cylinder, NULL, NULL);
+    float low = 0;
+    question.ask = NSVCD_ASK_FIRST;
+    question.to_time = 1e-3f;
+    for (size_t work = 64; work < 300000; work += work / 2) {
+      question.work = work;
+      const nsvcd_answer answer = asks(&question);
+      CHECK(answer.verdict != (n < 2 ? NSVCD_FREE : NSVCD_HIT));
+      CHECK_GE(answer.time.low, low - question.to_time);
+      CHECK_LE((double)answer.time.low, meets[n] + 1e-6);
+      low = answer.time.low;
+    }
+    CHECK(n == 1 || low > 0.2f);
+    nsvcd_body_free(cylinder, NULL);
+  }
+  nsvcd_body_free(piston, NULL);
+}
+
 // A piston goes through a thin plate where it starts, then turns into its cylinder, a hundredth of a
 // millimetre from it all around; or the other way. The ends are looked at before all the rest.
 static void asks_contacts_at_the_ends(void) {
@@ -1156,6 +1191,7 @@ void test_asks(void) {
   RUN(asks_measure_loses_nothing);
   RUN(asks_first_keeps_what_is_proven);
   RUN(asks_first_within_the_motion);
+  RUN(asks_first_of_little_work);
   RUN(asks_contacts_at_the_ends);
   RUN(asks_names_what_meets_inside);
 }
