@@ -1,6 +1,6 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
-# fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `solids:`, `round:`,
+# fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
 # `robot:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
 # tests/test_checker.c has to fail, of `fits:` tests/test_fits.c. Prints a line for each, and exits with 1 if one
 # survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.." || exit 1
 work=${WORK:-build/mutants}
 mkdir -p $work/tests/bench $work/examples/scenery $work/examples/verify
 cp weights.h $work/
-cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
+cp tests/test_proof.c tests/test_level.c tests/test_asks.c tests/test_long.c tests/test_exact.c tests/test_floor.c tests/test_solids.c tests/test_round.c tests/test_robot.c tests/test_postures.c tests/test_certificate.c tests/test_checker.c tests/test_fits.c tests/*.h $work/tests/
 cp tests/bench/*.h $work/tests/bench/
 cp examples/scenery/*.h $work/examples/scenery/
 for room in src/*/*.h; do  # for each room that a test includes it gets the header
@@ -161,7 +161,7 @@ exact: no planes made normal to an edge|nsvcd__off_edge(guess, of[k / 2 - 1], of
 exact: planes on one side only|if (nsvcd__d3_dot(n, guess) < 0) n = nsvcd__d3_scale(n, -1);\n    const double beyond|const double beyond
 pieces by their stored corners|} else if (f->cut_count > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
-asks: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
+floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
 asks: parts of the time that were lost|if (part->lost) return end;|
 asks: what no part settled|known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));|known.lost = 0;
 long: gaps by other poses|part.poses += first;|
@@ -401,6 +401,7 @@ PYTHON
     asks:*) file=test_asks.c fused=-ffp-contract=fast ;;
     long:*) file=test_long.c ;;
     exact:*) file=test_exact.c many=50 ;;
+    floor:*) file=test_floor.c ;;
     solids:*) file=test_solids.c ;;
     round:*) file=test_round.c fused=-ffp-contract=fast ;;
     robot:*) file=test_robot.c ;;
