@@ -1,10 +1,10 @@
 #!/bin/sh
 # Are the tests of the proof worth anything? Each mutant is the header with one mistake in it; tests/test_proof.c has to
 # fail on it, or, where its name begins with `level:`, `asks:`, `long:`, `exact:`, `floor:`, `solids:`, `round:`,
-# `robot:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of certificates, examples/verify, and tests/test_certificate.c or
-# tests/test_checker.c has to fail, of `fits:` tests/test_fits.c. Prints a line for each, and exits with 1 if one
-# survives. An argument runs only the mutants whose name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every
-# 16th of them, in a folder of its own.
+# `robot:` or `postures:`, tests/test_level.c and so on; of `verify:` and `checker:` the mistake is in the checker of
+# certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
+# tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
+# name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1

@@ -189,11 +189,70 @@ static void floor_clearance_is_the_gap(void) {
   floor_prop_free(&box);
 }
 
+// Floors that slope in their own mesh, whose coarse copies are on no plane: what stands on them, or
+// in them, slides over them, turns or falls, by more than floats say where the floor is.
+static void floor_slopes_in_its_mesh(void) {
+  const floor_prop *props = floor_props();
+  shapes_rng rng = {47};
+  for (size_t i = 0; i < check_many(96); i++) {
+    const double half = i % 3 ? (i % 3 == 1 ? 10 : 100) : 1000;
+    const floor_prop *prop = &props[shapes_pick(&rng, PROPS)];
+    const int falls = i % 4 == 3;
+    const double least = 1e-6 * half;
+    const double gap = least * pow(10, shapes_uniform(&rng, 0, 2)) * (i / 4 % 2 || falls ? 1 : -1);
+    const double turn = i % 4 == 2 ? 1 : 0;
+    double low = 0;
+    double q[4], m[9], at[3];
+    oracle_pose pose;
+    nsvcd_pose path[2];
+    nsvcd_question question;
+    nsvcd_answer answer;
+    shapes_mesh shape;
+    memset(&shape, 0, sizeof shape);
+    memset(&question, 0, sizeof question);
+    shapes_box(&shape, 2 * half, 2 * half, 1, i / 12 % 2 ? 7 : 1);
+    shapes_place(&shape, 0, NULL, 0, 0, -0.5);
+    shapes_quaternion(&rng, q);
+    shapes_place(&shape, 0, q, 0, 0, 0);
+    floor_prop floor = floor_prop_of_shape(&shape, 1);
+    oracle_matrix(q, m);
+    for (size_t n = 0; n < prop->count; n++) low = fmin(low, prop->vertices[3 * n + 2]);
+    for (int k = 0; k < 2; k++) at[k] = half * shapes_uniform(&rng, -0.4, 0.4);
+    for (int end = 0; end < 2; end++) {
+      const double sine = sin(0.5 * turn * end);
+      const double cosine = cos(0.5 * turn * end);
+      at[2] = gap - low + (falls ? (end ? -2 * gap : 0.5) : 0);
+      at[0] += end && i % 4 == 1 ? 0.3 : 0;
+      for (int k = 0; k < 3; k++)
+        pose.position[k] = m[3 * k] * at[0] + m[3 * k + 1] * at[1] + m[3 * k + 2] * at[2];
+      for (int k = 0; k < 4; k++)  // about its own z, then q
+        pose.rotation[k] = q[k] * cosine + (k % 2 ? -1 : 1) * q[k ^ 1] * sine;
+      path[end] = pose_rounded(&pose);
+    }
+    question.a.body = prop->body;
+    question.a.poses = path;
+    question.a.count = i % 4 ? 2 : 1;
+    question.b.body = floor.body;
+    question.ask = falls ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
+    question.to = falls ? (float)least : 0;
+    CHECK_EQ(nsvcd_sweep(&question, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),
+             0);
+    CHECK_EQ(answer.verdict, gap < 0 || falls ? NSVCD_HIT : NSVCD_FREE);
+    if (falls) {
+      const double way = 0.5 + 2 * gap;
+      CHECK_NEAR(way * (double)answer.time.low, 0.5 + gap, 3 * least);
+      CHECK_NEAR(way * (double)answer.time.high, 0.5 + gap, 3 * least);
+    }
+    floor_prop_free(&floor);
+  }
+}
+
 void test_floor(void) {
   RUN(floor_of_twelve_triangles);
   RUN(floor_of_one_triangle);
   RUN(floor_of_many_triangles);
   RUN(floor_far_from_its_origin);
+  RUN(floor_slopes_in_its_mesh);
   RUN(floor_flat_takes_little);
   RUN(floor_channel_is_slid_along);
   RUN(floor_clearance_is_the_gap);
