@@ -13883,9 +13883,9 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    const double lift = nsvcd__aim_plane(p, couple, at, &nearest);
+    const double beyond = nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = lift - p->ask.clearance - couple->slack - couple->rounding;
+    const double room = beyond - p->ask.clearance - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
       nsvcd__certify_couple(p, couple, u, until);
@@ -14555,11 +14555,6 @@ static double nsvcd__hair(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
-// The same of what is told in double.
-static double nsvcd__grain(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-}
-
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -14642,8 +14637,9 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth =
-      lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__grain(p));
+  // depths are told in double
+  const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, grain);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
@@ -15170,10 +15166,11 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
     if (p->ask.gathers == NSVCD__TOUCHING) {
-      // what was lifted off just so is farther than the clearance by less than floats tell
-      (void)nsvcd__arc_at(p, 0);
-      if (p->normal_count > 0 && nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0))
-        continue;
+      if (p->normal_count > 0) {
+        // what was lifted off just so is farther than the clearance by less than floats tell
+        (void)nsvcd__arc_at(p, 0);
+        if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
+      }
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     } else if (p->count < NSVCD__ITEMS) {
       p->of.kept.items[p->count++] = *item;
@@ -16604,8 +16601,8 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double hair = 0.5 * nsvcd__hair(p);
-  double more = hair;
+  const double least_more = 0.5 * nsvcd__hair(p);
+  double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     const nsvcd__d3 least = nsvcd__lift_off(p, more, 1);
@@ -16619,8 +16616,8 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
       nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
-    if (!is_deeper && more <= nsvcd__max(hair, 0.002 * after)) break;
-    more = is_deeper ? 2 * more : nsvcd__max(hair, 0.125 * more);
+    if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
+    more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
   }
   still->lift = lift;
 }
@@ -20225,7 +20222,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gathers_on NSVCD__AT(gathers_on)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
-#define nsvcd__grain NSVCD__AT(grain)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
 #define nsvcd__group_against_members NSVCD__AT(group_against_members)
 #define nsvcd__group_reach NSVCD__AT(group_reach)

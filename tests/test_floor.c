@@ -8,6 +8,7 @@
 #include "../neuralsvcd.h"
 
 #include "floor_scene.h"
+#include "question_of.h"
 #include "check.h"
 
 void test_floor(void);
@@ -118,12 +119,7 @@ static void floor_channel_is_slid_along(void) {
     nsvcd_pose path[2] = {{{0, -1, 0.2512f}, {0, 0, 0, 1}}, {{0, 0, 0}, {0, 0, 0, 1}}};
     const float push[3] = {(float)(round - 1) * 2 * frame, 0.5f, -9.81f * frame};
     float speed[3] = {0, 0, 0};
-    nsvcd_question q;
-    memset(&q, 0, sizeof q);
-    q.a.body = box.body;
-    q.a.poses = path;
-    q.a.count = 2;
-    q.b.body = channel.body;
+    nsvcd_question q = question_of(box.body, path, 2, channel.body, NULL, NULL);
     q.ask = NSVCD_ASK_FIRST;
     q.to = 5e-5f;
     q.clearance = 5e-4f;
@@ -170,16 +166,11 @@ static void floor_clearance_is_the_gap(void) {
     const float turn = 0.13f * (float)round;
     const float gap = round % 2 ? 2e-4f : 1e-3f;
     nsvcd_pose path[2] = {{{-0.05f, 0.01f, 0.125f}, {0, 0, sinf(turn), cosf(turn)}}};
-    nsvcd_question q;
+    nsvcd_question q = question_of(box.body, path, 2, floor.body, NULL, NULL);
     nsvcd_answer answer;
     path[0].position[2] += gap;
     path[1] = path[0];
     path[1].position[0] = 0.05f;
-    memset(&q, 0, sizeof q);
-    q.a.body = box.body;
-    q.a.poses = path;
-    q.a.count = 2;
-    q.b.body = floor.body;
     q.clearance = q.skin = gap;
     CHECK_EQ(nsvcd_sweep(&q, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer), 0);
     CHECK_EQ(answer.verdict, NSVCD_FREE);
@@ -205,11 +196,9 @@ static void floor_slopes_in_its_mesh(void) {
     double q[4], m[9], at[3];
     oracle_pose pose;
     nsvcd_pose path[2];
-    nsvcd_question question;
     nsvcd_answer answer;
     shapes_mesh shape;
     memset(&shape, 0, sizeof shape);
-    memset(&question, 0, sizeof question);
     shapes_box(&shape, 2 * half, 2 * half, 1, i / 12 % 2 ? 7 : 1);
     shapes_place(&shape, 0, NULL, 0, 0, -0.5);
     shapes_quaternion(&rng, q);
@@ -229,10 +218,7 @@ static void floor_slopes_in_its_mesh(void) {
         pose.rotation[k] = q[k] * cosine + (k % 2 ? -1 : 1) * q[k ^ 1] * sine;
       path[end] = pose_rounded(&pose);
     }
-    question.a.body = prop->body;
-    question.a.poses = path;
-    question.a.count = i % 4 ? 2 : 1;
-    question.b.body = floor.body;
+    nsvcd_question question = question_of(prop->body, path, i % 4 ? 2 : 1, floor.body, NULL, NULL);
     question.ask = falls ? NSVCD_ASK_FIRST : NSVCD_ASK_HIT;
     question.to = falls ? (float)least : 0;
     CHECK_EQ(nsvcd_sweep(&question, floor_workspace(), nsvcd_sweep_workspace_size(NULL), &answer),

@@ -9,6 +9,7 @@
 #include "../examples/scenery/shapes.h"
 #include "../examples/scenery/oracle.h"
 #include "../examples/scenery/poses.h"
+#include "question_of.h"
 #include "check.h"
 
 void test_normals(void);
@@ -467,12 +468,7 @@ static void normals_of_sheets(void) {
     const float x = (float)shapes_uniform(&rng, -0.3, 0.3);
     const nsvcd_pose path[2] = {{{x, 0.1f, 1}, {0, 0, 0, 1}},
                                 {{0.3f * x, 0.05f, -1}, {0, 0, 0, 1}}};
-    nsvcd_question q;
-    memset(&q, 0, sizeof q);
-    q.a.body = a.body;
-    q.a.poses = path;
-    q.a.count = 2;
-    q.b.body = b.body;
+    nsvcd_question q = question_of(a.body, path, 2, b.body, NULL, NULL);
     q.ask = NSVCD_ASK_FIRST;
     q.manifold = 1;
     q.clearance = n % 3 == 0 ? 0.03f : 0;

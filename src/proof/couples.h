@@ -567,9 +567,9 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
       at = u;
       continue;
     }
-    const double lift = nsvcd__aim_plane(p, couple, at, &nearest);
+    const double beyond = nsvcd__aim_plane(p, couple, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = lift - p->ask.clearance - couple->slack - couple->rounding;
+    const double room = beyond - p->ask.clearance - couple->slack - couple->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
     if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
       nsvcd__certify_couple(p, couple, u, until);

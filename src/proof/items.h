@@ -377,10 +377,11 @@ static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
     if (nsvcd__item_is_parted(p, search, item)) continue;
     if (p->ask.gathers == NSVCD__TOUCHING) {
-      // what was lifted off just so is farther than the clearance by less than floats tell
-      (void)nsvcd__arc_at(p, 0);
-      if (p->normal_count > 0 && nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0))
-        continue;
+      if (p->normal_count > 0) {
+        // what was lifted off just so is farther than the clearance by less than floats tell
+        (void)nsvcd__arc_at(p, 0);
+        if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
+      }
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
     } else if (p->count < NSVCD__ITEMS) {
       p->of.kept.items[p->count++] = *item;

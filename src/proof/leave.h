@@ -162,8 +162,8 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double hair = 0.5 * nsvcd__hair(p);
-  double more = hair;
+  const double least_more = 0.5 * nsvcd__hair(p);
+  double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
     const nsvcd__d3 least = nsvcd__lift_off(p, more, 1);
@@ -177,8 +177,8 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
       nsvcd__note_depth(p, nsvcd__way_of(p, &p->of.touches[n]), &p->of.touches[n]);
     for (size_t k = 0; k < p->normal_count; k++) after += p->depths[k];
     const int is_deeper = after > before;
-    if (!is_deeper && more <= nsvcd__max(hair, 0.002 * after)) break;
-    more = is_deeper ? 2 * more : nsvcd__max(hair, 0.125 * more);
+    if (!is_deeper && more <= nsvcd__max(least_more, 0.002 * after)) break;
+    more = is_deeper ? 2 * more : nsvcd__max(least_more, 0.125 * more);
   }
   still->lift = lift;
 }

@@ -10,11 +10,6 @@ static double nsvcd__hair(const nsvcd__proof *p) {
   return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
 }
 
-// The same of what is told in double.
-static double nsvcd__grain(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
-}
-
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
 // it is already.
 static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
@@ -97,8 +92,9 @@ static void nsvcd__note_depth(nsvcd__proof *p, size_t k, const nsvcd__touch *t) 
   const double most = nsvcd__lift_along(n, t) + p->given.clearance;
   p->needed = nsvcd__max(p->needed, lifted + most);
   if (!(most > 0) || !(lifted + most > p->depths[k])) return;
-  const double depth =
-      lifted + nsvcd__way_out(t, n, p->given.clearance, most, nsvcd__grain(p));
+  // depths are told in double
+  const double grain = nsvcd__off_meshes(p) + NSVCD__TOO_NEAR * (double)p->given.lengths;
+  const double depth = lifted + nsvcd__way_out(t, n, p->given.clearance, most, grain);
   p->depths[k] = nsvcd__max(p->depths[k], depth);
 }
 
