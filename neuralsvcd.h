@@ -12002,9 +12002,8 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
 // Segments are searched some at a time, in their order, so that what is found first is early. Once
 // the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where there is not work enough for that, a part of what is left goes to what is proven soonest:
-// part after part of the motion, the first a short one, from where nothing is settled on. Where no
-// contact is known then, it is asked whether there is any.
+// Where there is not work enough for that, what is left goes to what is proven soonest: part after
+// part of the motion, the first a short one, from where nothing is settled on.
 //
 // THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
 // depends on the units that were taken, not on those that are allowed. So a higher limit never
@@ -12067,11 +12066,9 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
-// units that a part may take besides eight times those of the part before; and units that are left
-// for the question whether there is any contact, of small budgets a sixteenth.
+// and units that a part may take besides eight times those of the part before.
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART 250
-#define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 16   // looks at what is touched on the way off
@@ -12413,15 +12410,9 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   return left > units ? p->work + units : p->ask.most;
 }
 
-// What the search for the first contact may take; and, of the rest, what can be proven by time. The
-// last of it is for the question whether there is any contact.
+// What the search for the first contact may take; the rest is for what can be proven by time.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->ask.most - p->given.aside;
-}
-static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
-  const size_t most = p->given.aside / 2;
-  const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->ask.most - (most / 2 > usual ? most / 2 : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
@@ -15972,14 +15963,12 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
   p->ask.end = end;
 }
 
-// When do they meet first? What is proven of that stays, also where there is no more work left, and
-// then it is asked whether they meet at all.
+// When do they meet first? What is proven of that stays, also where there is no more work left.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // an interval is short: what is before it is known
-  if (p->known.lost && !p->ask.motion->arcs)
-    nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
+  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
@@ -15988,15 +15977,6 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
-  } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
-    const double share = p->ask.share;
-    p->ask.share = 0;
-    p->ask.limit = p->ask.most;
-    const nsvcd__outcome any = nsvcd__prove_anew(p, search);
-    p->ask.share = share;
-    if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
-    known.has_contact = p->known.has_contact;
-    known.found = p->known.found;
   }
   p->known = known;
   p->ask.end = end;
@@ -20302,7 +20282,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__lift_off NSVCD__AT(lift_off)
 #define nsvcd__lift_still NSVCD__AT(lift_still)
 #define nsvcd__limit_after NSVCD__AT(limit_after)
-#define nsvcd__limit_by_time NSVCD__AT(limit_by_time)
 #define nsvcd__limit_of_first NSVCD__AT(limit_of_first)
 #define nsvcd__look_across NSVCD__AT(look_across)
 #define nsvcd__manifold NSVCD__AT(manifold)

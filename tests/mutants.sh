@@ -196,7 +196,6 @@ asks: the start only|if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK))|if (!a
 asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
 asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
 asks: a bracket as wide as may be|while (!p->wide \&\& p->ask.measure > finest) {|while (0 \&\& !p->wide) {
-asks: no question whether they meet|known.lost \|\| known.unsure < NSVCD__NEVER)|known.unsure < 0)
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
 asks: metres without the turn|return arc->speed + arc->turn|return arc->speed + 0 * arc->turn
@@ -208,7 +207,6 @@ asks: a safe place not lifted|n == moving_takes_it ? 0 : n ? -world.unit : world
 asks: a safe place on the other side|n == moving_takes_it ? 0 : n ? -world.unit : world.unit|n == moving_takes_it ? 0 : n ? world.unit : -world.unit
 asks: a safe place too late|const double t = (double)answer->safe.time;|const double t = fmin(1, 1.05 * (double)answer->safe.time + 0.01);
 asks: a safe place where it is about to touch|answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));|answer->safe.time = answer->time.low;
-asks: set down to the ground|const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);|const nsvcd__d3 least = nsvcd__lift_off(p, 0, 1);
 asks: not set down|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return lift;
 asks: set down through contacts|return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));|return least;
 asks: set down with a distance asked for|  p->ask.measure = 0;\n  p->ask.clearance = p->given.clearance;\n  p->ask.limit|  p->ask.limit

@@ -65,9 +65,8 @@
 // before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
 // Segments are searched some at a time, in their order, so that what is found first is early. Once
 // the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where there is not work enough for that, a part of what is left goes to what is proven soonest:
-// part after part of the motion, the first a short one, from where nothing is settled on. Where no
-// contact is known then, it is asked whether there is any.
+// Where there is not work enough for that, what is left goes to what is proven soonest: part after
+// part of the motion, the first a short one, from where nothing is settled on.
 //
 // THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
 // depends on the units that were taken, not on those that are allowed. So a higher limit never
@@ -133,11 +132,9 @@
 #define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
 #define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
-// units that a part may take besides eight times those of the part before; and units that are left
-// for the question whether there is any contact, of small budgets a sixteenth.
+// and units that a part may take besides eight times those of the part before.
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART 250
-#define NSVCD__ANY 500
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 16   // looks at what is touched on the way off
@@ -479,15 +476,9 @@ static size_t nsvcd__limit_after(const nsvcd__proof *p, size_t units) {
   return left > units ? p->work + units : p->ask.most;
 }
 
-// What the search for the first contact may take; and, of the rest, what can be proven by time. The
-// last of it is for the question whether there is any contact.
+// What the search for the first contact may take; the rest is for what can be proven by time.
 static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->ask.most - p->given.aside;
-}
-static size_t nsvcd__limit_by_time(const nsvcd__proof *p) {
-  const size_t most = p->given.aside / 2;
-  const size_t usual = most < NSVCD__ANY ? most : NSVCD__ANY;
-  return p->ask.most - (most / 2 > usual ? most / 2 : usual);
 }
 
 // Is all work done that is allowed? Where the first contact is sought, what a doubt has left for

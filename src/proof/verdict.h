@@ -179,14 +179,12 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
   p->ask.end = end;
 }
 
-// When do they meet first? What is proven of that stays, also where there is no more work left, and
-// then it is asked whether they meet at all.
+// When do they meet first? What is proven of that stays, also where there is no more work left.
 static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd__outcome outcome = nsvcd__prove_and_look(p, search, nsvcd__limit_of_first(p));
   const double from = (double)p->ask.motion->from;
   // an interval is short: what is before it is known
-  if (p->known.lost && !p->ask.motion->arcs)
-    nsvcd__prove_by_time(p, search, nsvcd__limit_by_time(p));
+  if (p->known.lost && !p->ask.motion->arcs) nsvcd__prove_by_time(p, search, p->ask.most);
   nsvcd__known known = p->known;
   const double end = p->ask.end;
   if (from > 0 && known.has_contact) {
@@ -195,15 +193,6 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
     p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
-  } else if (!known.has_contact && (known.lost || known.unsure < NSVCD__NEVER)) {
-    const double share = p->ask.share;
-    p->ask.share = 0;
-    p->ask.limit = p->ask.most;
-    const nsvcd__outcome any = nsvcd__prove_anew(p, search);
-    p->ask.share = share;
-    if (any == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER)) return any;
-    known.has_contact = p->known.has_contact;
-    known.found = p->known.found;
   }
   p->known = known;
   p->ask.end = end;
