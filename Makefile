@@ -631,9 +631,10 @@ FORMATTED = $(ROOMS) $(wildcard $(WRITTEN:%=%/*.[ch]))
 format:  ## clang-format on what is written by hand
 	clang-format -i $(FORMATTED)
 # Version 14 decides, as in Debian 12: others break lines elsewhere.
-check-text:  ## the rooms as a text; that neuralsvcd.h is made of them, the tests of tests/PROMISES.md are there, all is formatted
+check-text:  ## the rooms as a text; that neuralsvcd.h is made of them, the tests of tests/PROMISES.md are there, mutants can be made, all is formatted
 	@if command -v python3 >/dev/null; then python3 src/make_header.py --check && python3 tests/make_header_test.py && \
-	  python3 tests/make_api_test.py && python3 tests/text.py && python3 tests/promises.py; \
+	  python3 tests/make_api_test.py && python3 tests/text.py && python3 tests/promises.py && \
+	  DRY=1 WORK=build/mutants_dry tests/mutants.sh >/dev/null; \
 	else echo "check-text: no python3: not tested"; fi
 	@if clang-format --version 2>/dev/null | grep -q 'version 14'; then \
 	  clang-format --dry-run -Werror $(FORMATTED); \

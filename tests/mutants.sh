@@ -5,6 +5,7 @@
 # certificates, examples/verify, and tests/test_certificate.c or tests/test_checker.c has to fail, of `fits:`
 # tests/test_fits.c. Prints a line for each, and exits with 1 if one survives. An argument runs only the mutants whose
 # name contains it. Some 20 seconds each; PART=0 OF=16 WORK=folder: every 16th of them, in a folder of its own.
+# DRY=1 only sees to it that each can still be made.
 set -u
 CC=${CC:-cc}
 cd "$(dirname "$0")/.." || exit 1
@@ -389,6 +390,7 @@ if old and len(found) != 1:
     sys.exit(f'{name}: found {len(found)} times')
 sys.stdout.write(text.replace(found[0], new) if old else text)
 PYTHON
+  test -z "${DRY:-}" || continue
   tile=  # those of tiles are looked for where small bodies make several
   file=test_proof.c
   fused=  # as the Makefile compiles these
