@@ -1,5 +1,5 @@
 #!/bin/sh
-# Checks of the Makefile, CORES at a time, and one table of what each is, how many seconds it took and how it ended. What it
+# Checks of tests/checks.mk, CORES at a time, and one table of what each is, how many seconds it took and how it ended. What it
 # printed is in build/check/NAME.txt. check.sh CORES NAME..., from the repository's root; a name is that of `make check-NAME`.
 # A check that says `not tested` has lacked a tool: it counts as skipped, and the table says which one.
 # Ends with 1 if a check fails; the last line is `N passed, N failed, N skipped`.
@@ -10,7 +10,7 @@ mkdir -p $out
 
 if test "${1:-}" = --one; then
   name=$2
-  said=$(sed -n "s/^check-$name:.*[^#]##* *//p" Makefile | head -1)
+  said=$(sed -n "s/^check-$name:.*[^#]##* *//p" tests/*.mk tests/*/*.mk | head -1)
   begin=$(date +%s)
   if $MAKE --no-print-directory "check-$name" >"$out/$name.txt" 2>&1 </dev/null; then result=ok; else result=FAILED; fi
   lacks=$(grep 'not tested' "$out/$name.txt" | sed 's/^[a-z0-9-]*: //; s/: not tested.*//' | sort -u | paste -sd';' | cut -c1-100)

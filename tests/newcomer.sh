@@ -189,14 +189,15 @@ step() {
   test $status = 0 || fail "$readme:$1: $2: ends with $status, says: $(tail -n 4 "$dir/said")"
   return $status
 }
+makefiles=$(echo Makefile packages/packages.mk tests/*.mk tests/*/*.mk train/train.mk)
 # Is this a target of the Makefile, or a program of it?
 known() {
   local what=${1#make } what
   what=${what%% *}
   case $1 in
-    make*) grep -qE "^\.PHONY:.* $what( |\$)|^$what:" Makefile ;;
+    make*) grep -qE "^\.PHONY:.* $what( |\$)|^$what:" $makefiles ;;
     *) what=${what#build/}
-      test -e "examples/$what.c" || test -e "tests/bench/$what.c" || grep -q "build/$what\( .*\)*:" Makefile || test -e "build/$what" ;;
+      test -e "examples/$what.c" || test -e "tests/bench/$what.c" || grep -q "build/$what\( .*\)*:" $makefiles || test -e "build/$what" ;;
   esac
 }
 

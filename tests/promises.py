@@ -1,7 +1,7 @@
 """Are the tests that PROMISES.md names there? Prints what is not; exit status 1 if something is not.
 
   tests      a name after `test_X.c` is a test that the file runs; one after another file is a text in it
-  files      main.c runs every test_X.c, but for those that the Makefile's TESTS_APART names
+  files      main.c runs every test_X.c, but for those that TESTS_APART of tests.mk names
   functions  every public function of src/interface/ is called by a test_X.c
 """
 
@@ -37,7 +37,7 @@ def main() -> int:
     path = FOLDER / "PROMISES.md"
     faults = [f"{path.name}:{fault}" for fault in table_faults(path)]
     runs = (FOLDER / "main.c").read_text()
-    apart = re.search(r"^TESTS_APART = (.*)", (FOLDER.parent / "Makefile").read_text(), re.M).group(1).split()
+    apart = re.search(r"^TESTS_APART = (.*)", (FOLDER / "tests.mk").read_text(), re.M).group(1).split()
     files = sorted(FOLDER.glob("test_*.c"))
     sections = [file.stem.removeprefix("test_") for file in files]
     faults += [f"main.c: does not run test_{name}.c" for name in sections if f"OF({name})," not in runs and name not in apart]

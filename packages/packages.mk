@@ -1,0 +1,65 @@
+# Included by the Makefile: the library as packages, installed and taken away.
+
+PREFIX ?= /usr/local
+VERSION := $(shell sed -n '1s/.* v\([0-9.]*\) .*/\1/p' neuralsvcd.h)
+LIBRARY_CFLAGS ?= -O2
+ifeq ($(shell uname -s),Darwin)
+SHARED = build/libneuralsvcd.dylib
+SONAME = -install_name $(PREFIX)/lib/libneuralsvcd.dylib
+else
+SHARED = build/libneuralsvcd.so
+SONAME = -Wl,-soname,libneuralsvcd.so.$(VERSION)
+endif
+
+build/library.o: packages/neuralsvcd.c $(LIBRARY) | build
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -fPIC -I. -c -o $@ $<
+$(SHARED): build/library.o
+	$(CC) -shared $(SONAME) -o $@ $< -lm
+build/libneuralsvcd.a: build/library.o
+	$(AR) rcs $@ $<
+# For any machine, as the library is. A program called `verify` would be too much in a folder of all programs.
+build/installed/svcd: examples/svcd.c $(SCENERY) $(LIBRARY)
+build/installed/svcd-verify: examples/verify/verify.c $(VERIFIER)
+PROGRAMS = build/installed/svcd build/installed/svcd-verify
+$(PROGRAMS):
+	@mkdir -p $(@D)
+	$(CC) $(LIBRARY_CFLAGS) -std=c99 -o $@ $< -lm
+shared: $(SHARED)  ## a shared library, build/libneuralsvcd.so
+static: build/libneuralsvcd.a  ## a static one
+# The name must stay: the header takes itself in.
+release: build/release/neuralsvcd.h  ## one file that holds neuralsvcd.h and weights.h
+build/release/neuralsvcd.h: $(LIBRARY)
+	@mkdir -p $(@D)
+	sed -e '/^#include "weights.h"$$/{r weights.h' -e 'd;}' neuralsvcd.h >$@
+
+# DESTDIR=folder is put before PREFIX.
+# The checker of certificates needs nothing of the library; what documents it all goes with it.
+INSTALLED_HEADERS = $(LIBRARY) $(wildcard examples/verify/nsvcd_verify*.h)
+DOCUMENTS = LICENSE examples/FORMATS.md
+# What svcd says of itself, and where that is looked for.
+MANUALS = man:man/man1/svcd.1 bash:bash-completion/completions/svcd zsh:zsh/site-functions/_svcd fish:fish/vendor_completions.d/svcd.fish
+install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd, svcd-verify and their manual, pkg-config, a CMake package
+	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd
+	cp $(INSTALLED_HEADERS) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	cp $(DOCUMENTS) $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd/
+	cp build/libneuralsvcd.a $(DESTDIR)$(PREFIX)/lib/
+	if test -f build/libneuralsvcd.dylib; then cp build/libneuralsvcd.dylib $(DESTDIR)$(PREFIX)/lib/; else \
+	  cp $(SHARED) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so.$(VERSION); \
+	  ln -sf libneuralsvcd.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.so; fi
+	for name in neuralsvcd neuralsvcd-library; do \
+	  sed 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|lib|; s|@VERSION@|$(VERSION)|' packages/installed/$$name.pc.in \
+	    >$(DESTDIR)$(PREFIX)/lib/pkgconfig/$$name.pc; done
+	cp packages/installed/neuralsvcdConfig.cmake $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/
+	sed 's|@VERSION@|$(VERSION)|' packages/installed/neuralsvcdConfigVersion.cmake.in \
+	  >$(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd/neuralsvcdConfigVersion.cmake
+	mkdir -p $(DESTDIR)$(PREFIX)/bin && cp $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin/
+	for manual in $(MANUALS); do file=$(DESTDIR)$(PREFIX)/share/$${manual#*:}; \
+	  mkdir -p $$(dirname $$file) && build/installed/svcd --manual $${manual%%:*} >$$file || exit 1; done
+	echo '.so man1/svcd.1' >$(DESTDIR)$(PREFIX)/share/man/man1/svcd-verify.1
+uninstall:  ## takes it away again
+	rm -rf $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd \
+	  $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd $(DESTDIR)$(PREFIX)/share/man/man1/svcd-verify.1 \
+	  $(DESTDIR)$(PREFIX)/lib/libneuralsvcd.* $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd.pc \
+	  $(DESTDIR)$(PREFIX)/lib/pkgconfig/neuralsvcd-library.pc $(PROGRAMS:build/installed/%=$(DESTDIR)$(PREFIX)/bin/%)
+	for manual in $(MANUALS); do rm -f $(DESTDIR)$(PREFIX)/share/$${manual#*:}; done
