@@ -125,6 +125,11 @@ static const nsvcd_body *encode(const char *from, const char *path, size_t point
   return body;
 }
 
+static void refused(void) {
+  fprintf(stderr, "profile: a question is refused\n");
+  exit(1);
+}
+
 // What a sampling planner asks: ROLLOUTS motions about one, each off by a bump of N(0, a tenth of
 // the moving body's radius) per axis at mid-motion; one by one, and in a batch. Adds the
 // microseconds per motion.
@@ -136,6 +141,7 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
   static nsvcd_question questions[ROLLOUTS];
   const float radius = 0.1f * nsvcd_body_describe(q->moving).radius;
   double least[2] = {1e9, 1e9};
+  const size_t size = nsvcd_sweep_workspace_size(NULL);
   if (q->count > 64) return;
   for (size_t m = 0; m < ROLLOUTS; m++) {
     float bump[3];
@@ -157,15 +163,16 @@ static void time_rollouts(const question *q, nsvcd__query *work, uint64_t *rando
   for (size_t m = 0; m < ROLLOUTS; m++) {
     questions[m] =
         question_of(q->moving, poses + m * q->count, q->count, q->fixed, q->fixed_pose, NULL);
+    questions[m].method = NSVCD_METHOD_NETWORK;
   }
   for (int run = 0; run < 3; run++) {
     double start = seconds();
     for (size_t m = 0; m < ROLLOUTS; m++) {
-      nsvcd_sweep(&questions[m], work, sizeof *work, &one[m]);
+      if (nsvcd_sweep(&questions[m], work, size, &one[m])) refused();
     }
     least[0] = fmin(least[0], seconds() - start);
     start = seconds();
-    nsvcd_sweep_batch(questions, ROLLOUTS, work, sizeof *work, many);
+    if (nsvcd_sweep_batch(questions, ROLLOUTS, work, size, many)) refused();
     least[1] = fmin(least[1], seconds() - start);
   }
   for (size_t m = 0; m < ROLLOUTS; m++) *alike += collides_of(&one[m]) == collides_of(&many[m]);
