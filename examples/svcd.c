@@ -7,7 +7,11 @@
 // --exit-code: 0 free, 1 hit, 3 undecided, 2 all else.
 #define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_certify.h"
+#include "../extras/neuralsvcd_robot.h"
 #define PROGRAM "svcd"
 #include "svcd/check.h"
 #include "svcd/bodies.h"

@@ -46,7 +46,9 @@
 //     return 0;
 //   }
 //
-// Or plan a motion that hits nothing: nsvcd_plan, below.
+// Or plan a motion that hits nothing: nsvcd_plan, below. Two headers stand on this one: for robots,
+// whose joints move bodies, extras/neuralsvcd_robot.h; and for answers that others can check,
+// extras/neuralsvcd_certify.h.
 //
 // What can fail returns a nsvcd_result: 0 is success, and on failure the outputs are left as they
 // were. Exceptions are sizes and nsvcd_body_patch, which return 0 where there is none, and
@@ -64,8 +66,6 @@
 //   NSVCD_NO_SMALL, NSVCD_NO_BASE   without these decoders; the default is the largest that is left
 //   NSVCD_NO_GRADIENT no nsvcd_sweep_gradient, and no optimizer
 //   NSVCD_NO_OPTIMIZER  no trajectory optimizer
-//   NSVCD_NO_ROBOTS   no joints: nsvcd_check and its kin go
-//   NSVCD_NO_CERTIFICATES  no nsvcd_certify and its kin; without triangles there are none either
 //   NSVCD_NO_INT8, NSVCD_NO_FLOAT   without this arithmetic of the decoders; without float, int8 is
 //                                   the default
 //   NSVCD_NO_SIMD     plain C where there are AVX-512, AVX2 with FMA, SSE2, NEON or SIMD128
@@ -133,7 +133,7 @@
 //   a pair near that bound, or near another in rank, lets another pair or another decoder answer.
 //   So the network's verdict may differ, where logits are near 0 or that of the ranker near its
 //   bounds of +-3. The same holds for bodies that two builds encode, and for plans.
-//   Joints (nsvcd_check, nsvcd_plan) are placed by libm's sines.
+//   Joints (nsvcd_plan, neuralsvcd_robot.h) are placed by libm's sines.
 //   With NSVCD_ONE_PATH blobs without latents and answers by proof are the same to the bit with
 //   SSE2, AVX2, AVX-512, NEON, SIMD128 and plain C, so that two machines replay a game alike: the
 //   same operations in the same order, no products fused into sums, sines and angles of this
@@ -178,15 +178,10 @@
 //   knot, arc         when one of the poses given is reached; the motion from a knot to the next
 //   tick              the unit of a motion's time: every knot is at a whole number of ticks
 //   work              units that a proof takes
-//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
-//   step, sample      of a piece, between two samples; a configuration in which parts are placed
-//   stray             by how much a part leaves, in a step, the line and the slerp between samples
-//   tree, node        boxes over a mesh's triangles, for certificates; a run of these
-//   certificate       bytes that prove an answer; a walk over two trees and time, and rays
 //   twist             how the moving body goes at a time: a velocity and an angular velocity
-//   lever             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_H
 #define NEURALSVCD_H
+#define NSVCD__FROM_ROOMS  // only here: neuralsvcd.h, which is made of this file, goes without
 
 // ================================================================== interface: what a program sees
 #include "interface/options.h"  // what is compiled; the version
@@ -197,10 +192,6 @@ extern "C" {
 #include "interface/meshes.h"        // OBJ files, parts of a mesh
 #include "interface/bodies.h"        // encoding, loading, scaling, facts
 #include "interface/queries.h"       // movers, options, answers; nsvcd_sweep and its kin
-#include "interface/certificates.h"  // a mesh's tree; a proof as bytes; nsvcd_certify
-#include "interface/robots.h"        // joints, parts, checks of motions; nsvcd_check
-#include "interface/postures.h"      // one configuration: what is near, a way out; nsvcd_gaps
-#include "interface/routes.h"        // a start and goals; nsvcd_route
 #include "interface/plans.h"         // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
@@ -220,9 +211,11 @@ extern "C" {
 #include "ground/compiler.h"   // what is asked of the compiler; libc and libm
 #include "ground/strings.h"    // what codes and statuses say
 #include "ground/angles.h"     // sines and angles, by libm or reckoned here
-#include "ground/bits.h"       // bits and sizes
+#include "ground/bits.h"       // bits, sizes, digests
+#include "ground/valid.h"      // is what a caller hands over in order?
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
+#include "ground/triangles.h"  // two triangles: where they meet, or are nearest
 #include "ground/spheres.h"    // spheres and discs, as bodies store them
 #include "ground/random.h"     // random numbers
 #include "ground/memory.h"     // the allocator; the rows of a workspace
@@ -320,25 +313,6 @@ extern "C" {
 #ifndef NSVCD__ISA
 // ==================================================================== entry: the processor decides
 #include "entry/processor.h"  // SSE2, AVX2 or AVX-512; the public functions of queries
-
-// ===================================================== certificate: a proof that others can check
-#include "certificate/tree.h"     // boxes over triangles, components
-#include "certificate/law.h"      // where a body is, how far points leave their chords
-#include "certificate/planes.h"   // one that parts two nodes for a while
-#include "certificate/rays.h"     // what a ray crosses
-#include "certificate/certify.h"  // the walk, and its bits
-
-// ============================================================ robot: is a motion of joints free?
-#include "robot/chain.h"  // what moves what; where everything is
-#include "robot/steps.h"  // what the joints do between two times
-#include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
-#include "robot/path.h"      // pieces, pair by pair
-#include "robot/proofs.h"    // certificates of pairs
-#include "robot/trees.h"     // configurations, and the nearest of them
-#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
-#include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
-#include "robot/smooth.h"  // a way in time, then smooth
-#include "robot/route.h"   // two trees of proven edges, shortcuts
 
 // ================================================================ plan: a motion that hits nothing
 #include "plan/spline.h"   // quintic Hermite

@@ -3,7 +3,11 @@
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_certify.h"
+#include "../extras/neuralsvcd_robot.h"
 
 #include "../examples/verify/nsvcd_verify_robot.h"
 #include "../examples/scenery/shapes.h"
@@ -643,8 +647,10 @@ static void certificates_need_rays(void) {
   s.poses[0][0].rotation[3] = s.poses[1][0].rotation[3] = 1;
   memset(&c, 0, sizeof c);
   memset(&made, 0, sizeof made);
-  CHECK_EQ(nsvcd__ride(&s.question.a, s.a->tree, &movers[0], &c.a), NSVCD_OK);
-  CHECK_EQ(nsvcd__ride(&s.question.b, s.b->tree, &movers[1], &c.b), NSVCD_OK);
+  c.a.tree = s.a->tree;
+  c.b.tree = s.b->tree;
+  CHECK_EQ(nsvcd__model_of(&s.question.a, &movers[0], &c.a.model), NSVCD_OK);
+  CHECK_EQ(nsvcd__model_of(&s.question.b, &movers[1], &c.b.model), NSVCD_OK);
   const float clearance = 0;
   c.stretch.a = &c.a;
   c.stretch.b = &c.b;
@@ -652,7 +658,7 @@ static void certificates_need_rays(void) {
   c.stretch.capacity = 8;
   c.bytes = bytes;
   c.capacity = sizeof bytes;
-  c.digest = nsvcd__digest(c.a.digest + 31 * c.b.digest, &clearance, 1);
+  c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
   c.made = &made;
   CHECK_EQ(nsvcd__prove_walk(&c, 100000), NSVCD_FREE);
   CHECK(!c.apart);

@@ -6,7 +6,11 @@
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_certify.h"
+#include "../extras/neuralsvcd_robot.h"
 
 #include "../examples/scenery/oracle.h"
 #include "check.h"

@@ -4,7 +4,9 @@
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_certify.h"
 
 #include "../examples/verify/nsvcd_verify.h"
 #include "../examples/scenery/shapes.h"

@@ -3,7 +3,9 @@
 #define NSVCD_NO_NETWORK
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../neuralsvcd.h"
+#include "../extras/neuralsvcd_robot.h"
 
 #include "../examples/scenery/shapes.h"
 #include "../examples/scenery/oracle.h"

@@ -7,7 +7,11 @@
 #include <stdio.h>
 
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#include "../../extras/neuralsvcd_certify.h"
+#include "../../extras/neuralsvcd_robot.h"
 
 #include "questions.h"
 

@@ -4,7 +4,11 @@
 // the layout of structs is told to the module, which compares it on import.
 #define NSVCD_NO_STDIO  // Python reads the files
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "neuralsvcd.h"
+#include "extras/neuralsvcd_certify.h"
+#include "extras/neuralsvcd_robot.h"
 #include "examples/scenery/mesh_files.h"
 
 // As the module calls them. Where the header says otherwise, this does not compile.

@@ -9,7 +9,11 @@
 #define NSVCD_NO_INT8
 #define NSVCD_NO_GRADIENT
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#include "../../extras/neuralsvcd_certify.h"
+#include "../../extras/neuralsvcd_robot.h"
 
 #include <stdlib.h>
 

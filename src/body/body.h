@@ -26,6 +26,7 @@
 // and patches have the same numbers in both. Each part ends in zeros up to a multiple of
 // NSVCD_ALIGNMENT.
 #pragma once
+#include "../ground/valid.h"
 #include "../interface/bodies.h"
 #include "../ground/spheres.h"
 #include "../ground/bits.h"
@@ -371,19 +372,6 @@ static void nsvcd__body_finish(nsvcd_body *body) {
   nsvcd__f3_store(sphere.centre, body->centre);
   body->radius = sphere.radius;
   body->extent = extent * 1.000002f;
-}
-
-static int nsvcd__is_aligned(const void *memory) {
-  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
-}
-
-// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
-// holds under -ffast-math too.
-static int nsvcd__within(const float *values, size_t count, float most) {
-  for (size_t i = 0; i < count; i++) {
-    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
-  }
-  return 1;
 }
 
 // Are the area vectors of a body of latents in range?

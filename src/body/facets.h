@@ -338,11 +338,6 @@ static void nsvcd__facet_triangle(const nsvcd__facets *f, size_t patch, size_t n
 
 // ---- what follows from the patches
 
-// A float not less than x, which is not negative.
-static float nsvcd__above(double x) {
-  return (float)(x * (1 + 2e-7)) + 1e-37f;
-}
-
 // What the members of a group extend to along a direction and across it, from the centre of the
 // group's sphere. One that is seen to be no thinner than `most` is not measured to the end.
 typedef struct nsvcd__slab {

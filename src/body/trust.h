@@ -395,6 +395,7 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
   facts.patches = body->patches;
   memcpy(facts.centre, body->centre, sizeof facts.centre);
   facts.radius = nsvcd__whole_radius(body);
+  facts.extent = body->extent;
   facts.latents = body->weights_id != 0;
   facts.open = (int)body->open;
   for (size_t i = 0; i < body->patches; i++)
@@ -405,6 +406,8 @@ NSVCDDEF nsvcd_body_facts nsvcd_body_describe(const nsvcd_body *body) {
     const nsvcd__facets f = nsvcd__facets_of(triangles);
     facts.triangles = triangles->triangles;
     facts.listings = f.listed;
+    memcpy(facts.low, f.box, sizeof facts.low);
+    memcpy(facts.high, f.box + 3, sizeof facts.high);
     facts.quantum = nsvcd__off_mesh(&f);
     facts.round = f.round;
     facts.components = nsvcd__counts_of(triangles)->solids;

@@ -15,7 +15,6 @@
 #include "../ground/random.h"
 #include "rays.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 #define NSVCD__WALK_STACK 128  // nodes that wait
 #define NSVCD__NO_EDGE 3u
 #define NSVCD__SHORTEST_STRETCH 1e-12
@@ -153,7 +152,7 @@ static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, u
   const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
   const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
   const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
-  return c->b.scale * distance < c->stretch.clearance;
+  return c->b.model.scale * distance < c->stretch.clearance;
 }
 
 // Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
@@ -191,7 +190,7 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return nsvcd__stored(rider->scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+  return nsvcd__stored(rider->model.scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
 static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
@@ -260,7 +259,7 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
       return NSVCD_UNDECIDED;
     }
     c->made->visits++;
-    nsvcd__stretch_to(&c->stretch, v->t0, v->t1);
+    if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
            !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
@@ -308,8 +307,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
   const nsvcd__rider *of = whose ? &c->b : &c->a;
   const nsvcd__rider *by = whose ? &c->a : &c->b;
-  const nsvcd__posed of_at = of->place(of->motion, 0);
-  const nsvcd__posed by_at = by->place(by->motion, 0);
+  const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
+  const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
   const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
   uint64_t random = 1;
   for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
@@ -372,7 +371,7 @@ static int nsvcd__has_open(const nsvcd_tree *tree) {
 
 // ---- nsvcd_certify
 
-// Lays the workspace out at base, or, where that is NULL, only counts. instants: all knots.
+// Lays the workspace out at base, or, where that is NULL, only counts. instants: all keyframes.
 static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
                                         const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
   uint64_t used = 0;
@@ -405,7 +404,7 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   c->stretch.clearance = (double)clearance;
   c->bytes = bytes;
   c->capacity = capacity;
-  c->digest = nsvcd__digest(c->a.digest + 31 * c->b.digest, &clearance, 1);
+  c->digest = nsvcd__digest(c->a.model.digest + 31 * c->b.model.digest, &clearance, 1);
   c->made = &out;
   if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
     out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
@@ -425,19 +424,43 @@ static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float c
   return NSVCD_OK;
 }
 
-static size_t nsvcd__knots_of(const nsvcd_question *question) {
-  return nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b) + 2;
+NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvcd_tree *a,
+                                                    const nsvcd_tree *b) {
+  nsvcd__certifier counted;
+  if (!a || !b || keyframes > SIZE_MAX / 1024) return 0;
+  const uint64_t size = nsvcd__certifier_layout(keyframes + 2, a, b, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
+                                           float clearance, const nsvcd_tree *a,
+                                           const nsvcd_tree *b,
+                                           const nsvcd_certify_options *options,
+                                           void *workspace, size_t workspace_size,
+                                           uint8_t *bytes, size_t capacity,
+                                           nsvcd_certificate *made) {
+  nsvcd__certifier c;
+  const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
+  if (!models || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
+  if (needed == 0 || workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  memset(&c, 0, sizeof c);
+  c.a.tree = a;
+  c.b.tree = b;
+  c.a.model = models[0];
+  c.b.model = models[1];
+  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size, bytes,
+                        capacity, made);
+}
+
+static size_t nsvcd__keyframes_of(const nsvcd_question *question) {
+  return nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b);
 }
 
 NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
                                              const nsvcd_tree *a, const nsvcd_tree *b) {
-  nsvcd__certifier counted;
-  if (!question || !a || !b || nsvcd__track_check(&question->a) ||
-      nsvcd__track_check(&question->b))
+  if (!question || nsvcd__track_check(&question->a) || nsvcd__track_check(&question->b))
     return 0;
-  const uint64_t size =
-      nsvcd__certifier_layout(nsvcd__knots_of(question), a, b, NULL, &counted);
-  return size > SIZE_MAX ? 0 : (size_t)size;
+  return nsvcd_certify_models_workspace_size(nsvcd__keyframes_of(question), a, b);
 }
 
 NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
@@ -445,14 +468,12 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
                                     void *workspace, size_t workspace_size, uint8_t *bytes,
                                     size_t capacity, nsvcd_certificate *made) {
   nsvcd_mover movers[2];
-  nsvcd__certifier c;
+  nsvcd_motion_model models[2];
   if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
-  memset(&c, 0, sizeof c);
-  nsvcd_result result = nsvcd__ride(&question->a, a, &movers[0], &c.a);
-  if (!result) result = nsvcd__ride(&question->b, b, &movers[1], &c.b);
+  nsvcd_result result = nsvcd__model_of(&question->a, &movers[0], &models[0]);
+  if (!result) result = nsvcd__model_of(&question->b, &movers[1], &models[1]);
   if (result) return result;
   if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
-  return nsvcd__certify(&c, nsvcd__knots_of(question), question->clearance, options, workspace,
-                        workspace_size, bytes, capacity, made);
+  return nsvcd_certify_models(models, nsvcd__keyframes_of(question), question->clearance, a, b,
+                              options, workspace, workspace_size, bytes, capacity, made);
 }
-#endif  // NSVCD_NO_CERTIFICATES

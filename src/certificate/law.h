@@ -1,38 +1,29 @@
 // In: a mesh that moves. Out: where it is at a time, and by how much a point leaves the chord
-// between its places at two times. In double, and with no more of the motion floor than what makes
-// poses valid: a certificate is a second opinion.
+// between its places at two times. In double, and with nothing of the motion floor: a certificate
+// is a second opinion.
 #pragma once
-#include "../motion/motion.h"
+#include "../ground/rotations.h"
 #include "tree.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 // Takes a corner x to turn scale x + at.
 typedef struct nsvcd__posed {
   nsvcd__dmat3 turn;
   nsvcd__d3 at;
 } nsvcd__posed;
 
-// By how much a point leaves its chord, at most, along a unit direction n: base + per_metre r +
-// turn rho |n x R axis|. It is r metres from the body's origin, and rho from the line through that
-// along the axis, a unit vector of the body that R takes to the same one all the while.
-typedef struct nsvcd__off_chord {
-  double base, per_metre, turn;
-  nsvcd__d3 axis;
-} nsvcd__off_chord;
-
-// A mesh that moves, t in [0,1]. A knot is a time at which the motion has a corner; between two of
-// them points leave chords as said.
+// A mesh that moves.
 typedef struct nsvcd__rider {
   const nsvcd_tree *tree;
-  double scale;
-  nsvcd__posed (*place)(const void *motion, double t);
-  // the next knot after a time before 1
-  double (*next)(const void *motion, double t);
-  nsvcd__off_chord (*off_chord)(const void *motion, double t0, double t1);
-  const void *motion;
-  double reach;     // metres: what its places are reckoned from is no farther off
-  uint32_t digest;  // of the scale and the motion
+  nsvcd_motion_model model;
 } nsvcd__rider;
+
+static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
+  const nsvcd_placement at = rider->model.place(rider->model.motion, t);
+  nsvcd__posed out;
+  memcpy(&out.turn, at.rotation, sizeof out.turn);
+  memcpy(&out.at, at.position, sizeof out.at);
+  return out;
+}
 
 // ---- of poses: nsvcd_mover
 
@@ -85,14 +76,19 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   return out;
 }
 
-static nsvcd__posed nsvcd__mover_place(const void *motion, double t) {
+static nsvcd_placement nsvcd__placement_of(nsvcd__dquat turn, nsvcd__d3 at) {
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(turn));
+  nsvcd_placement out;
+  memcpy(out.rotation, &rotation, sizeof out.rotation);
+  memcpy(out.position, &at, sizeof out.position);
+  return out;
+}
+
+static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  nsvcd__posed out;
-  if (mover->count == 1) {
-    out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(nsvcd__pose_rotation(mover->poses)));
-    out.at = nsvcd__d3_load(mover->poses->position);
-    return out;
-  }
+  if (mover->count == 1)
+    return nsvcd__placement_of(nsvcd__pose_rotation(mover->poses),
+                               nsvcd__d3_load(mover->poses->position));
   const size_t k = nsvcd__mover_pose(mover, t);
   const nsvcd_pose *a = &mover->poses[k];
   const double from = nsvcd__mover_knot(mover, k);
@@ -106,9 +102,8 @@ static nsvcd__posed nsvcd__mover_place(const void *motion, double t) {
     after = sin(u * arc.half_angle);
   }
   const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
-  out.turn = nsvcd__dmat3_of(nsvcd__dquat_unit(q));
-  out.at = nsvcd__d3_mix(nsvcd__d3_load(a->position), nsvcd__d3_load(a[1].position), u);
-  return out;
+  const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
+  return nsvcd__placement_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
 }
 
 static double nsvcd__mover_next(const void *motion, double t) {
@@ -118,9 +113,9 @@ static double nsvcd__mover_next(const void *motion, double t) {
 
 // A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
 // and leaves its chord by an eighth of it: along n that is h^2 / 8 (n x a).(a x y).
-static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, double t1) {
+static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, double t1) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  nsvcd__off_chord out;
+  nsvcd_deviation out;
   memset(&out, 0, sizeof out);
   if (mover->count == 1) return out;
   const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
@@ -129,18 +124,19 @@ static nsvcd__off_chord nsvcd__mover_off_chord(const void *motion, double t0, do
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   const double h = 2 * arc.half_angle * (t1 - t0) / whole;
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
-  out.axis =
+  const nsvcd__d3 axis =
       nsvcd__d3_unit(nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to)), none);
-  if (nsvcd__d3_length(out.axis) > 0)
+  memcpy(out.axis, &axis, sizeof out.axis);
+  if (nsvcd__d3_length(axis) > 0)
     out.turn = 0.1250001 * h * h;
   else
     out.per_metre = 0.1250001 * h * h;
   return out;
 }
 
-// Makes a rider of a mover, which is copied to *meant, with the defaults filled in.
-static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree,
-                                nsvcd_mover *meant, nsvcd__rider *rider) {
+// The model of a mover, which is copied to *meant, with the defaults filled in.
+static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant,
+                                    nsvcd_motion_model *model) {
   const float scale = nsvcd__scale_of(mover);
   *meant = *mover;
   if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
@@ -152,20 +148,18 @@ static nsvcd_result nsvcd__ride(const nsvcd_mover *mover, const nsvcd_tree *tree
     meant->count = 1;
   }
   if (meant->count == 1) meant->times = NULL;
-  rider->tree = tree;
-  rider->scale = (double)scale;
-  rider->place = nsvcd__mover_place;
-  rider->next = nsvcd__mover_next;
-  rider->off_chord = nsvcd__mover_off_chord;
-  rider->motion = meant;
-  rider->reach = 0;
+  model->scale = (double)scale;
+  model->place = nsvcd__mover_place;
+  model->next = nsvcd__mover_next;
+  model->deviation = nsvcd__mover_deviation;
+  model->motion = meant;
+  model->reach = 0;
   for (size_t k = 0; k < meant->count; k++) {
     const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
-    rider->reach = nsvcd__max(rider->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+    model->reach = nsvcd__max(model->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
   }
-  rider->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
-  rider->digest = nsvcd__digest(rider->digest, &scale, 1);
-  if (meant->times) rider->digest = nsvcd__digest(rider->digest, meant->times, meant->count);
+  model->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
+  model->digest = nsvcd__digest(model->digest, &scale, 1);
+  if (meant->times) model->digest = nsvcd__digest(model->digest, meant->times, meant->count);
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_CERTIFICATES

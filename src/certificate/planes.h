@@ -1,10 +1,9 @@
 // In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
 // that takes a few bits; or none.
 #pragma once
-#include "../proof/couples.h"
+#include "../ground/triangles.h"
 #include "law.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 // What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
 #define NSVCD__CERTIFIED_MARGIN 1.01e-10
 // triangles: of nodes of so many the corners count, of larger ones the boxes
@@ -19,7 +18,7 @@ typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
   double lengths;  // of both places, and what they are reckoned from
-  nsvcd__off_chord off_a, off_b;
+  nsvcd_deviation off_a, off_b;
 } nsvcd__instant;
 
 // A stretch of time: both ends, and all knots between.
@@ -56,15 +55,17 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
-  at.a = a->place(a->motion, t);
-  at.b = b->place(b->motion, t);
-  at.lengths = a->reach + b->reach + nsvcd__lengths_at(&at.a, &at.b);
+  at.a = nsvcd__posed_at(a, t);
+  at.b = nsvcd__posed_at(b, t);
+  at.lengths = a->model.reach + b->model.reach + nsvcd__lengths_at(&at.a, &at.b);
   return at;
 }
 
-// There is room: the workspace was made for all knots.
-static void nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
-  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return;
+// Returns 0 where there are more keyframes than there is room for.
+static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return 1;
+  const nsvcd_motion_model *a = &s->a->model;
+  const nsvcd_motion_model *b = &s->b->model;
   double t = t0;
   s->t0 = t0;
   s->t1 = t1;
@@ -72,12 +73,13 @@ static void nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
   for (s->count = 0; s->count < s->capacity;) {
     nsvcd__instant *at = &s->instants[s->count++];
     *at = nsvcd__instant_at(s->a, s->b, t);
-    if (!(t < t1)) return;
-    t = nsvcd__min(s->a->next(s->a->motion, t), s->b->next(s->b->motion, t));
+    if (!(t < t1)) return 1;
+    t = nsvcd__min(a->next(a->motion, t), b->next(b->motion, t));
     t = nsvcd__min(t, t1);
-    at->off_a = s->a->off_chord(s->a->motion, at->t, t);
-    at->off_b = s->b->off_chord(s->b->motion, at->t, t);
+    at->off_a = a->deviation(a->motion, at->t, t);
+    at->off_b = b->deviation(b->motion, at->t, t);
   }
+  return 0;
 }
 
 // The instant half way.
@@ -111,7 +113,7 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
 
 static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
                                   nsvcd__d3 x) {
-  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->model.scale);
 }
 
 // Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
@@ -147,15 +149,15 @@ static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *node
   const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
   const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
   const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
-  const double a = s->a->scale * nsvcd__most_along(s->a->tree, &nodes->a, back);
-  const double b = s->b->scale * nsvcd__most_along(s->b->tree, &nodes->b, way_b);
+  const double a = s->a->model.scale * nsvcd__most_along(s->a->tree, &nodes->a, back);
+  const double b = s->b->model.scale * nsvcd__most_along(s->b->tree, &nodes->b, way_b);
   return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
 }
 
 static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
   const nsvcd__box *box = &rider->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000002 * rider->scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * rider->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
@@ -179,18 +181,19 @@ static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *no
     const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
     square = nsvcd__max(square, nsvcd__d3_dot(off, off));
   }
-  return 1.000002 * rider->scale * sqrt(square);
+  return 1.000002 * rider->model.scale * sqrt(square);
 }
 
 // By how much the points of a node, at r metres at most, leave their chords along a normal.
 static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
-                                 const nsvcd__posed *at, const nsvcd__off_chord *off,
+                                 const nsvcd__posed *at, const nsvcd_deviation *off,
                                  nsvcd__d3 along) {
   double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
   if (off->turn > 0) {
-    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, off->axis);
+    const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
+    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-    leaves += off->turn * across * nsvcd__node_aside(rider, node, off->axis);
+    leaves += off->turn * across * nsvcd__node_aside(rider, node, own);
   }
   return leaves;
 }
@@ -308,4 +311,3 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
   }
   return 0;
 }
-#endif  // NSVCD_NO_CERTIFICATES

@@ -3,7 +3,6 @@
 #pragma once
 #include "planes.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 #define NSVCD__UNCLEAR 2
 
 // A vertex of one body in the frame of another, in units of that one's scale.
@@ -13,7 +12,7 @@ static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->model.scale);
 }
 
 // In that frame: no length is more, and no point is off by as much as the margin.
@@ -26,10 +25,10 @@ static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__pos
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
-  const double places = of->reach + by->reach + nsvcd__lengths_at(of_at, by_at);
+  const double places = of->model.reach + by->model.reach + nsvcd__lengths_at(of_at, by_at);
   nsvcd__extent out;
-  out.lengths = 1.000001 * (radii + apart) / by->scale;
-  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->scale);
+  out.lengths = 1.000001 * (radii + apart) / by->model.scale;
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->model.scale);
   return out;
 }
 
@@ -109,4 +108,3 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
   for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
   return sum;
 }
-#endif  // NSVCD_NO_CERTIFICATES

@@ -10,11 +10,11 @@
 // What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
 // rules by which nodes are cut and opened, and the form of the bits, are the same in both.
 #pragma once
+#include "../ground/valid.h"
 #include "../interface/certificates.h"
-#include "../body/body.h"
-#include "../mesh/mesh.h"
+#include "../ground/memory.h"
+#include "../ground/spheres.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 #define NSVCD__TREE_TRIANGLES 0x20000000
 // nodes that wait, while a tree of so many triangles is walked through
 #define NSVCD__TREE_STACK 32
@@ -41,16 +41,6 @@ struct nsvcd_tree {
   uint8_t *open;
   uint32_t digest;
 };
-
-static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    uint32_t word;
-    memcpy(&word, (const char *)words + 4 * i, 4);
-    digest = (digest ^ word) * 0x9e3779b1u;
-    digest ^= digest >> 15;
-  }
-  return digest;
-}
 
 static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle, uint32_t k) {
   const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
@@ -310,4 +300,3 @@ NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, siz
   *tree = t;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_CERTIFICATES

@@ -10,7 +10,8 @@
 #include "../query/self_test.h"
 #include "../gradient/gradient.h"
 
-#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW)
+#if NSVCD__SLICE == 4 && !defined(NSVCD_NO_DISPATCH) && !defined(NSVCD__NARROW) && \
+    !defined(NSVCD__FROM_ROOMS)
 #if defined(__clang__) && defined(_MSC_VER)
 // clang-cl's <immintrin.h> has what the flags allow and no more: /arch:AVX2
 #elif defined(__x86_64__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 8))

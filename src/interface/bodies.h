@@ -174,6 +174,10 @@ typedef struct nsvcd_body_facts {
   // metres: a sphere that contains the body
   float centre[3];
   float radius;
+  // metres: no point of the mesh is farther from the origin
+  float extent;
+  // metres: a box that contains the mesh; 0 where no triangles are stored
+  float low[3], high[3];
   // metres
   float mean_patch_radius;
   // of the mesh; 0: none are stored

@@ -3,7 +3,6 @@
 #pragma once
 #include "queries.h"
 
-#ifndef NSVCD_NO_CERTIFICATES
 // A tree of boxes over the triangles of a mesh, in the caller's memory, for nsvcd_certify. It keeps
 // pointers to the mesh's arrays, which stay as they are; threads may share it.
 typedef struct nsvcd_tree nsvcd_tree;
@@ -20,6 +19,35 @@ NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
 //   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, WORKSPACE
 NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
                                        const nsvcd_tree **tree);
+
+// Takes a corner x of the mesh to scale * rotation x + position.
+typedef struct nsvcd_placement {
+  double rotation[3][3];  // row-major
+  double position[3];     // metres
+} nsvcd_placement;
+
+// By how much a point leaves the chord between its places at two times, at most, along a unit
+// direction n: base + per_metre r + turn rho |n x R axis|. It is r metres from the mesh's origin,
+// and rho from the line through that along the axis: a unit vector of the mesh that the rotation R
+// takes to the same one all the while, or 0.
+typedef struct nsvcd_deviation {
+  double base, per_metre, turn;
+  double axis[3];
+} nsvcd_deviation;
+
+// How a mesh moves, for nsvcd_certify_models: t in [0,1]. A keyframe is a time at which the motion
+// has a corner; between two of them points leave their chords by no more than is said. What is
+// proven is true if that is.
+typedef struct nsvcd_motion_model {
+  double scale;
+  nsvcd_placement (*place)(const void *motion, double t);
+  // the next keyframe after a time before 1
+  double (*next)(const void *motion, double t);
+  nsvcd_deviation (*deviation)(const void *motion, double t0, double t1);
+  const void *motion;  // handed to these
+  double reach;        // metres: what its places are computed from is no farther off
+  uint32_t digest;     // of the scale and the motion, as a checker computes it
+} nsvcd_motion_model;
 
 #define NSVCD_DEFAULT_VISITS 1000000
 
@@ -79,4 +107,19 @@ NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_
                                     const nsvcd_tree *b, const nsvcd_certify_options *options,
                                     void *workspace, size_t workspace_size, uint8_t *bytes,
                                     size_t capacity, nsvcd_certificate *made);
-#endif  // NSVCD_NO_CERTIFICATES
+
+// Bytes of the workspace that nsvcd_certify_models needs. keyframes: of both models, 0 and 1 too.
+NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvcd_tree *a,
+                                                    const nsvcd_tree *b);
+
+// nsvcd_certify of any two motions: neuralsvcd_robot.h has those of a robot's joints.
+//   models     (2), not NULL: of the meshes of a and b
+//   keyframes  of both, 0 and 1 too; where there are more, UNDECIDED
+//   errors     ARGUMENT, CLEARANCE, WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
+                                           float clearance, const nsvcd_tree *a,
+                                           const nsvcd_tree *b,
+                                           const nsvcd_certify_options *options,
+                                           void *workspace, size_t workspace_size,
+                                           uint8_t *bytes, size_t capacity,
+                                           nsvcd_certificate *made);

@@ -10,9 +10,6 @@
 #if defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_OBJ)
 #define NSVCD_NO_OBJ
 #endif
-#if (defined(NSVCD_NO_ENCODER) || defined(NSVCD_NO_PROOF)) && !defined(NSVCD_NO_CERTIFICATES)
-#define NSVCD_NO_CERTIFICATES
-#endif
 #if defined(NSVCD_NO_PROOF) && defined(NSVCD_NO_NETWORK)
 #error "neuralsvcd.h: NSVCD_NO_PROOF and NSVCD_NO_NETWORK leave nothing that answers"
 #endif

@@ -5,7 +5,7 @@
 // it has the velocity and the acceleration of central differences, and it is at rest at both ends;
 // so both are continuous everywhere.
 #pragma once
-#include "robots.h"
+#include "queries.h"
 
 #ifndef NSVCD_NO_OPTIMIZER
 #define NSVCD_MAX_VIA_POINTS 32

@@ -3,7 +3,6 @@
 #pragma once
 #include "robots.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // Two parts of a pair that are near each other.
 typedef struct nsvcd_gap {
   // of the scene's
@@ -127,4 +126,3 @@ NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, u
 //              from the link)
 NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
                                       size_t part, uint32_t link, nsvcd_part *out);
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -74,6 +74,14 @@ typedef struct nsvcd_network_options {
 // of the radius of the smaller body's sphere: what `to` is where nothing is said
 #define NSVCD_DEFAULT_TO 0.001f
 
+#define NSVCD_NONE ((size_t)-1)
+#define NSVCD_MAX_JOINTS 32
+
+// Two bodies that can meet, by their indices.
+typedef struct nsvcd_body_pair {
+  uint32_t a, b;
+} nsvcd_body_pair;
+
 // A body in a scene: how it moves, and how large it is. Many may share one body.
 typedef struct nsvcd_mover {
   // from nsvcd_encode, nsvcd_body_load, nsvcd_body_trust or nsvcd_body_scale

@@ -4,17 +4,8 @@
 // about. By how much, at most, follows from the joints (robot/stray): with that as clearance the
 // sweep proves the joints' own motion, at all times.
 #pragma once
-#include "certificates.h"
+#include "queries.h"
 
-#define NSVCD_NONE ((size_t)-1)
-#define NSVCD_MAX_JOINTS 32
-
-// Two bodies that can meet, by their indices.
-typedef struct nsvcd_body_pair {
-  uint32_t a, b;
-} nsvcd_body_pair;
-
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // of a piece of a motion
 #define NSVCD_MAX_DEGREE 5
 #define NSVCD_MAX_PARTS 65536
@@ -162,7 +153,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
 
-#ifndef NSVCD_NO_CERTIFICATES
+#ifdef NEURALSVCD_CERTIFY_H
 // Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
 // the mesh that has more.
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
@@ -185,4 +176,3 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          size_t workspace_size, uint8_t *bytes,
                                          size_t capacity, nsvcd_certificate *made);
 #endif
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -6,7 +6,6 @@
 #pragma once
 #include "robots.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // of a route's trees
 #define NSVCD_MAX_NODES 10000000
 
@@ -101,4 +100,3 @@ NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
 NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
                                   const nsvcd_route_options *options, void *memory,
                                   size_t size, nsvcd_route_answer *answer);
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -1,9 +1,9 @@
 // In: triangles. Out: nsvcd_mesh, every index in range, every coordinate finite; or what of it lies
 // in a box.
 #pragma once
+#include "../ground/valid.h"
 #include "../ground/memory.h"
 
-#define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
 
 #ifndef NSVCD_NO_ENCODER
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
@@ -23,25 +23,6 @@ static int nsvcd__mesh_alloc(nsvcd_mesh *mesh, size_t vertices, size_t triangles
   mesh->positions = (float *)nsvcd__alloc_array(allocator, vertices + 1, row);
   mesh->indices = (uint32_t *)nsvcd__alloc_array(allocator, triangles, row);
   return mesh->positions && mesh->indices;
-}
-
-// A mesh may come from anywhere: everything below relies on what is checked here.
-static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
-  if (!mesh) return NSVCD_ERROR_ARGUMENT;
-  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
-  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
-  const size_t vertices = mesh->vertex_count;
-  const size_t triangles = mesh->triangle_count;
-  if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
-    return NSVCD_ERROR_TOO_LARGE;
-  for (size_t i = 0; i < 3 * triangles; i++) {
-    if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
-  }
-  for (size_t i = 0; i < 3 * vertices; i++) {
-    const float x = mesh->positions[i];
-    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
-  }
-  return NSVCD_OK;
 }
 
 // A triangle cut at the six sides of a box. Each side adds one corner, or two where roundings make

@@ -10,6 +10,7 @@
 // and each of these is at the nearest. A *knot* is a tick at which a pose of either is. Between two
 // knots both motions are smooth.
 #pragma once
+#include "../ground/valid.h"
 #include "../interface/queries.h"
 #include "../body/trust.h"
 #include "../lanes/turns.h"
@@ -80,68 +81,6 @@ typedef struct nsvcd__motion {
   // do its segments turn less than others?
   int is_fine;
 } nsvcd__motion;
-
-// Is it a length that may be told, or 0?
-static int nsvcd__is_length(float x) {
-  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
-}
-
-// Are all numbers in range and all quaternions of unit length?
-static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
-  // 7 to a pose
-  const float *numbers = poses->position;
-  uint32_t most = 0;
-  float shortest = 1;
-  float longest = 1;
-  for (size_t k = 0; k < 7 * count; k++) {
-    const uint32_t bits = nsvcd__magnitude(numbers[k]);
-    most = bits > most ? bits : most;
-  }
-  for (size_t k = 0; k < count; k++) {
-    const float *q = poses[k].rotation;
-    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
-    shortest = square < shortest ? square : shortest;
-    longest = square > longest ? square : longest;
-  }
-  const int is_unit =
-      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
-  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
-  // which of both?
-  for (size_t k = 0; k < count; k++) {
-    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
-  }
-  return NSVCD_ERROR_QUATERNION;
-}
-
-// Do they rise from 0 to 1, or are there none?
-static int nsvcd__times_are_valid(const float *times, size_t count) {
-  if (!times || count == 1) return 1;
-  int rise =
-      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
-  // what is not a number does not rise
-  for (size_t k = 1; k < count; k++)
-    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
-  return rise;
-}
-
-// What a mover that is at rest at the origin is given.
-static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
-
-// A mover's scale, which is 1 where 0 is given.
-static float nsvcd__scale_of(const nsvcd_mover *mover) {
-  return mover->scale > 0 ? mover->scale : 1;
-}
-
-static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
-  return mover->poses ? mover->count : 1;
-}
-
-static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
-  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
-  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
-  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
-  return nsvcd__poses_check(mover->poses, mover->count);
-}
 
 static nsvcd_result nsvcd__mover_check(const nsvcd_mover *mover) {
   const nsvcd_result result = nsvcd__body_check(mover->body, SIZE_MAX);

@@ -14,11 +14,9 @@
 //
 // It asks as any program does, by nsvcd_sweep.
 #pragma once
-#include "../entry/processor.h"
 #include "../ground/memory.h"
 #include "../interface/robots.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // The schedule of a check.
 // steps that are looked at together, at most, and how often a motion is halved where that is too
 // few
@@ -194,4 +192,3 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
     poses[n] = nsvcd__pose_in(&frame);
   }
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -2,7 +2,6 @@
 #pragma once
 #include "stray.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // ---- a checker
 
 // Is x a number, and no larger? By the bits, which are in the order of what is not negative.
@@ -35,10 +34,11 @@ static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
 }
 
 static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
-  const nsvcd_result result = nsvcd__body_check(part->body, SIZE_MAX);
+  const nsvcd_body *body = NULL;
+  const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
   if (result) return result;
   if (part->link > scene->joint_count) return NSVCD_ERROR_LINK;
-  if (!nsvcd__triangles_of(part->body)) return NSVCD_ERROR_TRIANGLES;
+  if (!nsvcd_body_describe(body).triangles) return NSVCD_ERROR_TRIANGLES;
   const float scale = part->scale;
   const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
   if (!(fits || (scale <= 0 && scale >= 0))) return NSVCD_ERROR_SCALE;
@@ -149,21 +149,21 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
   for (size_t n = 0; n < scene->part_count; n++) {
     const nsvcd_part *part = &scene->parts[n];
     const double scale = part->scale > 0 ? (double)part->scale : 1;
+    const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
     nsvcd__member *m = &c->members[n];
     m->frame = nsvcd__frame_of(&part->pose);
-    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(part->body->centre), scale);
+    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
     const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
     m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
     // spheres are reckoned in float
-    m->radius = 1.000001 * scale * (double)part->body->radius;
-    m->extent = 1.000001 * scale * (double)part->body->extent;
-    const nsvcd__facets facets = nsvcd__facets_of(nsvcd__triangles_of(part->body));
-    const nsvcd__d3 low = nsvcd__d3_load(facets.box);
-    const nsvcd__d3 high = nsvcd__d3_load(facets.box + 3);
+    m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
+    m->extent = 1.000001 * scale * (double)facts.extent;
+    const nsvcd__d3 low = nsvcd__d3_load(facts.low);
+    const nsvcd__d3 high = nsvcd__d3_load(facts.high);
     const nsvcd__d3 all = {1, 1, 1};
     m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
     // what is round goes beyond
-    m->half = nsvcd__d3_fma(scale * (double)facets.round, all,
+    m->half = nsvcd__d3_fma(scale * (double)facts.round, all,
                             nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
     m->box = nsvcd__box_of(m, &m->frame);
     m->stray = 0;
@@ -639,4 +639,3 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   *answer = found;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -4,7 +4,6 @@
 #include "../interface/postures.h"
 #include "trees.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__GAP_WITHIN 0.05f
 #define NSVCD__GAP_TO 2e-5f
 #define NSVCD__GAP_DEEPEST 0.02f
@@ -429,4 +428,3 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   if (!placed) *out = moved;
   return placed;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -11,11 +11,10 @@
 // again in a few lines.
 // Source: this library.
 #pragma once
-#include "../certificate/certify.h"
 #include "path.h"
 
-#if !defined(NSVCD_NO_CERTIFICATES) && !defined(NSVCD_NO_ROBOTS)
-// A part, as a rider sees it.
+#ifdef NEURALSVCD_CERTIFY_H
+// A part, as its motion model sees it.
 typedef struct nsvcd__carried {
   const nsvcd_checker *checker;
   nsvcd_joint_motion motion;
@@ -61,7 +60,7 @@ static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, 
   return 5.05e-13 * most;
 }
 
-static nsvcd__posed nsvcd__carried_place(const void *motion, double t) {
+static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   nsvcd__frame at = c->checker->members[c->part].frame;
@@ -81,7 +80,10 @@ static nsvcd__posed nsvcd__carried_place(const void *motion, double t) {
     at = nsvcd__frame_in(&joint, &at);
     at = nsvcd__frame_in(&origin, &at);
   }
-  const nsvcd__posed out = {nsvcd__dmat3_of(nsvcd__dquat_unit(at.turn)), at.place};
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(at.turn));
+  nsvcd_placement out;
+  memcpy(out.rotation, &rotation, sizeof out.rotation);
+  memcpy(out.position, &at.place, sizeof out.position);
   return out;
 }
 
@@ -92,12 +94,12 @@ static double nsvcd__carried_next(const void *motion, double t) {
 
 // THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
 // origin, and what goes with it.
-static nsvcd__off_chord nsvcd__carried_off_chord(const void *motion, double t0, double t1) {
+static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, double t1) {
   const nsvcd__carried *c = (const nsvcd__carried *)motion;
   const nsvcd_scene *scene = c->checker->scene;
   const double n = (double)c->motion.degree;
   double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
-  nsvcd__off_chord outer, out;
+  nsvcd_deviation outer, out;
   memset(&outer, 0, sizeof outer);
   memset(&out, 0, sizeof out);
   for (size_t link = scene->parts[c->part].link; link != c->base;
@@ -141,8 +143,7 @@ static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
 
 // A digest of what carries a part, and by how much its places can be off: lengths that they are
 // reckoned from.
-static void nsvcd__carry(const nsvcd__carried *c, const nsvcd_tree *tree,
-                         nsvcd__rider *rider) {
+static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_scene *scene = c->checker->scene;
   const nsvcd_part *part = &scene->parts[c->part];
   const nsvcd_joint_motion *m = &c->motion;
@@ -167,14 +168,14 @@ static void nsvcd__carry(const nsvcd__carried *c, const nsvcd_tree *tree,
   for (size_t i = 0; i <= m->pieces; i++) {
     d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
   }
-  rider->tree = tree;
-  rider->scale = (double)scale;
-  rider->place = nsvcd__carried_place;
-  rider->next = nsvcd__carried_next;
-  rider->off_chord = nsvcd__carried_off_chord;
-  rider->motion = c;
-  rider->reach = reach;
-  rider->digest = d;
+  const nsvcd_motion_model model = {(double)scale,
+                                    nsvcd__carried_place,
+                                    nsvcd__carried_next,
+                                    nsvcd__carried_deviation,
+                                    c,
+                                    reach,
+                                    d};
+  return model;
 }
 
 // Are there pieces, and are they such that a double has digits left for angles and for times?
@@ -208,10 +209,7 @@ static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
 
 NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
                                                   const nsvcd_tree *a, const nsvcd_tree *b) {
-  nsvcd__certifier counted;
-  if (!motion || !a || !b) return 0;
-  const uint64_t size = nsvcd__certifier_layout(motion->pieces + 3, a, b, NULL, &counted);
-  return size > SIZE_MAX ? 0 : (size_t)size;
+  return motion ? nsvcd_certify_models_workspace_size(motion->pieces + 1, a, b) : 0;
 }
 
 NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
@@ -221,8 +219,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
                                          const nsvcd_certify_options *options, void *workspace,
                                          size_t workspace_size, uint8_t *bytes,
                                          size_t capacity, nsvcd_certificate *made) {
-  nsvcd__certifier c;
   nsvcd__carried carried[2];
+  nsvcd_motion_model models[2];
   if (!checker || !motion || !a || !b || !made || (capacity > 0 && !bytes))
     return NSVCD_ERROR_ARGUMENT;
   const nsvcd_scene *scene = checker->scene;
@@ -231,7 +229,6 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
   if (result) return result;
   if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
   if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;
-  memset(&c, 0, sizeof c);
   const nsvcd_body_pair *parts = &scene->pairs[pair];
   const size_t base =
       nsvcd__common_link(scene, scene->parts[parts->a].link, scene->parts[parts->b].link);
@@ -240,9 +237,9 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
     carried[k].motion = *motion;
     carried[k].part = k ? parts->b : parts->a;
     carried[k].base = base;
-    nsvcd__carry(&carried[k], k ? b : a, k ? &c.b : &c.a);
+    models[k] = nsvcd__carried_model(&carried[k]);
   }
-  return nsvcd__certify(&c, motion->pieces + 3, clearance, options, workspace, workspace_size,
-                        bytes, capacity, made);
+  return nsvcd_certify_models(models, motion->pieces + 1, clearance, a, b, options, workspace,
+                              workspace_size, bytes, capacity, made);
 }
-#endif  // NSVCD_NO_CERTIFICATES, NSVCD_NO_ROBOTS
+#endif  // NEURALSVCD_CERTIFY_H

@@ -8,7 +8,6 @@
 #pragma once
 #include "trees.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // of a ramp: each joint has two times at which its acceleration changes
 #define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
 // share of the limits of speed and acceleration that is asked for: the rest is for rounding
@@ -161,4 +160,3 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
   memcpy(points + 2 * pieces * joints, states[1], joints * sizeof *points);
   return pieces;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -2,7 +2,6 @@
 #pragma once
 #include "smooth.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__NODES 20000
 // for each node; and those after which a tree that has not grown is to along its joints
 #define NSVCD__TRIES 4
@@ -471,4 +470,3 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
   *answer = r->answer;
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -8,7 +8,6 @@
 #include "../interface/routes.h"
 #include "ramps.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // of a motion, at most
 #define NSVCD__MOST_PIECES 2048
 // seconds: half of the windows about a rest, the widest, and how often it may be halved
@@ -247,4 +246,3 @@ static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
   }
   return NSVCD_OK;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

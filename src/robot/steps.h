@@ -2,7 +2,6 @@
 #pragma once
 #include "chain.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // A step of a motion, from one time to another, h later; x is the share of it that has gone by.
 typedef struct nsvcd__step {
   // joints at both ends
@@ -151,4 +150,3 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
     step->bend[j] += 2 * h * jumps;
   }
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

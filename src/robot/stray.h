@@ -21,7 +21,6 @@
 #pragma once
 #include "steps.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 // The angle of the turn from a to b, radians: the shorter one.
 static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
@@ -78,4 +77,3 @@ static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__
   return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
                          c->members[part].extent);
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -6,7 +6,6 @@
 #include "../ground/random.h"
 #include "path.h"
 
-#if !defined(NSVCD_NO_PROOF) && !defined(NSVCD_NO_ROBOTS)
 #define NSVCD__LEAF 8
 
 typedef struct nsvcd__cell {
@@ -123,4 +122,3 @@ static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
   nsvcd__nearest_in(t, 0, at, off, 0, &nearest, &best);
   return nearest;
 }
-#endif  // NSVCD_NO_PROOF, NSVCD_NO_ROBOTS

@@ -4,7 +4,11 @@
 // --own: nsvcd_sweep is not told, so that it is a second opinion on hits as well.
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#include "../../extras/neuralsvcd_certify.h"
+#include "../../extras/neuralsvcd_robot.h"
 
 #define PROGRAM "bench_certificates"
 #include "../../examples/scenery/problem_file.h"

@@ -7,15 +7,17 @@
 // PROBLEMS of each kind (100), each motion looked at LOOKS times (2001) by distances in double, with
 // links placed by matrices. KIND: one of 0 to 6.
 #define _POSIX_C_SOURCE 200112L
-#ifdef ROUTE_PEERS  // a header whose planner calls this, see route_peers.h
-#include "neuralsvcd.h"
-static nsvcd_result peer_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
-                               const nsvcd_check_options *options, nsvcd_check_answer *answer);
-#define NEURALSVCD_IMPLEMENTATION
-#include "neuralsvcd.h"
-#else
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
+#ifdef ROUTE_PEERS  // a header whose planner calls this, see route_peers.h
+#include "peers/neuralsvcd_robot.h"
+static nsvcd_result peer_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                               const nsvcd_check_options *options, nsvcd_check_answer *answer);
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
+#include "peers/neuralsvcd_robot.h"
+#else
+#define NEURALSVCD_ROBOT_IMPLEMENTATION
+#include "../../extras/neuralsvcd_robot.h"
 #endif
 #include "../../examples/scenery/clock.h"
 #include "arm_scene.h"

@@ -1,0 +1,2462 @@
+// neuralsvcd_certify.h - v0.3.0 - an answer, and bytes that prove it to others
+// SPDX-License-Identifier: MIT
+//
+// nsvcd_certify proves what nsvcd_sweep answered once more, by other means, and writes the proof as
+// bytes. Whoever has the meshes can check them with examples/verify, which shares nothing with this
+// library. On top of neuralsvcd.h, of which it uses what any program can. In ONE C or C++ file:
+//
+//   #define NEURALSVCD_CERTIFY_IMPLEMENTATION
+//   #include "extras/neuralsvcd_certify.h"
+//
+// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
+//   interface: what a program sees
+//     certificates    a mesh's tree; a proof as bytes; nsvcd_certify
+//   ground: numbers and memory
+//     compiler        what is asked of the compiler; libc and libm
+//     angles          sines and angles, by libm or computed here
+//     bits            bits, sizes, digests
+//     valid           is what a caller hands over in order?
+//     points          vectors of three, of floats and of doubles
+//     rotations       quaternions and matrices, of floats and of doubles
+//     triangles       two triangles: where they meet, or are nearest
+//     spheres         spheres and discs, as bodies store them
+//     random          random numbers
+//     memory          the allocator; the rows of a workspace
+//   certificate: a proof that others can check
+//     tree            boxes over triangles, components
+//     law             where a body is, how far points leave their chords
+//     planes          one that parts two nodes for a while
+//     rays            what a ray crosses
+//     certify         the walk, and its bits
+//
+// GLOSSARY
+//   tree, node   boxes over a mesh's triangles; a run of these
+//   certificate  bytes that prove an answer: a walk over two trees and time, and rays
+#ifndef NEURALSVCD_CERTIFY_H
+#define NEURALSVCD_CERTIFY_H
+#ifndef NEURALSVCD_H  // include it first where it stands elsewhere
+#include "../neuralsvcd.h"
+#endif
+
+// ================================================================== interface: what a program sees
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// -------------------------------------------------------------------------- interface/certificates
+// In: a question, and its two meshes. Out: bytes that prove the answer to whoever has the meshes
+// and examples/verify, which shares nothing with this library.
+
+// A tree of boxes over the triangles of a mesh, in the caller's memory, for nsvcd_certify. It keeps
+// pointers to the mesh's arrays, which stay as they are; threads may share it.
+typedef struct nsvcd_tree nsvcd_tree;
+
+// Bytes of the memory that nsvcd_tree_build needs; 0 if there can be no such mesh. About 88 for a
+// triangle and 9 for a vertex.
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
+
+// Builds the tree of a mesh: once for each mesh, in a time like that of sorting it.
+//   mesh       not NULL
+//   memory     (size) bytes, nsvcd_tree_size(mesh) or more, not NULL, aligned to NSVCD_ALIGNMENT
+//   tree       not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, INDEX, NUMBER, EMPTY, TOO_LARGE, WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree);
+
+// Takes a corner x of the mesh to scale * rotation x + position.
+typedef struct nsvcd_placement {
+  double rotation[3][3];  // row-major
+  double position[3];     // metres
+} nsvcd_placement;
+
+// By how much a point leaves the chord between its places at two times, at most, along a unit
+// direction n: base + per_metre r + turn rho |n x R axis|. It is r metres from the mesh's origin,
+// and rho from the line through that along the axis: a unit vector of the mesh that the rotation R
+// takes to the same one all the while, or 0.
+typedef struct nsvcd_deviation {
+  double base, per_metre, turn;
+  double axis[3];
+} nsvcd_deviation;
+
+// How a mesh moves, for nsvcd_certify_models: t in [0,1]. A keyframe is a time at which the motion
+// has a corner; between two of them points leave their chords by no more than is said. What is
+// proven is true if that is.
+typedef struct nsvcd_motion_model {
+  double scale;
+  nsvcd_placement (*place)(const void *motion, double t);
+  // the next keyframe after a time before 1
+  double (*next)(const void *motion, double t);
+  nsvcd_deviation (*deviation)(const void *motion, double t0, double t1);
+  const void *motion;  // handed to these
+  double reach;        // metres: what its places are computed from is no farther off
+  uint32_t digest;     // of the scale and the motion, as a checker computes it
+} nsvcd_motion_model;
+
+#define NSVCD_DEFAULT_VISITS 1000000
+
+// What is zero is the default.
+typedef struct nsvcd_certify_options {
+  // NULL, or what nsvcd_sweep answered: where a hit is looked for first. Nothing is believed of it,
+  // but that something is, or seems to be, inside of a mesh that is not closed: then nothing is
+  // written that says FREE
+  const nsvcd_answer *answer;
+  // that may be taken, steps of the walk that a certificate is; 0: NSVCD_DEFAULT_VISITS
+  size_t visits;
+} nsvcd_certify_options;
+
+typedef struct nsvcd_certificate {
+  // FREE or HIT: the bytes prove it. UNDECIDED: there are none
+  nsvcd_verdict verdict;
+  // of UNDECIDED: the visits were not enough, or surfaces touch, or come too near to tell, or
+  // of 64 rays none was clear, or the answer says that something is inside of what is not closed
+  // as examples/verify has it, where each edge has its reverse and no flaw is mended
+  nsvcd_why why;
+  // 1: a hit, for a corner of one is inside of the other
+  int inside;
+  // of a HIT, in [0,1]: of the contact that is proven, which need not be the first
+  double time;
+  // of all of it, also where that is more than there was room for
+  size_t size;
+  // that were taken
+  size_t visits;
+} nsvcd_certificate;
+
+// Bytes of the workspace that nsvcd_certify needs: some 250 for each pose of either, and 4 for each
+// vertex of the mesh that has more.
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b);
+
+// Proves the answer to a question anew, sharing nothing with nsvcd_sweep but what a pose is (and
+// how two triangles are nearest, which is checked), and writes the proof. FREE: the two surfaces
+// never come within the clearance and nothing is inside of anything. HIT: an edge passes through a
+// triangle, or points are nearer than the clearance, or a corner is inside, at a time that is told.
+// What only touches, with no edge through a triangle, or is nearer than 1e-10 of all lengths (of
+// extents and of places in the world), stays UNDECIDED.
+//   question   not NULL; of it the poses, times and scales, and the clearance. Bodies are not
+//              looked at and may be NULL
+//   a, b       trees of the meshes of question->a and question->b, not NULL
+//   options    NULL: the defaults
+//   workspace  (workspace_size) bytes, nsvcd_certify_workspace_size or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT
+//   bytes      (capacity): the certificate, as far as there is room; NULL where capacity is 0. Free
+//              motions take 40 to 300 bytes in the median, 2,000 in the mean and 90,000 at most
+//   made       not NULL
+//   allocates  nothing
+//   errors     ARGUMENT, SKIN (if there is one), SCALE, POSES, TIMES, POSE, QUATERNION, CLEARANCE,
+//              WORKSPACE
+//   source     this library; the walk is described in examples/verify/nsvcd_verify.h. Planes by
+//              Gilbert 1966
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made);
+
+// Bytes of the workspace that nsvcd_certify_models needs. keyframes: of both models, 0 and 1 too.
+NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvcd_tree *a,
+                                                    const nsvcd_tree *b);
+
+// nsvcd_certify of any two motions: neuralsvcd_robot.h has those of a robot's joints.
+//   models     (2), not NULL: of the meshes of a and b
+//   keyframes  of both, 0 and 1 too; where there are more, UNDECIDED
+//   errors     ARGUMENT, CLEARANCE, WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
+                                           float clearance, const nsvcd_tree *a,
+                                           const nsvcd_tree *b,
+                                           const nsvcd_certify_options *options,
+                                           void *workspace, size_t workspace_size,
+                                           uint8_t *bytes, size_t capacity,
+                                           nsvcd_certificate *made);
+#ifdef __cplusplus
+}
+#endif
+#endif  // NEURALSVCD_CERTIFY_H
+
+// ================================================================================== IMPLEMENTATION
+#if defined(NEURALSVCD_CERTIFY_IMPLEMENTATION) && !defined(NEURALSVCD_CERTIFY_IMPLEMENTED)
+#define NEURALSVCD_CERTIFY_IMPLEMENTED
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // of ground, not all is needed
+#endif
+
+// ====================================================================== ground: numbers and memory
+
+// --------------------------------------------------------------------------------- ground/compiler
+#ifndef NSVCD__HAS_GROUND_COMPILER
+#define NSVCD__HAS_GROUND_COMPILER
+// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
+// its callers.
+
+#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef NSVCD_NO_STDIO
+#include <stdio.h>
+#endif
+// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+#ifdef NSVCD_ONE_PATH
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error \
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+#endif
+// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+#endif
+// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
+// (vfmaddsub). Functions in which they do.
+#if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNFUSED \
+  static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
+#else
+#define NSVCD__UNFUSED static inline
+#endif
+// Functions that take more of the stack, and of flash, called than merged into their callers.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__MERGED static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__MERGED static __forceinline
+#else
+#define NSVCD__MERGED static inline
+#endif
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
+// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+#ifdef __OPTIMIZE_SIZE__
+#define NSVCD__INLINE static inline
+#else
+#define NSVCD__INLINE NSVCD__MERGED
+#endif
+// Functions that must not be inlined: what they take of the stack would add up.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__APART __declspec(noinline)
+#else
+#define NSVCD__APART
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#else
+#define NSVCD__UNROLL
+#endif
+#endif  // NSVCD__HAS_GROUND_COMPILER
+
+// ----------------------------------------------------------------------------------- ground/angles
+#ifndef NSVCD__HAS_GROUND_ANGLES
+#define NSVCD__HAS_GROUND_ANGLES
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
+// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+
+#ifdef NSVCD_ONE_PATH
+// sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
+static inline double nsvcd__sin(double x) {
+  const double square = x * x;
+  double sum = 1;
+  for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
+  return x * sum;
+}
+// The angle of a vector (x, y), neither below 0, to 1e-15: a quarter of it, twice halved by
+// tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), is less than 0.2, and of the series there 1e-18 is
+// left.
+static inline double nsvcd__atan2(double y, double x) {
+  const int steep = y > x;
+  const double slope = steep ? x / y : x > 0 ? y / x : 0;
+  double t = slope;
+  double sum = 0;
+  for (int n = 0; n < 2; n++) t = t / (1 + sqrt(1 + t * t));
+  for (int n = 25; n > 0; n -= 2) sum = 1.0 / n - sum * (t * t);
+  return steep ? 1.57079632679489662 - 4 * t * sum : 4 * t * sum;
+}
+static inline float nsvcd__sinf(float x) {
+  return (float)nsvcd__sin((double)x);
+}
+// 0 <= x < 1
+static inline float nsvcd__asinf(float x) {
+  const double sine = (double)x;
+  return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));
+}
+#else
+#define nsvcd__sin sin
+#define nsvcd__atan2 atan2
+#define nsvcd__sinf sinf
+#define nsvcd__asinf asinf
+#endif
+#endif  // NSVCD__HAS_GROUND_ANGLES
+
+// ------------------------------------------------------------------------------------- ground/bits
+#ifndef NSVCD__HAS_GROUND_BITS
+#define NSVCD__HAS_GROUND_BITS
+// In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
+
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+static size_t nsvcd__low_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits & 0x7fffffffu;
+}
+static inline int nsvcd__is_finite(float x) {
+  return nsvcd__magnitude(x) < 0x7f800000u;
+}
+
+// Goes on with a digest over (count) words of 32 bits.
+static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    uint32_t word;
+    memcpy(&word, (const char *)words + 4 * i, 4);
+    digest = (digest ^ word) * 0x9e3779b1u;
+    digest ^= digest >> 15;
+  }
+  return digest;
+}
+#endif  // NSVCD__HAS_GROUND_BITS
+
+// ------------------------------------------------------------------------------------ ground/valid
+#ifndef NSVCD__HAS_GROUND_VALID
+#define NSVCD__HAS_GROUND_VALID
+// In: what a caller hands over. Out: is it in order?
+
+#define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
+
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
+
+// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
+// holds under -ffast-math too.
+static int nsvcd__within(const float *values, size_t count, float most) {
+  for (size_t i = 0; i < count; i++) {
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
+  }
+  return 1;
+}
+
+// A float not less than x, which is not negative.
+static float nsvcd__above(double x) {
+  return (float)(x * (1 + 2e-7)) + 1e-37f;
+}
+
+// Is it a length that may be told, or 0?
+static int nsvcd__is_length(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
+}
+
+// Are all numbers in range and all quaternions of unit length?
+static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
+  // 7 to a pose
+  const float *numbers = poses->position;
+  uint32_t most = 0;
+  float shortest = 1;
+  float longest = 1;
+  for (size_t k = 0; k < 7 * count; k++) {
+    const uint32_t bits = nsvcd__magnitude(numbers[k]);
+    most = bits > most ? bits : most;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const float *q = poses[k].rotation;
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest;
+    longest = square > longest ? square : longest;
+  }
+  const int is_unit =
+      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
+  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
+  // which of both?
+  for (size_t k = 0; k < count; k++) {
+    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+  }
+  return NSVCD_ERROR_QUATERNION;
+}
+
+// Do they rise from 0 to 1, or are there none?
+static int nsvcd__times_are_valid(const float *times, size_t count) {
+  if (!times || count == 1) return 1;
+  int rise =
+      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  // what is not a number does not rise
+  for (size_t k = 1; k < count; k++)
+    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
+  return rise;
+}
+
+// What a mover that is at rest at the origin is given.
+static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
+
+// A mover's scale, which is 1 where 0 is given.
+static float nsvcd__scale_of(const nsvcd_mover *mover) {
+  return mover->scale > 0 ? mover->scale : 1;
+}
+
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
+  return mover->poses ? mover->count : 1;
+}
+
+static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
+  return nsvcd__poses_check(mover->poses, mover->count);
+}
+
+// A mesh may come from anywhere: everything below relies on what is checked here.
+static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+  if (!mesh) return NSVCD_ERROR_ARGUMENT;
+  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
+  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
+  const size_t vertices = mesh->vertex_count;
+  const size_t triangles = mesh->triangle_count;
+  if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
+  for (size_t i = 0; i < 3 * triangles; i++) {
+    if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
+  }
+  for (size_t i = 0; i < 3 * vertices; i++) {
+    const float x = mesh->positions[i];
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+  }
+  return NSVCD_OK;
+}
+#endif  // NSVCD__HAS_GROUND_VALID
+
+// ----------------------------------------------------------------------------------- ground/points
+#ifndef NSVCD__HAS_GROUND_POINTS
+#define NSVCD__HAS_GROUND_POINTS
+// In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
+
+// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
+// calls with most compilers.
+static inline double nsvcd__max(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double nsvcd__min(double a, double b) {
+  return a < b ? a : b;
+}
+
+// The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
+// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
+// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
+// double.
+#define NSVCD__VECTORS(t, scalar, sqrt) \
+  typedef struct t { \
+    scalar x, y, z; \
+  } t; \
+  static inline t t##_of(scalar x, scalar y, scalar z) { \
+    const t out = {x, y, z}; \
+    return out; \
+  } \
+  static inline t t##_load(const float *p) { \
+    return t##_of((scalar)p[0], (scalar)p[1], (scalar)p[2]); \
+  } \
+  static inline t t##_row(const float *rows, size_t i) { \
+    return t##_load(rows + 3 * i); \
+  } \
+  static inline t t##_add(t a, t b) { \
+    return t##_of(a.x + b.x, a.y + b.y, a.z + b.z); \
+  } \
+  static inline t t##_sub(t a, t b) { \
+    return t##_of(a.x - b.x, a.y - b.y, a.z - b.z); \
+  } \
+  static inline t t##_scale(t a, scalar s) { \
+    return t##_of(s * a.x, s * a.y, s * a.z); \
+  } \
+  static inline t t##_fma(scalar s, t b, t a) { \
+    return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
+  } \
+  static inline t t##_min(t a, t b) { \
+    return t##_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z); \
+  } \
+  static inline t t##_max(t a, t b) { \
+    return t##_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z); \
+  } \
+  static inline scalar t##_dot(t a, t b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z; \
+  } \
+  static inline t t##_cross(t a, t b) { \
+    return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
+  } \
+  static inline scalar t##_length(t a) { \
+    return sqrt(t##_dot(a, a)); \
+  }
+NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
+NSVCD__VECTORS(nsvcd__d3, double, sqrt)
+#undef NSVCD__VECTORS
+
+// ---- of floats
+
+// From, and to, rows of x, y and z, so many numbers apart.
+static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
+  return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
+}
+static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
+  rows[0] = a.x;
+  rows[stride] = a.y;
+  rows[2 * stride] = a.z;
+}
+static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
+  nsvcd__f3_put(a, p, 1);
+}
+// Is a component of a greater than b's?
+static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
+  return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
+}
+
+// A box along the axes.
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
+
+// Component 0, 1 or 2.
+static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
+  *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
+}
+static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
+  return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
+}
+static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
+  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
+}
+// a + t (b - a).
+static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
+  return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
+}
+static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
+  return nsvcd__d3_dot(offset, offset);
+}
+// Of length 1; `otherwise` if a has none.
+static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
+  const double length = nsvcd__d3_length(a);
+  return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
+}
+// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
+// doubles again: it takes the two conversions of a vector for none, and a proof built on what is
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
+static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
+  volatile float rounded = (float)x;
+  return rounded;
+#endif
+}
+static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
+  return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
+}
+static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
+  return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+// A double also where registers are wider (x87), for what is compared with itself computed again.
+static inline double nsvcd__stored(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
+  volatile double rounded = x;
+  return rounded;
+#endif
+}
+static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__stored(a.x), nsvcd__stored(a.y), nsvcd__stored(a.z));
+}
+#endif  // NSVCD__HAS_GROUND_POINTS
+
+// -------------------------------------------------------------------------------- ground/rotations
+#ifndef NSVCD__HAS_GROUND_ROTATIONS
+#define NSVCD__HAS_GROUND_ROTATIONS
+// In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
+// its rows. A transform is a rotation and a place.
+
+// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
+// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
+// _apply_transpose is the transpose of m, times a.
+#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+  typedef struct quat { \
+    scalar x, y, z, w; \
+  } quat; \
+  typedef struct mat { \
+    vec x, y, z; \
+  } mat; \
+  static inline scalar quat##_dot(quat a, quat b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
+  } \
+  static inline quat quat##_scale(quat q, scalar s) { \
+    const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
+    return out; \
+  } \
+  static inline quat quat##_fma(scalar s, quat b, quat a) { \
+    const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
+    return out; \
+  } \
+  NSVCD__MERGED quat quat##_unit(quat q) { \
+    return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
+  } \
+  static inline vec quat##_axis(quat q) { \
+    return vec##_of(q.x, q.y, q.z); \
+  } \
+  NSVCD__UNFUSED mat mat##_of(quat q) { \
+    mat m; \
+    m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
+    m.x.y = 2 * (q.x * q.y - q.z * q.w); \
+    m.x.z = 2 * (q.x * q.z + q.y * q.w); \
+    m.y.x = 2 * (q.x * q.y + q.z * q.w); \
+    m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z); \
+    m.y.z = 2 * (q.y * q.z - q.x * q.w); \
+    m.z.x = 2 * (q.x * q.z - q.y * q.w); \
+    m.z.y = 2 * (q.y * q.z + q.x * q.w); \
+    m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y); \
+    return m; \
+  } \
+  static inline mat mat##_transpose(mat m) { \
+    const mat out = {vec##_of(m.x.x, m.y.x, m.z.x), vec##_of(m.x.y, m.y.y, m.z.y), \
+                     vec##_of(m.x.z, m.y.z, m.z.z)}; \
+    return out; \
+  } \
+  static inline vec mat##_apply(const mat *m, vec a) { \
+    return vec##_of(vec##_dot(m->x, a), vec##_dot(m->y, a), vec##_dot(m->z, a)); \
+  } \
+  static inline vec mat##_apply_transpose(const mat *m, vec a) { \
+    const mat back = mat##_transpose(*m); \
+    return mat##_apply(&back, a); \
+  }
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+#undef NSVCD__ROTATIONS
+
+// The inverse of a, unit, times b.
+static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(a);
+  const nsvcd__d3 v = nsvcd__dquat_axis(b);
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
+  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
+  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
+  return out;
+}
+
+static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+  const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
+                            nsvcd__d3_scale(m->z, s)};
+  return out;
+}
+
+// ---- quaternions and matrices of floats
+
+// A rotation and a position: a -> rotation a + position.
+typedef struct nsvcd__transform {
+  nsvcd__mat3 rotation;
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
+}
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
+}
+// To rows of x, y, z and w, so many numbers apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  nsvcd__quat_put(q, p, 1);
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot += (double)a.y * (double)b.y;
+  dot += (double)a.z * (double)b.z;
+  dot += (double)a.w * (double)b.w;
+  return dot < 0;
+}
+
+// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
+// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
+// left.
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
+  return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+}
+
+// The same rotation on the side of another quaternion, to which q is opposed or not.
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+// of a unit one
+static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
+  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
+}
+
+// The rotation by b, then by a.
+static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
+  nsvcd__quat out;
+  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
+  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
+  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
+  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
+  return out;
+}
+// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
+  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
+}
+
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
+  const float angle = nsvcd__quat_arc(start, end);
+  float wa = 1 - u;
+  float wb = u;
+  // below, the difference is less than rounding
+  if (angle > 1e-3f) {
+    wa = nsvcd__sinf((1 - u) * angle);
+    wb = nsvcd__sinf(u * angle);
+  }
+  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
+}
+
+// s (a + t b).
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
+  return out;
+}
+static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
+  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
+                           nsvcd__mat3_apply(&columns, a->y),
+                           nsvcd__mat3_apply(&columns, a->z)};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+}
+#endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// -------------------------------------------------------------------------------- ground/triangles
+#ifndef NSVCD__HAS_GROUND_TRIANGLES
+#define NSVCD__HAS_GROUND_TRIANGLES
+// In: two triangles, in double. Out: where they meet, or are nearest.
+
+// The normal of a triangle (3 corners); its length is twice the area.
+static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
+  return nsvcd__d3_cross(nsvcd__d3_sub(t[1], t[0]), nsvcd__d3_sub(t[2], t[0]));
+}
+
+// The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
+// makes of such a triangle's normal is some 1e-16 of its longest edge squared.
+static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  double longest = 0;
+  for (size_t k = 0; k < 3; k++)
+    longest = nsvcd__max(longest, nsvcd__d3_distance2(t[k], t[(k + 1) % 3]));
+  const double length = nsvcd__d3_length(n);
+  return nsvcd__d3_scale(n, length > 1e-9 * longest ? 1 / length : 0);
+}
+
+typedef struct nsvcd__nearest {
+  double square;  // of the distance
+  nsvcd__d3 on_a, on_b;
+} nsvcd__nearest;
+
+static double nsvcd__clamp_share(double x) {
+  return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+static void nsvcd__keep_nearer(nsvcd__nearest *best, nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 d = nsvcd__d3_sub(a, b);
+  const double square = nsvcd__d3_dot(d, d);
+  if (square >= best->square) return;
+  best->square = square;
+  best->on_a = a;
+  best->on_b = b;
+}
+
+// The nearest points of the edges a0 a1 and b0 b1 (Ericson 2005, 5.1.9).
+static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd__d3 b1,
+                                 nsvcd__nearest *best) {
+  const nsvcd__d3 u = nsvcd__d3_sub(a1, a0);
+  const nsvcd__d3 v = nsvcd__d3_sub(b1, b0);
+  const nsvcd__d3 w = nsvcd__d3_sub(a0, b0);
+  const double uu = nsvcd__d3_dot(u, u);
+  const double vv = nsvcd__d3_dot(v, v);
+  const double uv = nsvcd__d3_dot(u, v);
+  const double uw = nsvcd__d3_dot(u, w);
+  const double vw = nsvcd__d3_dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  double s = 0;
+  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
+  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
+}
+
+// The foot of x on the plane of a triangle, if it is within the triangle.
+static int nsvcd__foot_within(nsvcd__d3 x, const nsvcd__d3 *t, nsvcd__d3 *foot) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const double square = nsvcd__d3_dot(n, n);
+  if (!(square > 0)) return 0;
+  const double height = nsvcd__d3_dot(n, nsvcd__d3_sub(x, t[0])) / square;
+  *foot = nsvcd__d3_sub(x, nsvcd__d3_scale(n, height));
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 edge = nsvcd__d3_sub(t[(k + 1) % 3], t[k]);
+    if (nsvcd__d3_dot(n, nsvcd__d3_cross(edge, nsvcd__d3_sub(*foot, t[k]))) < -1e-12 * square)
+      return 0;
+  }
+  return 1;
+}
+
+// Do two triangles meet where an edge of one passes through the other? Heights of corners over the
+// other's plane are in units of the length of its normal, which is not made unit.
+static int nsvcd__triangles_meet(const nsvcd__d3 *a, const nsvcd__d3 *b, nsvcd__d3 *point) {
+  const nsvcd__d3 *of[2] = {a, b};
+  double heights[2][3];
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd__d3 *other = of[1 - n];
+    const nsvcd__d3 normal = nsvcd__face_normal(other);
+    size_t above = 0;
+    size_t below = 0;
+    for (size_t k = 0; k < 3; k++) {
+      heights[n][k] = nsvcd__d3_dot(normal, nsvcd__d3_sub(of[n][k], other[0]));
+      above += heights[n][k] > 0;
+      below += heights[n][k] < 0;
+    }
+    if (above == 3 || below == 3) return 0;
+  }
+  for (size_t n = 0; n < 6; n++) {
+    const nsvcd__d3 *edges = of[n / 3];
+    const size_t k = n % 3;
+    const double h0 = heights[n / 3][k];
+    const double h1 = heights[n / 3][(k + 1) % 3];
+    if ((h0 > 0 && h1 > 0) || (h0 < 0 && h1 < 0) || !(fabs(h0 - h1) > 0)) continue;
+    const nsvcd__d3 through = nsvcd__d3_mix(edges[k], edges[(k + 1) % 3], h0 / (h0 - h1));
+    if (nsvcd__foot_within(through, of[1 - n / 3], point)) return 1;
+  }
+  return 0;
+}
+
+// How many corners of a triangle there are to look at: of a point or a segment, which a round body
+// has, as nsvcd_encode_sphere and nsvcd_encode_capsule list it, 1 or 2.
+static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
+  if (nsvcd__d3_distance2(t[1], t[2]) > 0) return 3;
+  return nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;
+}
+
+// The nearest points of two triangles; the distance is 0 where they meet.
+static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+  const size_t corners_a = nsvcd__corners_of(a);
+  const size_t corners_b = nsvcd__corners_of(b);
+  const size_t edges_a = corners_a < 3 ? 1 : 3;
+  const size_t edges_b = corners_b < 3 ? 1 : 3;
+  nsvcd__nearest best = {HUGE_VAL, {0, 0, 0}, {0, 0, 0}};
+  nsvcd__d3 point;
+  if (corners_a > 1 && corners_b > 1 && nsvcd__triangles_meet(a, b, &point)) {
+    best.square = 0;
+    best.on_a = point;
+    best.on_b = point;
+    return best;
+  }
+  for (size_t k = 0; k < edges_a; k++) {
+    for (size_t n = 0; n < edges_b; n++)
+      nsvcd__edges_nearest(a[k], a[(k + 1) % 3], b[n], b[(n + 1) % 3], &best);
+  }
+  for (size_t k = 0; k < corners_a && corners_b == 3; k++)
+    if (nsvcd__foot_within(a[k], b, &point)) nsvcd__keep_nearer(&best, a[k], point);
+  for (size_t k = 0; k < corners_b && corners_a == 3; k++)
+    if (nsvcd__foot_within(b[k], a, &point)) nsvcd__keep_nearer(&best, point, b[k]);
+  return best;
+}
+#endif  // NSVCD__HAS_GROUND_TRIANGLES
+
+// ---------------------------------------------------------------------------------- ground/spheres
+#ifndef NSVCD__HAS_GROUND_SPHERES
+#define NSVCD__HAS_GROUND_SPHERES
+// In: rows of floats, as a body stores them. Out: one sphere, or one disc, as a value.
+
+typedef struct nsvcd__sphere {
+  nsvcd__f3 centre;
+  float radius;
+} nsvcd__sphere;
+
+// Many of them, in arrays that follow each other: x, y, z and radii.
+typedef struct nsvcd__spheres {
+  const float *x, *y, *z, *r;
+} nsvcd__spheres;
+
+static inline nsvcd__spheres nsvcd__spheres_of(const float *first, size_t slots) {
+  const nsvcd__spheres out = {first, first + slots, first + 2 * slots, first + 3 * slots};
+  return out;
+}
+static inline nsvcd__spheres nsvcd__spheres_from(nsvcd__spheres all, size_t i) {
+  const nsvcd__spheres out = {all.x + i, all.y + i, all.z + i, all.r + i};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__centre_of(nsvcd__spheres all, size_t i) {
+  return nsvcd__f3_of(all.x[i], all.y[i], all.z[i]);
+}
+static inline nsvcd__sphere nsvcd__sphere_of(nsvcd__spheres all, size_t i) {
+  const nsvcd__sphere out = {nsvcd__centre_of(all, i), all.r[i]};
+  return out;
+}
+// Writes the i-th of spheres in arrays of so many slots.
+static inline void nsvcd__sphere_store(nsvcd__sphere sphere, float *first, size_t slots,
+                                       size_t i) {
+  nsvcd__f3_put(sphere.centre, first + i, slots);
+  first[3 * slots + i] = sphere.radius;
+}
+
+// ---- tips
+
+// points of a patch's surface that reach about as far as all of it does: surface/sorted
+#define NSVCD__TIPS 8
+
+// ---- discs
+
+// Points x about a centre have low <= normal.x <= high, and are no farther than `across` from the
+// line along the normal, which is no longer than 1.
+typedef struct nsvcd__disc {
+  nsvcd__f3 normal;
+  float low, high, across;
+} nsvcd__disc;
+
+// Disc i of (6, stride).
+static inline nsvcd__disc nsvcd__disc_at(const float *discs, size_t stride, size_t i) {
+  const float *d = discs + i;
+  nsvcd__disc out;
+  out.normal = nsvcd__f3_get(d, stride);
+  out.low = d[3 * stride];
+  out.high = d[4 * stride];
+  out.across = d[5 * stride];
+  return out;
+}
+static inline void nsvcd__disc_store(nsvcd__disc disc, float *discs, size_t stride, size_t i) {
+  float *d = discs + i;
+  nsvcd__f3_put(disc.normal, d, stride);
+  d[3 * stride] = disc.low;
+  d[4 * stride] = disc.high;
+  d[5 * stride] = disc.across;
+}
+#endif  // NSVCD__HAS_GROUND_SPHERES
+
+// ----------------------------------------------------------------------------------- ground/random
+#ifndef NSVCD__HAS_GROUND_RANDOM
+#define NSVCD__HAS_GROUND_RANDOM
+// In: a state. Out: random numbers, the same from the same state.
+
+// In (0, 1]: splitmix64.
+static inline double nsvcd__random(uint64_t *state) {
+  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
+}
+#endif  // NSVCD__HAS_GROUND_RANDOM
+
+// ----------------------------------------------------------------------------------- ground/memory
+#ifndef NSVCD__HAS_GROUND_MEMORY
+#define NSVCD__HAS_GROUND_MEMORY
+// In: the caller's allocator, or the workspace. Out: arrays from either; NULL, or a count alone,
+// where there is no memory.
+
+#ifndef NSVCD_NO_ENCODER
+static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
+  return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
+}
+static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
+  if (allocator && memory) allocator->free(memory, allocator->user);
+  if (!allocator) free(memory);
+}
+// count * size bytes; NULL also where that product cannot be counted.
+static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
+  return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
+}
+
+// Arrays that are given back together. Where one cannot be had, `failed` says so: who takes several
+// asks once, after the last.
+typedef union nsvcd__header {
+  union nsvcd__header *next;
+  double aligned;
+} nsvcd__header;
+typedef struct nsvcd__arena {
+  const nsvcd_allocator *allocator;
+  // an array behind each
+  nsvcd__header *last;
+  int failed;
+} nsvcd__arena;
+
+static nsvcd__arena nsvcd__arena_of(const nsvcd_allocator *allocator) {
+  const nsvcd__arena out = {allocator, NULL, 0};
+  return out;
+}
+static void nsvcd__arena_free(nsvcd__arena *arena) {
+  while (arena->last) {
+    nsvcd__header *header = arena->last;
+    arena->last = header->next;
+    nsvcd__free(arena->allocator, header);
+  }
+}
+
+// Room for an array; NULL without memory.
+static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
+  nsvcd__header *header = NULL;
+  if (count <= (SIZE_MAX - sizeof *header) / size)
+    header = (nsvcd__header *)nsvcd__alloc(arena->allocator, sizeof *header + count * size);
+  if (!header) {
+    arena->failed = 1;
+    return NULL;
+  }
+  header->next = arena->last;
+  arena->last = header;
+  return header + 1;
+}
+
+// An array of zeros; NULL without memory.
+#define NSVCD__TAKE(arena, type, count) ((type *)nsvcd__arena_take(arena, count, sizeof(type)))
+static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
+  void *array = nsvcd__arena_room(arena, count, size);
+  return array ? memset(array, 0, count * size) : NULL;
+}
+
+// Room in place of an array (NULL: none), of which it keeps the first `used` bytes; without memory
+// that stays.
+static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
+                               size_t size) {
+  nsvcd__header **at = &arena->last;
+  void *larger = nsvcd__arena_room(arena, count, size);
+  if (!larger || !old) return larger;
+  memcpy(larger, old, used);
+  while ((void *)(*at + 1) != old) at = &(*at)->next;
+  nsvcd__header *header = *at;
+  *at = header->next;
+  nsvcd__free(arena->allocator, header);
+  return larger;
+}
+#endif
+
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
+// they may be more than a machine of 32 bits can count.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
+  void *at = base ? base + *used : NULL;
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
+  return at;
+}
+#endif  // NSVCD__HAS_GROUND_MEMORY
+
+// ===================================================== certificate: a proof that others can check
+
+// -------------------------------------------------------------------------------- certificate/tree
+// In: a mesh. Out: its components, and a tree of boxes over its triangles. The floor, top to
+// bottom:
+//
+//   tree        boxes, and components
+//   law         where a body is at a time, and how far points leave their chords
+//   planes      one that parts two nodes over a stretch of time; its normal in a few bits
+//   rays        what is inside of what at one time
+//   certify     the walk that a certificate is
+//
+// What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
+// rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+
+#define NSVCD__TREE_TRIANGLES 0x20000000
+// nodes that wait, while a tree of so many triangles is walked through
+#define NSVCD__TREE_STACK 32
+
+// A run of triangles of a tree, with a box about them.
+typedef struct nsvcd__node {
+  // a row of boxes; of order
+  uint32_t box, first, count;
+} nsvcd__node;
+
+struct nsvcd_tree {
+  nsvcd_mesh mesh;
+  // (2 triangles - 1), of a node, of its left tree, of its right tree
+  nsvcd__box *boxes;
+  // (triangles): the leaves, from left to right
+  uint32_t *order;
+  // (triangles, 3, 3): their corners
+  float *corners;
+  // (vertices): the lowest vertex of its component; NSVCD_NO_TRIANGLE: no triangle has it
+  uint32_t *part;
+  // (vertices): the lowest vertex at its place
+  uint32_t *weld;
+  // (vertices): 1: the component is not closed
+  uint8_t *open;
+  uint32_t digest;
+};
+
+static const float *nsvcd__tree_corner(const nsvcd_tree *tree, uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = tree->mesh.indices[3 * (size_t)triangle + k];
+  return tree->mesh.positions + 3 * (size_t)vertex;
+}
+
+// Three times a triangle's middle, in doubles: a key to sort by, which must be the same each time.
+static nsvcd__d3 nsvcd__tree_middle(const nsvcd_tree *tree, uint32_t triangle) {
+  nsvcd__d3 sum = nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, 0));
+  for (uint32_t k = 1; k < 3; k++)
+    sum = nsvcd__d3_stored(
+        nsvcd__d3_add(sum, nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k))));
+  return sum;
+}
+
+// Is a triangle before another one, whose key is known? Below 0: yes; above: it is after it.
+static int nsvcd__tree_order(const nsvcd_tree *tree, uint32_t triangle, uint32_t other,
+                             double key, size_t axis) {
+  const double own = nsvcd__d3_axis(nsvcd__tree_middle(tree, triangle), axis);
+  if (own < key || own > key) return own < key ? -1 : 1;
+  return triangle < other ? -1 : triangle > other;
+}
+
+// The box of a node; its triangles so that those that are first along the axis along which their
+// middles differ most, of equals those of lower number, are before the middle (Hoare 1961).
+static void nsvcd__cut_node(nsvcd_tree *tree, const nsvcd__node *node) {
+  uint32_t *order = tree->order + node->first;
+  nsvcd__box box;
+  box.low = box.high = nsvcd__f3_load(nsvcd__tree_corner(tree, order[0], 0));
+  nsvcd__d3 least = nsvcd__tree_middle(tree, order[0]);
+  nsvcd__d3 most = least;
+  for (uint32_t i = 0; i < node->count; i++) {
+    const nsvcd__d3 middle = nsvcd__tree_middle(tree, order[i]);
+    least = nsvcd__d3_min(least, middle);
+    most = nsvcd__d3_max(most, middle);
+  }
+  for (uint32_t i = 0; i < 3 * node->count; i++) {
+    const nsvcd__f3 x = nsvcd__f3_load(nsvcd__tree_corner(tree, order[i / 3], i % 3));
+    box.low = nsvcd__f3_min(box.low, x);
+    box.high = nsvcd__f3_max(box.high, x);
+  }
+  tree->boxes[node->box] = box;
+  const nsvcd__d3 sides = nsvcd__d3_stored(nsvcd__d3_sub(most, least));
+  size_t axis = sides.y > sides.x;
+  if (sides.z > nsvcd__d3_axis(sides, axis)) axis = 2;
+  const ptrdiff_t half = (ptrdiff_t)(node->count / 2);
+  ptrdiff_t from = 0;
+  ptrdiff_t to = (ptrdiff_t)node->count - 1;
+  while (from < to) {
+    const uint32_t pivot = order[from + (to - from) / 2];
+    const double key = nsvcd__d3_axis(nsvcd__tree_middle(tree, pivot), axis);
+    ptrdiff_t i = from;
+    ptrdiff_t j = to;
+    while (i <= j) {
+      while (nsvcd__tree_order(tree, order[i], pivot, key, axis) < 0) i++;
+      while (nsvcd__tree_order(tree, order[j], pivot, key, axis) > 0) j--;
+      if (i > j) break;
+      const uint32_t swapped = order[i];
+      order[i++] = order[j];
+      order[j--] = swapped;
+    }
+    if (half > j) from = i;
+    if (half < i) to = j;
+  }
+}
+
+static void nsvcd__children(const nsvcd__node *node, nsvcd__node *left, nsvcd__node *right) {
+  const nsvcd__node whole = *node;
+  left->box = whole.box + 1;
+  left->first = whole.first;
+  left->count = whole.count / 2;
+  right->box = whole.box + 2 * left->count;
+  right->first = whole.first + left->count;
+  right->count = whole.count - left->count;
+}
+
+// ---- components
+
+// Below 0, 0 or above it: the place of vertex i is before, at or after that of vertex j.
+static int nsvcd__place_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  const float *x = tree->mesh.positions + 3 * (size_t)i;
+  const float *y = tree->mesh.positions + 3 * (size_t)j;
+  for (size_t k = 0; k < 3; k++) {
+    if (x[k] < y[k]) return -1;
+    if (x[k] > y[k]) return 1;
+  }
+  return 0;
+}
+
+// The ends of an edge, by the lowest vertices at their places; 3 t + k begins at corner k of
+// triangle t.
+static void nsvcd__edge_ends(const nsvcd_tree *tree, uint32_t edge, uint32_t *ends) {
+  const uint32_t next = edge % 3 == 2 ? edge - 2 : edge + 1;
+  ends[0] = tree->weld[tree->mesh.indices[edge]];
+  ends[1] = tree->weld[tree->mesh.indices[next]];
+}
+
+// The same of two edges, whichever way they go.
+static int nsvcd__edge_order(const nsvcd_tree *tree, uint32_t i, uint32_t j) {
+  uint32_t a[2], b[2];
+  nsvcd__edge_ends(tree, i, a);
+  nsvcd__edge_ends(tree, j, b);
+  const uint64_t x = (uint64_t)(a[0] < a[1] ? a[0] : a[1]) << 32 | (a[0] < a[1] ? a[1] : a[0]);
+  const uint64_t y = (uint64_t)(b[0] < b[1] ? b[0] : b[1]) << 32 | (b[0] < b[1] ? b[1] : b[0]);
+  return x < y ? -1 : x > y;
+}
+
+typedef int nsvcd__tree_compare(const nsvcd_tree *tree, uint32_t i, uint32_t j);
+
+// Moves what is at place `at` of a heap down to where it belongs.
+static void nsvcd__sink(const nsvcd_tree *tree, nsvcd__tree_compare *order, uint32_t *heap,
+                        size_t count, size_t at) {
+  const uint32_t sinks = heap[at];
+  for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+    if (child + 1 < count && order(tree, heap[child], heap[child + 1]) < 0) child++;
+    if (order(tree, sinks, heap[child]) >= 0) break;
+    heap[at] = heap[child];
+    at = child;
+  }
+  heap[at] = sinks;
+}
+
+// Heap sort (Williams 1964): no memory, and no mesh makes it slow.
+static void nsvcd__sort_numbers(const nsvcd_tree *tree, nsvcd__tree_compare *order,
+                                uint32_t *numbers, size_t count) {
+  for (size_t at = count / 2; at-- > 0;) nsvcd__sink(tree, order, numbers, count, at);
+  for (size_t end = count; end-- > 1;) {
+    const uint32_t last = numbers[end];
+    numbers[end] = numbers[0];
+    numbers[0] = last;
+    nsvcd__sink(tree, order, numbers, end, 0);
+  }
+}
+
+// weld: the lowest vertex at each vertex's place. numbers: (vertices), to work with.
+static void nsvcd__weld_places(nsvcd_tree *tree, uint32_t *numbers) {
+  const size_t count = tree->mesh.vertex_count;
+  size_t end;
+  for (size_t v = 0; v < count; v++) numbers[v] = (uint32_t)v;
+  nsvcd__sort_numbers(tree, nsvcd__place_order, numbers, count);
+  for (size_t i = 0; i < count; i = end) {
+    uint32_t lowest = numbers[i];
+    end = i;
+    while (end < count && nsvcd__place_order(tree, numbers[i], numbers[end]) == 0) {
+      lowest = numbers[end] < lowest ? numbers[end] : lowest;
+      end++;
+    }
+    for (size_t n = i; n < end; n++) tree->weld[numbers[n]] = lowest;
+  }
+}
+
+static uint32_t nsvcd__part_root(uint32_t *part, uint32_t v) {
+  while (part[v] != v) {
+    part[v] = part[part[v]];
+    v = part[v];
+  }
+  return v;
+}
+
+static void nsvcd__unite_parts(uint32_t *part, uint32_t v, uint32_t w) {
+  const uint32_t x = nsvcd__part_root(part, v);
+  const uint32_t y = nsvcd__part_root(part, w);
+  part[x > y ? x : y] = x > y ? y : x;
+}
+
+// Joins the corners of triangles, and vertices at the same place; a part is open if an edge of its
+// goes there and back not equally often. edges: (3 triangles), to work with.
+static void nsvcd__find_parts(nsvcd_tree *tree, uint32_t *edges) {
+  const uint32_t *indices = tree->mesh.indices;
+  const size_t corners = 3 * tree->mesh.triangle_count;
+  size_t end;
+  nsvcd__weld_places(tree, tree->part);
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    tree->part[v] = NSVCD_NO_TRIANGLE;
+    tree->open[v] = 0;
+  }
+  for (size_t i = 0; i < corners; i++) {
+    const uint32_t lowest = tree->weld[indices[i]];
+    tree->part[indices[i]] = indices[i];
+    tree->part[lowest] = lowest;
+    edges[i] = (uint32_t)i;
+  }
+  for (size_t i = 0; i < corners; i++) {
+    nsvcd__unite_parts(tree->part, indices[i], indices[i / 3 * 3]);
+    nsvcd__unite_parts(tree->part, indices[i], tree->weld[indices[i]]);
+  }
+  for (size_t i = 0; i < corners; i++)
+    tree->part[indices[i]] = nsvcd__part_root(tree->part, indices[i]);
+  nsvcd__sort_numbers(tree, nsvcd__edge_order, edges, corners);
+  for (size_t i = 0; i < corners; i = end) {
+    size_t there = 0;
+    size_t back = 0;
+    for (end = i; end < corners && nsvcd__edge_order(tree, edges[i], edges[end]) == 0; end++) {
+      uint32_t ends[2];
+      nsvcd__edge_ends(tree, edges[end], ends);
+      there += ends[0] < ends[1];
+      back += ends[1] < ends[0];
+    }
+    if (there != back) tree->open[tree->part[indices[edges[i]]]] = 1;
+  }
+}
+
+// Lays a tree out at base, or, where that is NULL, only counts. Returns the bytes that it takes.
+static uint64_t nsvcd__tree_layout(const nsvcd_mesh *mesh, char *base, nsvcd_tree *tree) {
+  uint64_t used = 0;
+  const size_t triangles = mesh->triangle_count;
+  (void)nsvcd__take(base, &used, 1, sizeof *tree);
+  tree->boxes = (nsvcd__box *)nsvcd__take(base, &used, 2 * triangles - 1, sizeof(nsvcd__box));
+  tree->order = (uint32_t *)nsvcd__take(base, &used, triangles, sizeof(uint32_t));
+  tree->corners = (float *)nsvcd__take(base, &used, triangles, 9 * sizeof(float));
+  tree->part = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->weld = (uint32_t *)nsvcd__take(base, &used, mesh->vertex_count, sizeof(uint32_t));
+  tree->open = (uint8_t *)nsvcd__take(base, &used, mesh->vertex_count, 1);
+  return used;
+}
+
+NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh) {
+  nsvcd_tree counted;
+  if (nsvcd__mesh_check(mesh)) return 0;
+  const uint64_t size = nsvcd__tree_layout(mesh, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
+                                       const nsvcd_tree **tree) {
+  nsvcd__node stack[NSVCD__TREE_STACK];
+  nsvcd_tree counted;
+  size_t height = 1;
+  const nsvcd_result result = nsvcd__mesh_check(mesh);
+  if (result) return result;
+  if (!tree) return NSVCD_ERROR_ARGUMENT;
+  const uint64_t needed = nsvcd__tree_layout(mesh, NULL, &counted);
+  if (mesh->triangle_count > NSVCD__TREE_TRIANGLES || needed > SIZE_MAX)
+    return NSVCD_ERROR_TOO_LARGE;
+  if (!memory || size < needed || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  nsvcd_tree *t = (nsvcd_tree *)memory;
+  (void)nsvcd__tree_layout(mesh, (char *)memory, t);
+  t->mesh = *mesh;
+  t->digest =
+      nsvcd__digest((uint32_t)mesh->vertex_count, mesh->positions, 3 * mesh->vertex_count);
+  t->digest = nsvcd__digest(t->digest, mesh->indices, 3 * mesh->triangle_count);
+  nsvcd__find_parts(t, (uint32_t *)t->boxes);
+  for (size_t i = 0; i < mesh->triangle_count; i++) t->order[i] = (uint32_t)i;
+  stack[0].box = stack[0].first = 0;
+  stack[0].count = (uint32_t)mesh->triangle_count;
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    nsvcd__cut_node(t, &node);
+    if (node.count == 1) continue;
+    nsvcd__children(&node, &stack[height], &stack[height + 1]);
+    height += 2;
+  }
+  for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    const float *corner = nsvcd__tree_corner(t, t->order[i / 3], (uint32_t)(i % 3));
+    memcpy(t->corners + 3 * i, corner, 3 * sizeof *corner);
+  }
+  *tree = t;
+  return NSVCD_OK;
+}
+
+// --------------------------------------------------------------------------------- certificate/law
+// In: a mesh that moves. Out: where it is at a time, and by how much a point leaves the chord
+// between its places at two times. In double, and with nothing of the motion floor: a certificate
+// is a second opinion.
+
+// Takes a corner x to turn scale x + at.
+typedef struct nsvcd__posed {
+  nsvcd__dmat3 turn;
+  nsvcd__d3 at;
+} nsvcd__posed;
+
+// A mesh that moves.
+typedef struct nsvcd__rider {
+  const nsvcd_tree *tree;
+  nsvcd_motion_model model;
+} nsvcd__rider;
+
+static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
+  const nsvcd_placement at = rider->model.place(rider->model.motion, t);
+  nsvcd__posed out;
+  memcpy(&out.turn, at.rotation, sizeof out.turn);
+  memcpy(&out.at, at.position, sizeof out.at);
+  return out;
+}
+
+// ---- of poses: nsvcd_mover
+
+static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
+  if (mover->times) return (double)mover->times[k];
+  return nsvcd__stored((double)k / (double)(mover->count - 1));
+}
+
+// The last pose, but for the last one, that is not after a time; of a mover of two poses or more.
+static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
+  size_t low = 0;
+  size_t high = mover->count - 1;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__mover_knot(mover, middle) <= t)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The arc from a pose to the next: rotations, on the shorter side; half the angle between them.
+typedef struct nsvcd__turning {
+  nsvcd__dquat from, to;
+  double half_angle;
+} nsvcd__turning;
+
+static nsvcd__dquat nsvcd__pose_rotation(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat out = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  return out;
+}
+
+static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b) {
+  nsvcd__turning out;
+  const nsvcd__dquat from = nsvcd__pose_rotation(a);
+  const nsvcd__dquat to = nsvcd__pose_rotation(b);
+  // summed in doubles: its sign says which way a turn by 180 degrees goes
+  double dot = 0;
+  for (size_t k = 0; k < 4; k++)
+    dot = nsvcd__stored(dot + (double)a->rotation[k] * (double)b->rotation[k]);
+  const double side = dot < 0 ? -1 : 1;
+  out.from = nsvcd__dquat_unit(from);
+  out.to = nsvcd__dquat_scale(nsvcd__dquat_unit(to), side);
+  const nsvcd__dquat apart = nsvcd__dquat_fma(-1, out.from, out.to);
+  const nsvcd__dquat together = nsvcd__dquat_fma(1, out.from, out.to);
+  out.half_angle = 2 * atan2(sqrt(nsvcd__dquat_dot(apart, apart)),
+                             sqrt(nsvcd__dquat_dot(together, together)));
+  return out;
+}
+
+static nsvcd_placement nsvcd__placement_of(nsvcd__dquat turn, nsvcd__d3 at) {
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(turn));
+  nsvcd_placement out;
+  memcpy(out.rotation, &rotation, sizeof out.rotation);
+  memcpy(out.position, &at, sizeof out.position);
+  return out;
+}
+
+static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  if (mover->count == 1)
+    return nsvcd__placement_of(nsvcd__pose_rotation(mover->poses),
+                               nsvcd__d3_load(mover->poses->position));
+  const size_t k = nsvcd__mover_pose(mover, t);
+  const nsvcd_pose *a = &mover->poses[k];
+  const double from = nsvcd__mover_knot(mover, k);
+  const double u = (t - from) / (nsvcd__mover_knot(mover, k + 1) - from);
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  double before = 1 - u;
+  double after = u;
+  // below, a line is as good
+  if (arc.half_angle > 1e-7) {
+    before = sin((1 - u) * arc.half_angle);
+    after = sin(u * arc.half_angle);
+  }
+  const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
+  const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
+  return nsvcd__placement_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
+}
+
+static double nsvcd__mover_next(const void *motion, double t) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+}
+
+// A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
+// and leaves its chord by an eighth of it: along n that is h^2 / 8 (n x a).(a x y).
+static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, double t1) {
+  const nsvcd_mover *mover = (const nsvcd_mover *)motion;
+  nsvcd_deviation out;
+  memset(&out, 0, sizeof out);
+  if (mover->count == 1) return out;
+  const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
+  const nsvcd_pose *a = &mover->poses[k];
+  const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
+  const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
+  const double h = 2 * arc.half_angle * (t1 - t0) / whole;
+  const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
+  const nsvcd__d3 axis =
+      nsvcd__d3_unit(nsvcd__dquat_axis(nsvcd__dquat_inverse_mul(arc.from, arc.to)), none);
+  memcpy(out.axis, &axis, sizeof out.axis);
+  if (nsvcd__d3_length(axis) > 0)
+    out.turn = 0.1250001 * h * h;
+  else
+    out.per_metre = 0.1250001 * h * h;
+  return out;
+}
+
+// The model of a mover, which is copied to *meant, with the defaults filled in.
+static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant,
+                                    nsvcd_motion_model *model) {
+  const float scale = nsvcd__scale_of(mover);
+  *meant = *mover;
+  if (!nsvcd__is_finite(mover->scale) || mover->scale < 0) return NSVCD_ERROR_SCALE;
+  if (scale < NSVCD_MIN_SCALE || scale > NSVCD_MAX_SCALE) return NSVCD_ERROR_SCALE;
+  const nsvcd_result result = nsvcd__track_check(mover);
+  if (result) return result;
+  if (!mover->poses) {
+    meant->poses = &nsvcd__at_origin;
+    meant->count = 1;
+  }
+  if (meant->count == 1) meant->times = NULL;
+  model->scale = (double)scale;
+  model->place = nsvcd__mover_place;
+  model->next = nsvcd__mover_next;
+  model->deviation = nsvcd__mover_deviation;
+  model->motion = meant;
+  model->reach = 0;
+  for (size_t k = 0; k < meant->count; k++) {
+    const nsvcd__d3 at = nsvcd__d3_load(meant->poses[k].position);
+    model->reach = nsvcd__max(model->reach, fabs(at.x) + fabs(at.y) + fabs(at.z));
+  }
+  model->digest = nsvcd__digest((uint32_t)meant->count, meant->poses, 7 * meant->count);
+  model->digest = nsvcd__digest(model->digest, &scale, 1);
+  if (meant->times) model->digest = nsvcd__digest(model->digest, meant->times, meant->count);
+  return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------ certificate/planes
+// In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
+// that takes a few bits; or none.
+
+// What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
+#define NSVCD__CERTIFIED_MARGIN 1.01e-10
+// triangles: of nodes of so many the corners count, of larger ones the boxes
+#define NSVCD__EXACT 24
+#define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
+#define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
+// of both lengths: nodes that come as near are opened, not parted
+#define NSVCD__NORMAL_GIVE_UP 1e-3
+
+// A time, where both bodies are then, and by how much points leave their chords to the next one.
+typedef struct nsvcd__instant {
+  double t;
+  nsvcd__posed a, b;
+  double lengths;  // of both places, and what they are reckoned from
+  nsvcd_deviation off_a, off_b;
+} nsvcd__instant;
+
+// A stretch of time: both ends, and all knots between.
+typedef struct nsvcd__stretch {
+  const nsvcd__rider *a, *b;
+  double clearance;
+  nsvcd__instant *instants;  // (capacity)
+  size_t count, capacity;
+  double t0, t1;
+  // half way; its time is -1 before it is needed
+  nsvcd__instant middle;
+} nsvcd__stretch;
+
+// A node of each tree. No point of them is farther from its body's origin than the radii say.
+typedef struct nsvcd__nodes {
+  nsvcd__node a, b;
+  double radius_a, radius_b;
+} nsvcd__nodes;
+
+// A direction as it is written: two whole numbers.
+typedef struct nsvcd__written_normal {
+  nsvcd__d3 along;
+  uint32_t x, y;
+  int bits;  // of each number: 8, 16 or 24
+} nsvcd__written_normal;
+
+static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
+  return fabs(a->at.x) + fabs(a->at.y) + fabs(a->at.z) + fabs(b->at.x) + fabs(b->at.y) +
+         fabs(b->at.z);
+}
+
+static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
+                                        double t) {
+  nsvcd__instant at;
+  memset(&at, 0, sizeof at);
+  at.t = t;
+  at.a = nsvcd__posed_at(a, t);
+  at.b = nsvcd__posed_at(b, t);
+  at.lengths = a->model.reach + b->model.reach + nsvcd__lengths_at(&at.a, &at.b);
+  return at;
+}
+
+// Returns 0 where there are more keyframes than there is room for.
+static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return 1;
+  const nsvcd_motion_model *a = &s->a->model;
+  const nsvcd_motion_model *b = &s->b->model;
+  double t = t0;
+  s->t0 = t0;
+  s->t1 = t1;
+  s->middle.t = -1;
+  for (s->count = 0; s->count < s->capacity;) {
+    nsvcd__instant *at = &s->instants[s->count++];
+    *at = nsvcd__instant_at(s->a, s->b, t);
+    if (!(t < t1)) return 1;
+    t = nsvcd__min(a->next(a->motion, t), b->next(b->motion, t));
+    t = nsvcd__min(t, t1);
+    at->off_a = a->deviation(a->motion, at->t, t);
+    at->off_b = b->deviation(b->motion, at->t, t);
+  }
+  return 0;
+}
+
+// The instant half way.
+static const nsvcd__instant *nsvcd__stretch_middle(nsvcd__stretch *s) {
+  if (s->middle.t < 0) s->middle = nsvcd__instant_at(s->a, s->b, 0.5 * (s->t0 + s->t1));
+  return &s->middle;
+}
+
+// ---- nodes
+
+// The corner of a node's box, or of its few triangles, that is farthest along a direction in its
+// frame.
+static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node,
+                                 nsvcd__d3 way) {
+  if (node->count > NSVCD__EXACT) {
+    const nsvcd__box *box = &tree->boxes[node->box];
+    return nsvcd__d3_of((double)(way.x > 0 ? box->high.x : box->low.x),
+                        (double)(way.y > 0 ? box->high.y : box->low.y),
+                        (double)(way.z > 0 ? box->high.z : box->low.z));
+  }
+  const float *corners = tree->corners + 9 * (size_t)node->first;
+  double most = -HUGE_VAL;
+  size_t farthest = 0;
+  for (size_t i = 0; i < 3 * (size_t)node->count; i++) {
+    const double along = nsvcd__d3_dot(nsvcd__d3_row(corners, i), way);
+    farthest = along > most ? i : farthest;
+    most = along > most ? along : most;
+  }
+  return nsvcd__d3_row(corners, farthest);
+}
+
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
+                                  nsvcd__d3 x) {
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->model.scale);
+}
+
+// Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
+static nsvcd__d3 nsvcd__least_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, back);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 a = nsvcd__farthest(s->a->tree, &nodes->a, way_a);
+  const nsvcd__d3 b = nsvcd__farthest(s->b->tree, &nodes->b, way_b);
+  const nsvcd__d3 turned =
+      nsvcd__d3_sub(nsvcd__turned_by(s->a, &at->a, a), nsvcd__turned_by(s->b, &at->b, b));
+  return nsvcd__d3_add(turned, nsvcd__d3_sub(at->a.at, at->b.at));
+}
+
+// How far along a direction, in its frame, a node reaches. Three corners at a time: a maximum waits
+// for the one before.
+static double nsvcd__most_along(const nsvcd_tree *tree, const nsvcd__node *node,
+                                nsvcd__d3 way) {
+  if (node->count > NSVCD__EXACT) return nsvcd__d3_dot(nsvcd__farthest(tree, node, way), way);
+  const float *corners = tree->corners + 9 * (size_t)node->first;
+  double most[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < node->count; i++) {
+    for (size_t k = 0; k < 3; k++)
+      most[k] = nsvcd__max(nsvcd__d3_dot(nsvcd__d3_row(corners, 3 * i + k), way), most[k]);
+  }
+  return nsvcd__max(most[0], nsvcd__max(most[1], most[2]));
+}
+
+// How far that difference goes.
+static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                               const nsvcd__instant *at, nsvcd__d3 along) {
+  const nsvcd__d3 way_a = nsvcd__dmat3_apply_transpose(&at->a.turn, along);
+  const nsvcd__d3 way_b = nsvcd__dmat3_apply_transpose(&at->b.turn, along);
+  const nsvcd__d3 back = nsvcd__d3_scale(way_a, -1);
+  const double a = s->a->model.scale * nsvcd__most_along(s->a->tree, &nodes->a, back);
+  const double b = s->b->model.scale * nsvcd__most_along(s->b->tree, &nodes->b, way_b);
+  return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
+}
+
+static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
+  return 1.000002 * rider->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+}
+
+// No point of a node is farther from the line through its body's origin along a unit axis.
+static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *node,
+                                nsvcd__d3 axis) {
+  const float *corners = rider->tree->corners + 9 * (size_t)node->first;
+  double square = 0;
+  if (node->count > NSVCD__EXACT) {
+    const nsvcd__box *box = &rider->tree->boxes[node->box];
+    const nsvcd__d3 low = nsvcd__d3_widen(box->low);
+    const nsvcd__d3 high = nsvcd__d3_widen(box->high);
+    const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+    const nsvcd__d3 a = nsvcd__d3_of(fabs(axis.x), fabs(axis.y), fabs(axis.z));
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_mix(low, high, 0.5), axis);
+    const double x = fabs(off.x) + half.y * a.z + half.z * a.y;
+    const double y = fabs(off.y) + half.z * a.x + half.x * a.z;
+    const double z = fabs(off.z) + half.x * a.y + half.y * a.x;
+    square = x * x + y * y + z * z;
+  }
+  for (size_t i = 0; i < 3 * (size_t)node->count && node->count <= NSVCD__EXACT; i++) {
+    const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
+    square = nsvcd__max(square, nsvcd__d3_dot(off, off));
+  }
+  return 1.000002 * rider->model.scale * sqrt(square);
+}
+
+// By how much the points of a node, at r metres at most, leave their chords along a normal.
+static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
+                                 const nsvcd__posed *at, const nsvcd_deviation *off,
+                                 nsvcd__d3 along) {
+  double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
+  if (off->turn > 0) {
+    const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
+    const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
+    const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
+    leaves += off->turn * across * nsvcd__node_aside(rider, node, own);
+  }
+  return leaves;
+}
+
+// Does a plane of this normal part two nodes, at all instants and between them?
+static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                    nsvcd__d3 along) {
+  const double length = nsvcd__d3_length(along);
+  const double ra = nodes->radius_a;
+  const double rb = nodes->radius_b;
+  double last = HUGE_VAL;
+  double last_lengths = 0;
+  double leaves = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const double lengths = ra + rb + s->clearance + at->lengths;
+    const double gap = nsvcd__gap_along(s, nodes, at, along);
+    const double margin = NSVCD__CERTIFIED_MARGIN * nsvcd__max(lengths, last_lengths);
+    const double most = length * (s->clearance + margin) + leaves;
+    if (!(gap > most && last > most)) return 0;
+    last = gap;
+    last_lengths = lengths;
+    leaves = nsvcd__node_leaves(s->a, &nodes->a, ra, &at->a, &at->off_a, along);
+    leaves += nsvcd__node_leaves(s->b, &nodes->b, rb, &at->b, &at->off_b, along);
+  }
+  return 1;
+}
+
+// ---- normals
+
+static double nsvcd__signed(double magnitude, double sign) {
+  return sign < 0 ? -magnitude : magnitude;
+}
+
+// A point of the octahedron |x| + |y| + |z| = half, seen from above, its lower half folded
+// outwards.
+static nsvcd__written_normal nsvcd__normal_of(nsvcd__d3 along, int bits) {
+  const double half = (double)((1 << (bits - 1)) - 1);
+  const double sum = fabs(along.x) + fabs(along.y) + fabs(along.z);
+  const double x = along.x * (half / sum);
+  const double y = along.y * (half / sum);
+  const int below = along.z < 0;
+  nsvcd__written_normal out;
+  out.bits = bits;
+  const double u = floor((below ? nsvcd__signed(half - fabs(y), x) : x) + 0.5);
+  const double v = floor((below ? nsvcd__signed(half - fabs(x), y) : y) + 0.5);
+  const double z = half - fabs(u) - fabs(v);
+  out.x = (uint32_t)(u + half);
+  out.y = (uint32_t)(v + half);
+  out.along.x = z < 0 ? nsvcd__signed(half - fabs(v), u) : u;
+  out.along.y = z < 0 ? nsvcd__signed(half - fabs(u), v) : v;
+  out.along.z = z;
+  return out;
+}
+
+// The best direction so far, and how far apart it shows two nodes half way; less than 0: not at
+// all.
+typedef struct nsvcd__best {
+  nsvcd__d3 along;
+  double gap;
+} nsvcd__best;
+
+// Gilbert's iteration towards the point of a - b that is nearest to the origin.
+static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                  const nsvcd__instant *at, nsvcd__d3 along) {
+  nsvcd__best best = {along, -HUGE_VAL};
+  nsvcd__d3 v = nsvcd__least_apart(s, nodes, at, along);
+  const double size = nsvcd__d3_length(v);
+  for (int step = 0; step < NSVCD__NORMAL_STEPS; step++) {
+    const double length = nsvcd__d3_length(v);
+    if (!(length > NSVCD__NORMAL_GIVE_UP * size)) break;
+    const nsvcd__d3 w = nsvcd__least_apart(s, nodes, at, v);
+    const double gap = nsvcd__d3_dot(v, w) / length;
+    if (gap > best.gap) {
+      best.along = v;
+      best.gap = gap;
+    }
+    if (gap - s->clearance > NSVCD__NORMAL_ENOUGH * (length - s->clearance)) break;
+    const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
+    const double square = nsvcd__d3_dot(step_to, step_to);
+    if (!(square > 0)) break;
+    const double share = -nsvcd__d3_dot(v, step_to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(share, 1)), step_to, v);
+  }
+  return best;
+}
+
+// A leaf's triangle in the world, as seen from the origin of b.
+static void nsvcd__leaf_corners(const nsvcd__rider *rider, const nsvcd__node *node,
+                                const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
+  const float *x = rider->tree->corners + 9 * (size_t)node->first;
+  for (size_t k = 0; k < 3; k++)
+    corners[k] = nsvcd__d3_add(nsvcd__turned_by(rider, at, nsvcd__d3_row(x, k)), offset);
+}
+
+// Looks for a plane that parts two nodes all the while.
+static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
+                              nsvcd__written_normal *normal) {
+  const nsvcd__instant *at = nsvcd__stretch_middle(s);
+  nsvcd__best best = {last, 0};
+  if (nodes->a.count == 1 && nodes->b.count == 1) {
+    nsvcd__d3 a[3], b[3];
+    nsvcd__leaf_corners(s->a, &nodes->a, &at->a, nsvcd__d3_sub(at->a.at, at->b.at), a);
+    nsvcd__leaf_corners(s->b, &nodes->b, &at->b, nsvcd__d3_of(0, 0, 0), b);
+    const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+    best.along = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
+    best.gap = sqrt(nearest.square);
+  } else {
+    best = nsvcd__gilbert(s, nodes, at, last);
+  }
+  if (!(best.gap > s->clearance)) return 0;
+  for (int bits = 8; bits <= 24; bits += 8) {
+    *normal = nsvcd__normal_of(best.along, bits);
+    if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
+  }
+  return 0;
+}
+
+// -------------------------------------------------------------------------------- certificate/rays
+// In: two bodies at one time. Out: what a ray from a corner of one crosses of the other; whether an
+// edge passes through a triangle.
+
+#define NSVCD__UNCLEAR 2
+
+// A vertex of one body in the frame of another, in units of that one's scale.
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                    uint32_t vertex) {
+  const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
+  const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
+  const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->model.scale);
+}
+
+// In that frame: no length is more, and no point is off by as much as the margin.
+typedef struct nsvcd__extent {
+  double lengths, margin;
+} nsvcd__extent;
+
+static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                        const nsvcd__rider *by, const nsvcd__posed *by_at) {
+  const nsvcd__node root = {0, 0, 1};
+  const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
+  const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
+  const double places = of->model.reach + by->model.reach + nsvcd__lengths_at(of_at, by_at);
+  nsvcd__extent out;
+  out.lengths = 1.000001 * (radii + apart) / by->model.scale;
+  out.margin = NSVCD__CERTIFIED_MARGIN * (out.lengths + places / by->model.scale);
+  return out;
+}
+
+// Does a ray leave (1) or enter (-1) through a triangle, or miss it (0)? UNCLEAR: by too little.
+static int nsvcd__ray_passes(const nsvcd_tree *tree, uint32_t triangle, nsvcd__d3 from,
+                             nsvcd__d3 along, const nsvcd__extent *e) {
+  const double length = nsvcd__d3_length(along);
+  const double rounding = 1e-4 * NSVCD__CERTIFIED_MARGIN * e->lengths * e->lengths;
+  nsvcd__d3 p[3], crosses[3];
+  int left = 0;
+  int right = 0;
+  for (uint32_t k = 0; k < 3; k++)
+    p[k] = nsvcd__d3_sub(nsvcd__d3_load(nsvcd__tree_corner(tree, triangle, k)), from);
+  const double ahead =
+      nsvcd__max(nsvcd__d3_dot(p[0], along),
+                 nsvcd__max(nsvcd__d3_dot(p[1], along), nsvcd__d3_dot(p[2], along)));
+  if (ahead < -1.01 * e->margin * length) return 0;
+  for (size_t k = 0; k < 3; k++) {
+    crosses[k] = nsvcd__d3_cross(p[k], p[(k + 1) % 3]);
+    const double edge = sqrt(nsvcd__d3_distance2(p[k], p[(k + 1) % 3]));
+    const double off =
+        length * (e->margin * edge + rounding) + 2 * e->margin * nsvcd__d3_length(crosses[k]);
+    left += nsvcd__d3_dot(along, crosses[k]) > off;
+    right += nsvcd__d3_dot(along, crosses[k]) < -off;
+  }
+  if (left > 0 && right > 0) return 0;
+  if (left < 3 && right < 3) return NSVCD__UNCLEAR;
+  const nsvcd__d3 normal = nsvcd__d3_add(crosses[0], nsvcd__d3_add(crosses[1], crosses[2]));
+  const double volume = nsvcd__d3_dot(p[2], crosses[0]);
+  const double off = e->margin * nsvcd__d3_length(normal) + rounding * e->lengths;
+  if (!(fabs(volume) > off)) return NSVCD__UNCLEAR;
+  if ((volume > 0) != (left > 0)) return 0;
+  return left > 0 ? 1 : -1;
+}
+
+// Does a ray miss a box for certain? Then there is an axis across it, and across one of the box's
+// sides, along which they are apart.
+static int nsvcd__ray_misses(const nsvcd__box *box, nsvcd__d3 from, nsvcd__d3 along,
+                             double margin) {
+  const nsvcd__d3 low = nsvcd__d3_sub(nsvcd__d3_widen(box->low), from);
+  const nsvcd__d3 high = nsvcd__d3_sub(nsvcd__d3_widen(box->high), from);
+  const nsvcd__d3 middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5);
+  const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
+  const nsvcd__d3 size = nsvcd__d3_of(fabs(along.x), fabs(along.y), fabs(along.z));
+  const nsvcd__d3 off = nsvcd__d3_cross(along, middle);
+  return fabs(off.x) > size.y * half.z + size.z * half.y + margin ||
+         fabs(off.y) > size.z * half.x + size.x * half.z + margin ||
+         fabs(off.z) > size.x * half.y + size.y * half.x + margin;
+}
+
+// Sums what a ray crosses, by parts of the tree: sums (vertices). Returns 0 where it is not clear.
+static int nsvcd__cast(const nsvcd_tree *tree, nsvcd__d3 from, nsvcd__d3 along,
+                       const nsvcd__extent *e, int32_t *sums) {
+  const double margin = e->margin * nsvcd__d3_length(along);
+  nsvcd__node stack[NSVCD__TREE_STACK] = {{0, 0, (uint32_t)tree->mesh.triangle_count}};
+  size_t height = 1;
+  memset(sums, 0, tree->mesh.vertex_count * sizeof *sums);
+  while (height > 0) {
+    const nsvcd__node node = stack[--height];
+    if (nsvcd__ray_misses(&tree->boxes[node.box], from, along, margin)) continue;
+    if (node.count > 1) {
+      nsvcd__children(&node, &stack[height], &stack[height + 1]);
+      height += 2;
+      continue;
+    }
+    const uint32_t triangle = tree->order[node.first];
+    const int crossed = nsvcd__ray_passes(tree, triangle, from, along, e);
+    if (crossed == NSVCD__UNCLEAR) return 0;
+    sums[tree->part[tree->mesh.indices[3 * (size_t)triangle]]] += crossed;
+  }
+  return 1;
+}
+
+// How often closed parts wind about where a ray begins.
+static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
+  int sum = 0;
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) sum += tree->open[v] ? 0 : sums[v];
+  return sum;
+}
+
+// ----------------------------------------------------------------------------- certificate/certify
+// In: a question and two trees. Out: a certificate, or none. The form of its bits:
+//
+//   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
+//             the clearance (16)
+//   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
+//             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
+//             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
+//             b, at t = 0: 1 along the last normal, or 0, and a normal
+//   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
+//             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
+//             normal
+//   a normal  the last eight are remembered: k zeros and a 1 are the one k + 1 before the last;
+//             seven zeros a new one: 0, two numbers of 8 bits; 10, two of 16; 11, two of 24
+
+#define NSVCD__WALK_STACK 128  // nodes that wait
+#define NSVCD__NO_EDGE 3u
+#define NSVCD__SHORTEST_STRETCH 1e-12
+#define NSVCD__REMEMBERED 8  // normals
+#define NSVCD__RAYS 64       // that are tried for a part
+// of the sum of both nodes' lengths: where they go farther the time is halved
+#define NSVCD__FAR_TO_GO 0.35
+
+enum { NSVCD__PROVES_FREE, NSVCD__PROVES_HIT, NSVCD__PROVES_NEAR, NSVCD__PROVES_INSIDE };
+
+typedef struct nsvcd__visit {
+  nsvcd__nodes nodes;
+  double t0, t1;
+} nsvcd__visit;
+
+typedef struct nsvcd__certifier {
+  nsvcd__rider a, b;
+  nsvcd__stretch stretch;
+  // the last ones, the last first
+  nsvcd__d3 normals[NSVCD__REMEMBERED];
+  uint8_t *bytes;
+  size_t capacity, bits;
+  uint32_t digest;  // of motions, scales and the clearance
+  int apart;        // 1: the roots have been parted
+  int32_t *sums;    // (vertices)
+  nsvcd_certificate *made;
+} nsvcd__certifier;
+
+// ---- writing
+
+static void nsvcd__write_bits(nsvcd__certifier *c, uint32_t value, int count) {
+  while (count-- > 0) {
+    const size_t at = c->bits / 8;
+    if (at < c->capacity && c->bits % 8 == 0) c->bytes[at] = 0;
+    if (at < c->capacity && (value >> count & 1))
+      c->bytes[at] = (uint8_t)(c->bytes[at] | 0x80u >> c->bits % 8);
+    c->bits++;
+  }
+}
+
+// The normal that is remembered at place k > 0, or, where k is REMEMBERED, a new one. It becomes
+// the last.
+static void nsvcd__write_normal(nsvcd__certifier *c, size_t k,
+                                const nsvcd__written_normal *normal) {
+  const int known = k < NSVCD__REMEMBERED;
+  const nsvcd__d3 along = known ? c->normals[k] : normal->along;
+  nsvcd__write_bits(c, (uint32_t)known, (int)(known ? k : k - 1));
+  if (!known) {
+    const uint32_t bytes = (uint32_t)normal->bits / 8;
+    nsvcd__write_bits(c, bytes > 1 ? bytes : 0, bytes > 1 ? 2 : 1);
+    nsvcd__write_bits(c, normal->x, normal->bits);
+    nsvcd__write_bits(c, normal->y, normal->bits);
+    k--;
+  }
+  for (; k > 0; k--) c->normals[k] = c->normals[k - 1];
+  c->normals[0] = along;
+}
+
+static void nsvcd__write_head(nsvcd__certifier *c, uint32_t kind) {
+  const uint32_t digests[3] = {c->a.tree->digest, c->b.tree->digest, c->digest};
+  c->bits = 0;
+  memset(c->normals, 0, sizeof c->normals);  // a reader begins with none
+  nsvcd__write_bits(c, 1, 6);
+  nsvcd__write_bits(c, kind, 2);
+  for (size_t k = 0; k < 3; k++) {
+    const uint32_t half = digests[k] ^ digests[k] >> 16;
+    nsvcd__write_bits(c, k < 2 ? (half ^ half >> 8) & 0xff : half & 0xffff, k < 2 ? 8 : 16);
+  }
+}
+
+// A time as it is written: the nearest.
+static uint32_t nsvcd__time_code(double t) {
+  return (uint32_t)(nsvcd__max(0, nsvcd__min(t, 1)) * 4294967295.0 + 0.5);
+}
+static double nsvcd__coded_time(uint32_t code) {
+  return (double)code / 4294967295.0;
+}
+
+// ---- what meets
+
+// A triangle's corner k in another body's frame.
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                    uint32_t triangle, uint32_t k) {
+  const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
+  return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
+}
+
+// Does an edge of a triangle of one pass through one of the other? Which.
+static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
+                                     const nsvcd__rider *by, const nsvcd__posed *by_at,
+                                     uint32_t own, uint32_t other) {
+  const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
+  for (uint32_t k = 0; k < 3; k++) {
+    const nsvcd__d3 from = nsvcd__corner_seen(of, of_at, by, by_at, own, k);
+    const nsvcd__d3 to = nsvcd__corner_seen(of, of_at, by, by_at, own, (k + 1) % 3);
+    const nsvcd__d3 along = nsvcd__d3_sub(to, from);
+    const int there = nsvcd__ray_passes(by->tree, other, from, along, &e);
+    if (there != 1 && there != -1) continue;
+    const nsvcd__d3 back = nsvcd__d3_scale(along, -1);
+    if (nsvcd__ray_passes(by->tree, other, to, back, &e) == -there) return k;
+  }
+  return NSVCD__NO_EDGE;
+}
+
+// A point of a triangle as it is written: shares of the way from the first corner to the second,
+// and from there to the third. Returns the point that is read.
+static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *code) {
+  const nsvcd__d3 n = nsvcd__face_normal(t);
+  const nsvcd__d3 off = nsvcd__d3_sub(x, t[0]);
+  const nsvcd__d3 first = nsvcd__d3_sub(t[1], t[0]);
+  const nsvcd__d3 second = nsvcd__d3_sub(t[2], t[1]);
+  const double square = nsvcd__d3_dot(n, n);
+  // off = v (first + w second)
+  const double vw = nsvcd__d3_dot(n, nsvcd__d3_cross(first, off)) / square;
+  const double v =
+      vw + nsvcd__d3_dot(n, nsvcd__d3_cross(off, nsvcd__d3_sub(t[2], t[0]))) / square;
+  const int has_area = square > 0 && v > 0;
+  code[0] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? v : 0) + 0.5);
+  code[1] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? vw / v : 0) + 0.5);
+  const nsvcd__d3 along = nsvcd__d3_fma((double)code[1] / 65535, second, first);
+  return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
+}
+
+// Are two triangles nearer to each other than the clearance? At points that are written.
+static int nsvcd__near_at(const nsvcd__certifier *c, const nsvcd__instant *at, uint32_t ta,
+                          uint32_t tb, uint32_t *codes) {
+  nsvcd__d3 a[3], b[3];
+  const nsvcd__extent e = nsvcd__extent_seen(&c->a, &at->a, &c->b, &at->b);
+  for (uint32_t k = 0; k < 3; k++) {
+    a[k] = nsvcd__corner_seen(&c->a, &at->a, &c->b, &at->b, ta, k);
+    b[k] = nsvcd__corner_seen(&c->b, &at->b, &c->b, &at->b, tb, k);
+  }
+  const nsvcd__nearest nearest = nsvcd__nearest_of(a, b);
+  const nsvcd__d3 on_a = nsvcd__point_code(a, nearest.on_a, codes);
+  const nsvcd__d3 on_b = nsvcd__point_code(b, nearest.on_b, codes + 2);
+  const double distance = sqrt(nsvcd__d3_distance2(on_a, on_b)) + e.margin;
+  return c->b.model.scale * distance < c->stretch.clearance;
+}
+
+// Do two triangles meet at a time, or come within the clearance? Then it writes the certificate.
+static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_t tb) {
+  const uint32_t code = nsvcd__time_code(when);
+  const double t = nsvcd__coded_time(code);
+  const nsvcd__instant at = nsvcd__instant_at(&c->a, &c->b, t);
+  uint32_t points[4];
+  uint32_t whose = 0;
+  uint32_t edge = nsvcd__piercing_edge(&c->a, &at.a, &c->b, &at.b, ta, tb);
+  if (edge == NSVCD__NO_EDGE) {
+    whose = 1;
+    edge = nsvcd__piercing_edge(&c->b, &at.b, &c->a, &at.a, tb, ta);
+  }
+  const int pierced = edge != NSVCD__NO_EDGE;
+  if (!pierced && !(c->stretch.clearance > 0 && nsvcd__near_at(c, &at, ta, tb, points)))
+    return 0;
+  nsvcd__write_head(c, pierced ? NSVCD__PROVES_HIT : NSVCD__PROVES_NEAR);
+  nsvcd__write_bits(c, code, 32);
+  nsvcd__write_bits(c, ta, 32);
+  nsvcd__write_bits(c, tb, 32);
+  if (pierced) {
+    nsvcd__write_bits(c, whose, 1);
+    nsvcd__write_bits(c, edge, 2);
+  }
+  for (size_t k = 0; k < 4 && !pierced; k++) nsvcd__write_bits(c, points[k], 16);
+  c->made->verdict = NSVCD_HIT;
+  c->made->time = t;
+  return 1;
+}
+
+// ---- the walk
+
+// The longest side of a node's box.
+static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
+  return nsvcd__stored(rider->model.scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+}
+
+static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
+                                    const nsvcd__posed *at) {
+  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
+  return nsvcd__turned_by(rider, at, nsvcd__d3_scale(sum, 0.5));
+}
+
+// The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
+static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *nodes) {
+  double way = 0;
+  nsvcd__d3 last = nsvcd__d3_of(0, 0, 0);
+  for (size_t i = 0; i < s->count; i++) {
+    const nsvcd__instant *at = &s->instants[i];
+    const nsvcd__d3 a = nsvcd__node_middle(s->a, &nodes->a, &at->a);
+    const nsvcd__d3 b = nsvcd__node_middle(s->b, &nodes->b, &at->b);
+    const nsvcd__d3 offset = nsvcd__d3_sub(at->a.at, at->b.at);
+    const nsvcd__d3 now = nsvcd__d3_add(nsvcd__d3_sub(a, b), offset);
+    if (i > 0) way += sqrt(nsvcd__d3_distance2(now, last));
+    last = now;
+  }
+  return way;
+}
+
+// Puts two visits in place of one: of the children of the node whose box is longer, or of both
+// halves of the time. The one that comes first is the later one on the stack.
+static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
+  nsvcd__nodes *nodes = &v->nodes;
+  const double side_a = nsvcd__node_side(&c->a, &nodes->a);
+  const double side_b = nsvcd__node_side(&c->b, &nodes->b);
+  const int leaves = nodes->a.count == 1 && nodes->b.count == 1;
+  const int halves =
+      leaves || nsvcd__way_apart(&c->stretch, nodes) > NSVCD__FAR_TO_GO * (side_a + side_b);
+  v[1] = *v;
+  nsvcd__write_bits(c, halves ? 4 : 0, halves ? 3 : 1);
+  if (halves) {
+    v[1].t1 = v->t0 = 0.5 * (v->t0 + v->t1);
+    return v->t1 - v[1].t0 >= NSVCD__SHORTEST_STRETCH;
+  }
+  if (nodes->b.count == 1 || (nodes->a.count > 1 && side_a >= side_b))
+    nsvcd__children(&nodes->a, &v[1].nodes.a, &nodes->a);
+  else
+    nsvcd__children(&nodes->b, &v[1].nodes.b, &nodes->b);
+  return 1;
+}
+
+// FREE, HIT, or UNDECIDED.
+static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
+  nsvcd__visit stack[NSVCD__WALK_STACK];
+  size_t height = 1;
+  int in_doubt = 0;
+  memset(stack, 0, sizeof *stack);
+  stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
+  stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
+  stack->t1 = 1;
+  nsvcd__write_head(c, NSVCD__PROVES_FREE);
+  while (height > 0) {
+    nsvcd__visit *v = &stack[height - 1];
+    nsvcd__nodes *nodes = &v->nodes;
+    nodes->radius_a = nsvcd__node_radius(&c->a, &nodes->a);
+    nodes->radius_b = nsvcd__node_radius(&c->b, &nodes->b);
+    nsvcd__written_normal normal;
+    if (c->made->visits == visits) {
+      c->made->why = NSVCD_WHY_WORK;
+      return NSVCD_UNDECIDED;
+    }
+    c->made->visits++;
+    if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
+    size_t k = 0;
+    while (k < NSVCD__REMEMBERED &&
+           !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
+      k++;
+    if (k < NSVCD__REMEMBERED ||
+        nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
+      nsvcd__write_bits(c, k > 0 ? 5 : 3, k > 0 ? 3 : 2);
+      if (k > 0) nsvcd__write_normal(c, k, &normal);
+      if (nodes->a.box == 0 && nodes->b.box == 0) c->apart = 1;
+      height--;
+      continue;
+    }
+    if (nodes->a.count == 1 && nodes->b.count == 1) {
+      const uint32_t ta = c->a.tree->order[nodes->a.first];
+      const uint32_t tb = c->b.tree->order[nodes->b.first];
+      if (nsvcd__meet_at(c, 0.5 * (v->t0 + v->t1), ta, tb)) return NSVCD_HIT;
+    }
+    if (height == NSVCD__WALK_STACK) return NSVCD_UNDECIDED;
+    // they touch, or nearly so: no proof that they are free, but others may still meet
+    const int goes_on = nsvcd__divide_visit(c, v);
+    height += goes_on ? 1 : (size_t)-1;
+    in_doubt |= !goes_on;
+  }
+  return in_doubt ? NSVCD_UNDECIDED : NSVCD_FREE;
+}
+
+// ---- what is inside
+
+// A direction to try: along the axes, then anywhere.
+static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
+  nsvcd__d3 along = nsvcd__d3_of(0, 0, 0);
+  nsvcd__d3_set_axis(&along, k % 3, k < 3 ? 1 : -1);
+  // a little off, so that it does not run along faces that are parallel to an axis
+  along = nsvcd__d3_add(along, nsvcd__d3_of(0.05, 0.07, 0.11));
+  if (k >= 6) {
+    along.x = nsvcd__random(random) - 0.5;
+    along.y = nsvcd__random(random) - 0.5;
+    along.z = nsvcd__random(random) - 0.5;
+  }
+  return nsvcd__normal_of(along, 8);
+}
+
+// Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
+// one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
+static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
+  const nsvcd__rider *of = whose ? &c->b : &c->a;
+  const nsvcd__rider *by = whose ? &c->a : &c->b;
+  const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
+  const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
+  const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
+  uint64_t random = 1;
+  for (uint32_t v = 0; v < of->tree->mesh.vertex_count; v++) {
+    if (of->tree->part[v] != v) continue;
+    const nsvcd__d3 from = nsvcd__vertex_seen(of, &of_at, by, &by_at, v);
+    int shown = 0;
+    for (size_t k = 0; k <= NSVCD__RAYS && !shown; k++) {
+      const int same = k == 0;
+      const nsvcd__written_normal ray = nsvcd__ray_to_try(same ? 0 : k - 1, &random);
+      const nsvcd__d3 along = same ? c->normals[0] : ray.along;
+      if (!nsvcd__cast(by->tree, from, along, &e, c->sums)) continue;
+      const int sum = nsvcd__sum_of_closed(by->tree, c->sums);
+      shown = sum == 0;
+      if (shown) {
+        nsvcd__write_bits(c, (uint32_t)same, 1);
+        if (!same) nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+      } else if (!same && sum != 0) {
+        nsvcd__write_head(c, NSVCD__PROVES_INSIDE);
+        nsvcd__write_bits(c, nsvcd__time_code(0), 32);
+        nsvcd__write_bits(c, (uint32_t)whose, 1);
+        nsvcd__write_bits(c, v, 32);
+        nsvcd__write_normal(c, NSVCD__REMEMBERED, &ray);
+        c->made->inside = 1;
+        c->made->verdict = NSVCD_HIT;
+        return NSVCD_HIT;
+      }
+    }
+    if (!shown) return NSVCD_UNDECIDED;
+  }
+  return NSVCD_FREE;
+}
+
+// ---- what was answered
+
+// Looks for a meeting where an answer has one, and a little later: at that time they only touch.
+static int nsvcd__meet_as_told(nsvcd__certifier *c, const nsvcd_answer *answer) {
+  const nsvcd_contact *told = answer->contact_count > 0 ? answer->contacts : &answer->nearest;
+  const int named = told->triangle_a < c->a.tree->mesh.triangle_count &&
+                    told->triangle_b < c->b.tree->mesh.triangle_count;
+  if (answer->verdict != NSVCD_HIT) return 0;
+  for (int whose = 0; whose < 2 && answer->inside; whose++)
+    if (nsvcd__cast_all(c, whose) == NSVCD_HIT) return 1;
+  if (!named || !(told->time >= 0)) return 0;
+  if (nsvcd__meet_at(c, (double)told->time, told->triangle_a, told->triangle_b)) return 1;
+  for (double later = 1e-7; later < 1; later *= 2) {
+    for (int k = 0; k < 2; k++) {
+      const double when = (double)told->time + (k ? -later : later);
+      if (nsvcd__meet_at(c, when, told->triangle_a, told->triangle_b)) return 1;
+    }
+  }
+  return 0;
+}
+
+static int nsvcd__has_open(const nsvcd_tree *tree) {
+  for (size_t v = 0; v < tree->mesh.vertex_count; v++) {
+    if (tree->open[v]) return 1;
+  }
+  return 0;
+}
+
+// ---- nsvcd_certify
+
+// Lays the workspace out at base, or, where that is NULL, only counts. instants: all keyframes.
+static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
+                                        const nsvcd_tree *b, char *base, nsvcd__certifier *c) {
+  uint64_t used = 0;
+  const size_t vertices = a->mesh.vertex_count > b->mesh.vertex_count ? a->mesh.vertex_count
+                                                                      : b->mesh.vertex_count;
+  c->stretch.capacity = instants;
+  c->stretch.instants =
+      (nsvcd__instant *)nsvcd__take(base, &used, instants, sizeof(nsvcd__instant));
+  c->sums = (int32_t *)nsvcd__take(base, &used, vertices, sizeof *c->sums);
+  return used;
+}
+
+// Both riders are in c, and all else is 0.
+static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float clearance,
+                                   const nsvcd_certify_options *options, void *workspace,
+                                   size_t workspace_size, uint8_t *bytes, size_t capacity,
+                                   nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
+  nsvcd_certificate out;
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_CLEARANCE;
+  const uint64_t needed =
+      nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
+  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  c->stretch.a = &c->a;
+  c->stretch.b = &c->b;
+  c->stretch.clearance = (double)clearance;
+  c->bytes = bytes;
+  c->capacity = capacity;
+  c->digest = nsvcd__digest(c->a.model.digest + 31 * c->b.model.digest, &clearance, 1);
+  c->made = &out;
+  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
+    out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
+    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
+  }
+  // here what is not closed encloses nothing, and no flaw is mended
+  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  const int has_open = nsvcd__has_open(c->a.tree) || nsvcd__has_open(c->b.tree);
+  if (is_inside && has_open && out.verdict == NSVCD_FREE) {
+    out.verdict = NSVCD_UNDECIDED;
+    out.why = NSVCD_WHY_OPEN;
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
+  if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
+  *made = out;
+  return NSVCD_OK;
+}
+
+NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvcd_tree *a,
+                                                    const nsvcd_tree *b) {
+  nsvcd__certifier counted;
+  if (!a || !b || keyframes > SIZE_MAX / 1024) return 0;
+  const uint64_t size = nsvcd__certifier_layout(keyframes + 2, a, b, NULL, &counted);
+  return size > SIZE_MAX ? 0 : (size_t)size;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
+                                           float clearance, const nsvcd_tree *a,
+                                           const nsvcd_tree *b,
+                                           const nsvcd_certify_options *options,
+                                           void *workspace, size_t workspace_size,
+                                           uint8_t *bytes, size_t capacity,
+                                           nsvcd_certificate *made) {
+  nsvcd__certifier c;
+  const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
+  if (!models || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
+  if (needed == 0 || workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
+  memset(&c, 0, sizeof c);
+  c.a.tree = a;
+  c.b.tree = b;
+  c.a.model = models[0];
+  c.b.model = models[1];
+  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size, bytes,
+                        capacity, made);
+}
+
+static size_t nsvcd__keyframes_of(const nsvcd_question *question) {
+  return nsvcd__pose_count(&question->a) + nsvcd__pose_count(&question->b);
+}
+
+NSVCDDEF size_t nsvcd_certify_workspace_size(const nsvcd_question *question,
+                                             const nsvcd_tree *a, const nsvcd_tree *b) {
+  if (!question || nsvcd__track_check(&question->a) || nsvcd__track_check(&question->b))
+    return 0;
+  return nsvcd_certify_models_workspace_size(nsvcd__keyframes_of(question), a, b);
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify(const nsvcd_question *question, const nsvcd_tree *a,
+                                    const nsvcd_tree *b, const nsvcd_certify_options *options,
+                                    void *workspace, size_t workspace_size, uint8_t *bytes,
+                                    size_t capacity, nsvcd_certificate *made) {
+  nsvcd_mover movers[2];
+  nsvcd_motion_model models[2];
+  if (!question || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
+  nsvcd_result result = nsvcd__model_of(&question->a, &movers[0], &models[0]);
+  if (!result) result = nsvcd__model_of(&question->b, &movers[1], &models[1]);
+  if (result) return result;
+  if (!(question->skin <= 0 && question->skin >= 0)) return NSVCD_ERROR_SKIN;
+  return nsvcd_certify_models(models, nsvcd__keyframes_of(question), question->clearance, a, b,
+                              options, workspace, workspace_size, bytes, capacity, made);
+}
+
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#endif  // NEURALSVCD_CERTIFY_IMPLEMENTATION
+
+// Licence: LICENSE, or the end of neuralsvcd.h.

@@ -1,0 +1,3932 @@
+// neuralsvcd_robot.h - v0.3.0 - does a robot, moved by its joints, hit anything?
+// SPDX-License-Identifier: MIT
+//
+// nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
+// one; nsvcd_gaps tells what is near a configuration. On top of neuralsvcd.h, of which it uses what
+// any program can. In ONE C or C++ file:
+//
+//   #define NEURALSVCD_ROBOT_IMPLEMENTATION
+//   #include "extras/neuralsvcd_robot.h"
+//
+// Where neuralsvcd_certify.h is included before it, there is nsvcd_certify_pair too.
+//
+// CONTENTS: a room's name ends a line of dashes. Each uses only those above it.
+//   interface: what a program sees
+//     robots          joints, parts, checks of motions; nsvcd_check
+//     postures        one configuration: what is near, a way out; nsvcd_gaps
+//     routes          a start and goals; nsvcd_route
+//   ground: numbers and memory
+//     compiler        what is asked of the compiler; libc and libm
+//     angles          sines and angles, by libm or computed here
+//     bits            bits, sizes, digests
+//     valid           is what a caller hands over in order?
+//     points          vectors of three, of floats and of doubles
+//     rotations       quaternions and matrices, of floats and of doubles
+//     random          random numbers
+//     memory          the allocator; the rows of a workspace
+//   robot: is a motion of joints free?
+//     chain           what moves what; where everything is
+//     steps           what the joints do between two times
+//     stray           by how much a part leaves the line and the slerp between two samples
+//     path            pieces, pair by pair
+//     proofs          certificates of pairs
+//     trees           configurations, and the nearest of them
+//     postures        one configuration: gaps and their slopes, a way out, who can meet
+//     ramps           from one state to another, within limits of speed and acceleration
+//     smooth          a way in time, then smooth
+//     route           two trees of proven edges, shortcuts
+//
+// GLOSSARY
+//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
+//   step, sample      of a piece, between two samples; a configuration in which parts are placed
+//   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   lever             how far a point of a part can be from a joint's axis
+#ifndef NEURALSVCD_ROBOT_H
+#define NEURALSVCD_ROBOT_H
+#ifndef NEURALSVCD_H  // include it first where it stands elsewhere
+#include "../neuralsvcd.h"
+#endif
+#ifdef NSVCD_NO_PROOF
+#error "neuralsvcd_robot.h: proofs are all it does, and NSVCD_NO_PROOF leaves them out"
+#endif
+
+// ================================================================== interface: what a program sees
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// -------------------------------------------------------------------------------- interface/robots
+// In: a robot among obstacles, and a motion of its joints. Out: is it free, as the joints make it?
+//
+// Between two samples of a joint motion a link leaves the line and the slerp that nsvcd_sweep is
+// about. By how much, at most, follows from the joints (robot/stray): with that as clearance the
+// sweep proves the joints' own motion, at all times.
+
+// of a piece of a motion
+#define NSVCD_MAX_DEGREE 5
+#define NSVCD_MAX_PARTS 65536
+
+typedef enum nsvcd_joint_kind {
+  NSVCD_JOINT_REVOLUTE = 0,  // turns about its axis, within limits
+  NSVCD_JOINT_CONTINUOUS,    // turns without limits
+  NSVCD_JOINT_PRISMATIC      // slides along its axis, within limits
+} nsvcd_joint_kind;
+
+// Joint i carries link i + 1. Link 0 is the world.
+typedef struct nsvcd_joint {
+  nsvcd_joint_kind kind;
+  // the link that the joint is on, i at most
+  uint32_t parent;
+  // of the joint's frame, in that link
+  nsvcd_pose origin;
+  // in its frame; any length but 0
+  float axis[3];
+  // radians or metres; not read of CONTINUOUS
+  double low, high;
+  // radians or metres, per s and per s^2: what a route keeps to, and nothing else reads; 0: 1
+  double speed, acceleration;
+} nsvcd_joint;
+
+// A body on a link. What is on link 0 rests.
+typedef struct nsvcd_part {
+  const nsvcd_body *body;
+  uint32_t link;
+  // in its link
+  nsvcd_pose pose;
+  // NSVCD_MIN_SCALE..NSVCD_MAX_SCALE; 0: 1
+  float scale;
+} nsvcd_part;
+
+// Who moves how, and who can meet whom. Nothing else is looked at.
+typedef struct nsvcd_scene {
+  // (F), up to NSVCD_MAX_JOINTS
+  const nsvcd_joint *joints;
+  size_t joint_count;
+  // (B), up to NSVCD_MAX_PARTS
+  const nsvcd_part *parts;
+  size_t part_count;
+  // (P) of parts; on links that differ
+  const nsvcd_body_pair *pairs;
+  size_t pair_count;
+} nsvcd_scene;
+
+// A motion of the joints: pieces one after another, each a Bezier curve of this degree in time,
+// which begins where the one before ends. A polyline has degree 1. Where there are no pieces it is
+// one configuration, at which the robot rests.
+typedef struct nsvcd_joint_motion {
+  size_t pieces;
+  // 1..NSVCD_MAX_DEGREE
+  size_t degree;
+  // (pieces degree + 1, F), radians or metres
+  const double *points;
+  // (pieces + 1), seconds, rising; NULL: each piece takes one. Without jumps of speed a motion is
+  // asked about in fewer sweeps
+  const double *times;
+} nsvcd_joint_motion;
+
+// The joints at a time of a motion.
+//   motion     not NULL, as nsvcd_check takes it
+//   joints     F
+//   time       seconds, as motion->times has them; taken into the motion
+//   out        (F), not NULL
+NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
+                              double *out);
+
+// What is zero is the default.
+typedef struct nsvcd_check_options {
+  // metres: to come as near as this is a hit
+  float clearance;
+  // metres: no sample is put where a link leaves its sweep by less than this; 10 um
+  float finest;
+  // units that the proof of a pair in a piece may take; NSVCD_DEFAULT_WORK
+  size_t work;
+  // asked before each question about a pair; not 0 ends the check, UNDECIDED for want of work. May
+  // be NULL
+  int (*stop)(void *user);
+  void *user;
+} nsvcd_check_options;
+
+typedef struct nsvcd_check_answer {
+  // FREE: at no time of the motion do two parts of a pair come within the clearance. HIT: two do,
+  // or one is inside of the other, in the configuration that is named
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // of the scene's pairs, and where in the motion: of a HIT, which need not be the motion's first,
+  // or of what is UNDECIDED. NSVCD_NONE where there is none
+  size_t pair, piece;
+  // of the piece, in [0,1]
+  double share;
+  // of a HIT, as nsvcd_answer.nearest has it; its time is 0
+  nsvcd_contact contact;
+  // a joint that leaves its limits somewhere, NSVCD_NONE: none does
+  size_t joint;
+  // configurations that links were placed at, and questions asked
+  size_t placed, sweeps;
+} nsvcd_check_answer;
+
+// A scene that has been looked at, in the caller's memory.
+typedef struct nsvcd_checker nsvcd_checker;
+
+// Bytes that nsvcd_checker_open needs; 0 if the scene is refused.
+NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene);
+
+// Makes a checker of a scene: what moves what, and how far points of a part can be from each axis.
+//   scene      not NULL; it and all that it points to stays as it is as long as the checker is used
+//   memory     (size) bytes, nsvcd_checker_size(scene) or more, not NULL, aligned to
+//              NSVCD_ALIGNMENT
+//   checker    not NULL; left as it was on failure
+//   allocates  nothing
+//   threads    each with a checker of its own
+//   errors     ARGUMENT (NULL), COUNT, of joints JOINT, AXIS, LIMITS, SPEED, of parts BODY,
+//              VERSION, TRIANGLES, LINK, SCALE, of both POSE, QUATERNION, PAIR (or of what never
+//              moves apart), WORKSPACE
+NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
+                                         nsvcd_checker **checker);
+
+// Where the parts are, for a picture, say: poses in the world are rounded to float, which far from
+// its origin is more than what nsvcd_check answers to.
+//   joints     (F), radians or metres; not looked at: NaN gives poses that are none
+//   poses      (B), in the world
+NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
+                                  nsvcd_pose *poses);
+
+// Is a motion free?
+//   checker    not NULL; where things are hit is remembered: it is asked there first
+//   motion     not NULL
+//   options    NULL: the defaults
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, DEGREE, VALUE (points not finite or beyond NSVCD_MAX_COORDINATE), TIMES,
+//              CLEARANCE, FINEST
+//   source     this library: robot/stray; slerps and lines against joints, by second derivatives
+//
+// What FREE says holds for the joints' own motion, with all joint values and frames exact, and
+// bodies as nsvcd_sweep says. A HIT is one of the configuration named, to what a pose in float is
+// off: 1e-7 of the distance between the two parts' origins and of the
+// bodies' extents. How far the robot stands from the world's origin does not matter, as each pair
+// is asked about in the frame of one of its parts.
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer);
+
+#ifdef NEURALSVCD_CERTIFY_H
+// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// the mesh that has more.
+NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
+                                                  const nsvcd_tree *a, const nsvcd_tree *b);
+
+// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
+// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
+//   checker    not NULL
+//   motion     not NULL, as nsvcd_check takes it, of one piece or more
+//   pair       of the scene's pairs
+//   clearance  metres
+//   a, b       trees of the meshes of the pair's parts, not NULL
+//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
+//              turn by more than 1,000 or, in the whole motion's time, 100,000
+NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
+                                         const nsvcd_joint_motion *motion, size_t pair,
+                                         float clearance, const nsvcd_tree *a,
+                                         const nsvcd_tree *b,
+                                         const nsvcd_certify_options *options, void *workspace,
+                                         size_t workspace_size, uint8_t *bytes,
+                                         size_t capacity, nsvcd_certificate *made);
+#endif
+
+// ------------------------------------------------------------------------------ interface/postures
+// In: a robot in one configuration. Out: what is near, how that changes with the joints, a way out;
+// who can meet whom at all; a part as another link would carry it.
+
+// Two parts of a pair that are near each other.
+typedef struct nsvcd_gap {
+  // of the scene's
+  size_t pair;
+  // HIT: they touch, or one is inside of the other, as nsvcd_check has it; FREE: they are proven to
+  // be apart; UNDECIDED, and why: too near to tell, or too little work
+  nsvcd_verdict verdict;
+  nsvcd_why why;
+  // metres: no less than `low`, no more than `high`
+  nsvcd_range distance;
+  // metres, of a HIT: a lift of a by this along the contact's normal is proven to part them; hardly
+  // less does, along that normal. HUGE_VALF: none up to options.deepest along each normal was
+  // found, as where one is inside of the other or held from all sides. 0 of all others
+  float depth;
+  // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
+  // lifted, with the lift's direction as the normal
+  nsvcd_contact contact;
+  // (F), metres by radian or metre: how the distance between the two places of the contact grows
+  // with each joint; of a HIT, how its depth along that normal shrinks. Where other places are as
+  // near, or as deep, it is that of one of them. 0 without a normal
+  double slope[NSVCD_MAX_JOINTS];
+} nsvcd_gap;
+
+// What is zero is the default. Up to NSVCD_MAX_COORDINATE.
+typedef struct nsvcd_gap_options {
+  // metres: pairs that are as near as this are told; 0.05
+  float within;
+  // metres: how wide a bracket of a distance may be, beside what poses in float are off; 20 um
+  float to;
+  // metres: how large a depth is told; 20 mm. Much more than there is makes it no better
+  float deepest;
+  // units that each question may take; NSVCD_DEFAULT_WORK
+  size_t work;
+} nsvcd_gap_options;
+
+// All pairs that are near in a configuration: what is wrong with a start or a goal, or what a
+// controller is to keep away from.
+//   checker    not NULL
+//   joints     (F), radians or metres
+//   options    NULL: the defaults
+//   gaps       (capacity), not NULL unless that is 0; in the order of the pairs. scene.pair_count
+//              is always enough. Some may be written on failure
+//   count      not NULL: how many there are; where that is more than the capacity, the first are
+//              written
+//   allocates  nothing
+//   threads    each with a checker of its own, as all of this page
+//   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
+//              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
+//   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
+NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
+                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
+                                 size_t capacity, size_t *count);
+
+// What is zero is the default.
+typedef struct nsvcd_escape_options {
+  // metres: the configuration that is sought stays farther apart than this
+  float clearance;
+  // radians and metres alike: how far it may be, as the root of the sum of squares; 0.5
+  double farthest;
+  // of the random numbers
+  uint64_t seed;
+  // asked before each question and each draw; not 0 ends it with what is found by then. May be NULL
+  int (*stop)(void *user);
+  void *user;
+} nsvcd_escape_options;
+
+// A configuration near another one that is proven free, within the limits: a way out of a start or
+// a goal that is not. It is sought at random, nearer and nearer, with some hundred configurations,
+// and drawn back as far as that can be. What lies in between need not be free.
+//   checker    not NULL
+//   joints     (F), radians or metres; out of the limits, they are taken in first, and what follows
+//              is about these
+//   options    NULL: the defaults
+//   out        (F), not NULL; the joints themselves where these are free. Left as it was where none
+//              is found
+//   is_found   not NULL
+//   allocates  nothing
+//   errors     ARGUMENT, VALUE, CLEARANCE, FARTHEST; POSE, SCALE, as nsvcd_gaps
+//   source     this library
+NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
+                                   const nsvcd_escape_options *options, double *out,
+                                   int *is_found);
+
+// What nsvcd_find_pairs says of pairs: how many of which kind, in this order.
+typedef struct nsvcd_pair_counts {
+  // to be asked
+  size_t asked;
+  // of parts on two links that one joint parts, neither of them the world
+  size_t adjacent;
+  // of others: they touch in all samples. That is no proof that they always do: to be asked, unless
+  // the caller knows more
+  size_t touching;
+} nsvcd_pair_counts;
+
+// Which pairs of parts are to be asked? All on links that differ, but adjacent ones, which joints
+// are made to keep apart or to overlap. Those that touch in all samples are told apart from the
+// others, not left out: two that separate only in a narrow range of a joint are among them, and a
+// motion is proven without a pair only if the caller leaves it out. None is left out for it seems
+// never to meet: that costs little.
+//   checker    of the parts and joints, whatever pairs its scene has
+//   samples    random configurations within the limits, at most, that a pair is looked at in; 0: 64
+//   seed       of them
+//   pairs      (capacity), not NULL unless that is 0; some may be written on failure
+//   capacity   B (B - 1) / 2 is always enough, of B parts
+//   counts     not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT, WORKSPACE (capacity); POSE, SCALE, as nsvcd_gaps
+//   source     as setup assistants do (MoveIt's), but none is left out as "never" or "always"
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+                                       nsvcd_body_pair *pairs, size_t capacity,
+                                       nsvcd_pair_counts *counts);
+
+// A part as another link would carry it from where it is: to take hold of a thing, or, on link 0,
+// to let go of it. Put it into the scene, say which pairs are asked now, and open a checker.
+//   joints     (F), where it is taken over
+//   part       which, of the scene's
+//   link       the new one; 0: the world
+//   out        not NULL; left as it was on failure. It is where it was to what a pose in float is
+//              off: 1e-7 of its distance from the link
+//   errors     ARGUMENT, VALUE, LINK (or no such part), POSE (farther than NSVCD_MAX_COORDINATE
+//              from the link)
+NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
+                                      size_t part, uint32_t link, nsvcd_part *out);
+
+// -------------------------------------------------------------------------------- interface/routes
+// In: a robot among obstacles, a configuration and others to get to. Out: a motion, proven free.
+//
+// A route is sought by proofs: a straight line, then two trees of edges that are proven free; its
+// way is made shorter, timed, and smoothed within the limits of speed and acceleration, and all of
+// it is proven as it is handed out.
+
+// of a route's trees
+#define NSVCD_MAX_NODES 10000000
+
+typedef enum nsvcd_route_status {
+  // the motion is proven free, within the limits, and ends at a goal
+  NSVCD_ROUTE_FOUND = 0,
+  // as many nodes or tries as options allow, and no way; or one of more than 680 corners, as a
+  // guess may be
+  NSVCD_ROUTE_LIMIT,
+  // by the caller
+  NSVCD_ROUTE_STOPPED,
+  // the start, or every goal, is out of limits, or not proven free: answer.check says why
+  NSVCD_ROUTE_START,
+  NSVCD_ROUTE_GOAL
+} nsvcd_route_status;
+
+// A status in a word or two, for a person; never NULL.
+NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status);
+
+typedef struct nsvcd_route_problem {
+  // (F)
+  const double *start;
+  // (G, F); one is enough
+  const double *goals;
+  size_t goal_count;
+  // (W, F), from the start to a goal, these left out: a way that may be free, or nearly. NULL: none
+  const double *guess;
+  size_t guess_count;
+  // asked before each proof; not 0 ends the search. What is found by then is not given up: it is
+  // still proven as a whole. May be NULL
+  int (*stop)(void *user);
+  // asked before each question about a pair, also in that last proof; not 0 ends that too, and so
+  // bounds the time. May be NULL
+  int (*abandon)(void *user);
+  void *user;
+} nsvcd_route_problem;
+
+// What is zero is the default.
+typedef struct nsvcd_route_options {
+  // of all random numbers: threads with seeds of their own seek ways of their own
+  uint64_t seed;
+  // metres: the whole motion stays farther apart than this
+  float clearance;
+  // of the trees, at most; 20,000
+  size_t nodes;
+  // motions asked about in search of a way, at most, free or not: where nothing is free the trees
+  // do not grow, and nodes alone would never end it; 4 times the nodes
+  size_t tries;
+  // radians or metres that an edge is long, at most; 1
+  double edge;
+  // tried on the way, up to NSVCD_MAX_NODES, and on the timed motion; 20 and 200. NSVCD_NONE: none
+  size_t shortcuts, smoothings;
+} nsvcd_route_options;
+
+typedef struct nsvcd_route_answer {
+  nsvcd_route_status status;
+  // FOUND: which one is reached
+  size_t goal;
+  // of degree 2, with times, at rest at both ends; in the memory that was given. Of no pieces where
+  // the goal is the start. Of what is FOUND
+  nsvcd_joint_motion motion;
+  // times within that it rests at, for want of a smooth way round a corner
+  size_t stops;
+  // seconds: of the motion; and of the straight line if nothing were in its way
+  double duration, unhindered;
+  // of FOUND: the last proof. Of START and GOAL: what is wrong with it, of the last goal
+  nsvcd_check_answer check;
+  // of the trees; motions asked about, and those of them that were free
+  size_t nodes, checks, proven;
+} nsvcd_route_answer;
+
+// Bytes that nsvcd_route needs; 0 if the problem or the options are refused.
+//   options    NULL: the defaults
+NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
+                                 const nsvcd_route_problem *problem,
+                                 const nsvcd_route_options *options);
+
+// Seeks a motion from the start to a goal on which no pair meets. The same problem and seed, the
+// same motion, as long as the checker is opened anew for each: it remembers what was hit last.
+//   checker    not NULL
+//   problem    not NULL
+//   options    NULL: the defaults
+//   memory     (size) bytes, nsvcd_route_size(checker, problem, options) or more, not NULL, aligned
+//              to NSVCD_ALIGNMENT; the motion is in it
+//   answer     not NULL; left as it was on failure
+//   allocates  nothing
+//   errors     ARGUMENT (NULL), COUNT (of goals, of a guess), ROUTE (nodes, shortcuts, edge),
+//              VALUE (a configuration not finite or beyond NSVCD_MAX_COORDINATE), CLEARANCE,
+//              WORKSPACE
+//   source     RRT-Connect (Kuffner and LaValle 2000); bounded-acceleration shortcuts (Hauser and
+//              Ng-Thow-Hing 2010); with proofs in place of samples: this library
+NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
+                                  const nsvcd_route_options *options, void *memory,
+                                  size_t size, nsvcd_route_answer *answer);
+#ifdef __cplusplus
+}
+#endif
+#endif  // NEURALSVCD_ROBOT_H
+
+// ================================================================================== IMPLEMENTATION
+#if defined(NEURALSVCD_ROBOT_IMPLEMENTATION) && !defined(NEURALSVCD_ROBOT_IMPLEMENTED)
+#define NEURALSVCD_ROBOT_IMPLEMENTED
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // of ground, not all is needed
+#endif
+
+// ====================================================================== ground: numbers and memory
+
+// --------------------------------------------------------------------------------- ground/compiler
+#ifndef NSVCD__HAS_GROUND_COMPILER
+#define NSVCD__HAS_GROUND_COMPILER
+// In: the compiler at hand. Out: libc and libm, and three words of how a function is merged into
+// its callers.
+
+#ifdef __TINYC__  // 0.9.27: where a struct and a float that calls return are passed together
+#error "neuralsvcd.h: tcc passes arguments wrongly, and certificates would be false"
+#endif
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef NSVCD_NO_STDIO
+#include <stdio.h>
+#endif
+// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+#ifdef NSVCD_ONE_PATH
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error \
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+#endif
+// gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+#endif
+// gcc 12 fuses, whatever it is told, where sums and differences of products stand side by side
+// (vfmaddsub). Functions in which they do.
+#if defined(NSVCD_ONE_PATH) && defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNFUSED \
+  static __attribute__((noinline, unused, optimize("no-tree-slp-vectorize")))
+#else
+#define NSVCD__UNFUSED static inline
+#endif
+// Functions that take more of the stack, and of flash, called than merged into their callers.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__MERGED static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define NSVCD__MERGED static __forceinline
+#else
+#define NSVCD__MERGED static inline
+#endif
+// Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
+// not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
+#ifdef __OPTIMIZE_SIZE__
+#define NSVCD__INLINE static inline
+#else
+#define NSVCD__INLINE NSVCD__MERGED
+#endif
+// Functions that must not be inlined: what they take of the stack would add up.
+#if defined(__GNUC__) || defined(__clang__)
+#define NSVCD__APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define NSVCD__APART __declspec(noinline)
+#else
+#define NSVCD__APART
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
+#define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
+#else
+#define NSVCD__UNROLL
+#endif
+#endif  // NSVCD__HAS_GROUND_COMPILER
+
+// ----------------------------------------------------------------------------------- ground/angles
+#ifndef NSVCD__HAS_GROUND_ANGLES
+#define NSVCD__HAS_GROUND_ANGLES
+// In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
+// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+
+#ifdef NSVCD_ONE_PATH
+// sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
+static inline double nsvcd__sin(double x) {
+  const double square = x * x;
+  double sum = 1;
+  for (int n = 20; n > 0; n -= 2) sum = 1 - sum * (square / (n * (n + 1)));
+  return x * sum;
+}
+// The angle of a vector (x, y), neither below 0, to 1e-15: a quarter of it, twice halved by
+// tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)), is less than 0.2, and of the series there 1e-18 is
+// left.
+static inline double nsvcd__atan2(double y, double x) {
+  const int steep = y > x;
+  const double slope = steep ? x / y : x > 0 ? y / x : 0;
+  double t = slope;
+  double sum = 0;
+  for (int n = 0; n < 2; n++) t = t / (1 + sqrt(1 + t * t));
+  for (int n = 25; n > 0; n -= 2) sum = 1.0 / n - sum * (t * t);
+  return steep ? 1.57079632679489662 - 4 * t * sum : 4 * t * sum;
+}
+static inline float nsvcd__sinf(float x) {
+  return (float)nsvcd__sin((double)x);
+}
+// 0 <= x < 1
+static inline float nsvcd__asinf(float x) {
+  const double sine = (double)x;
+  return (float)nsvcd__atan2(sine, sqrt(1 - sine * sine));
+}
+#else
+#define nsvcd__sin sin
+#define nsvcd__atan2 atan2
+#define nsvcd__sinf sinf
+#define nsvcd__asinf asinf
+#endif
+#endif  // NSVCD__HAS_GROUND_ANGLES
+
+// ------------------------------------------------------------------------------------- ground/bits
+#ifndef NSVCD__HAS_GROUND_BITS
+#define NSVCD__HAS_GROUND_BITS
+// In, out: whole numbers: bits that are set, sizes that are rounded up, floats on their bits.
+
+// Index of the lowest bit that is set, of a number that is not 0; how many are set.
+static size_t nsvcd__low_bit(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_ctzll(bits);
+#else
+  size_t n = 0;
+  while (!(bits >> n & 1)) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__bit_count(uint64_t bits) {
+#if defined(__GNUC__) || defined(__clang__)
+  return (size_t)__builtin_popcountll(bits);
+#else
+  size_t n = 0;
+  for (; bits; bits &= bits - 1) n++;
+  return n;
+#endif
+}
+
+static size_t nsvcd__round_up(size_t n, size_t multiple) {
+  return (n + multiple - 1) / multiple * multiple;
+}
+
+// |x| as bits, in the order of |x|; infinity and NaN are above all numbers.
+static uint32_t nsvcd__magnitude(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits & 0x7fffffffu;
+}
+static inline int nsvcd__is_finite(float x) {
+  return nsvcd__magnitude(x) < 0x7f800000u;
+}
+
+// Goes on with a digest over (count) words of 32 bits.
+static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    uint32_t word;
+    memcpy(&word, (const char *)words + 4 * i, 4);
+    digest = (digest ^ word) * 0x9e3779b1u;
+    digest ^= digest >> 15;
+  }
+  return digest;
+}
+#endif  // NSVCD__HAS_GROUND_BITS
+
+// ------------------------------------------------------------------------------------ ground/valid
+#ifndef NSVCD__HAS_GROUND_VALID
+#define NSVCD__HAS_GROUND_VALID
+// In: what a caller hands over. Out: is it in order?
+
+#define NSVCD__MAX_COUNT 0x7fffffffu  // vertices and triangles: 2^31 - 1
+
+static int nsvcd__is_aligned(const void *memory) {
+  return ((uintptr_t)memory & (NSVCD_ALIGNMENT - 1)) == 0;
+}
+
+// Are numbers finite, and their absolute values no greater than `most`? By their bits, so that it
+// holds under -ffast-math too.
+static int nsvcd__within(const float *values, size_t count, float most) {
+  for (size_t i = 0; i < count; i++) {
+    if (!nsvcd__is_finite(values[i]) || fabsf(values[i]) > most) return 0;
+  }
+  return 1;
+}
+
+// A float not less than x, which is not negative.
+static float nsvcd__above(double x) {
+  return (float)(x * (1 + 2e-7)) + 1e-37f;
+}
+
+// Is it a length that may be told, or 0?
+static int nsvcd__is_length(float x) {
+  return nsvcd__is_finite(x) && x >= 0 && x <= NSVCD_MAX_COORDINATE;
+}
+
+// Are all numbers in range and all quaternions of unit length?
+static nsvcd_result nsvcd__poses_check(const nsvcd_pose *poses, size_t count) {
+  // 7 to a pose
+  const float *numbers = poses->position;
+  uint32_t most = 0;
+  float shortest = 1;
+  float longest = 1;
+  for (size_t k = 0; k < 7 * count; k++) {
+    const uint32_t bits = nsvcd__magnitude(numbers[k]);
+    most = bits > most ? bits : most;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const float *q = poses[k].rotation;
+    const float square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+    shortest = square < shortest ? square : shortest;
+    longest = square > longest ? square : longest;
+  }
+  const int is_unit =
+      shortest >= 1 - 2 * NSVCD_UNIT_TOLERANCE && longest <= 1 + 2 * NSVCD_UNIT_TOLERANCE;
+  if (is_unit && most <= nsvcd__magnitude(NSVCD_MAX_COORDINATE)) return NSVCD_OK;
+  // which of both?
+  for (size_t k = 0; k < count; k++) {
+    if (!nsvcd__within(poses[k].position, 3, NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_POSE;
+  }
+  return NSVCD_ERROR_QUATERNION;
+}
+
+// Do they rise from 0 to 1, or are there none?
+static int nsvcd__times_are_valid(const float *times, size_t count) {
+  if (!times || count == 1) return 1;
+  int rise =
+      !(times[0] < 0) && !(times[0] > 0) && times[count - 1] <= 1 && times[count - 1] >= 1;
+  // what is not a number does not rise
+  for (size_t k = 1; k < count; k++)
+    rise &= (double)times[k] - (double)times[k - 1] >= 0.99e-7;
+  return rise;
+}
+
+// What a mover that is at rest at the origin is given.
+static const nsvcd_pose nsvcd__at_origin = {{0, 0, 0}, {0, 0, 0, 1}};
+
+// A mover's scale, which is 1 where 0 is given.
+static float nsvcd__scale_of(const nsvcd_mover *mover) {
+  return mover->scale > 0 ? mover->scale : 1;
+}
+
+static size_t nsvcd__pose_count(const nsvcd_mover *mover) {
+  return mover->poses ? mover->count : 1;
+}
+
+static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
+  if (!mover->poses) return mover->count == 0 ? NSVCD_OK : NSVCD_ERROR_POSES;
+  if (mover->count < 1 || mover->count > NSVCD_MAX_POSES) return NSVCD_ERROR_POSES;
+  if (!nsvcd__times_are_valid(mover->times, mover->count)) return NSVCD_ERROR_TIMES;
+  return nsvcd__poses_check(mover->poses, mover->count);
+}
+
+// A mesh may come from anywhere: everything below relies on what is checked here.
+static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+  if (!mesh) return NSVCD_ERROR_ARGUMENT;
+  if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
+  if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
+  const size_t vertices = mesh->vertex_count;
+  const size_t triangles = mesh->triangle_count;
+  if (vertices > NSVCD__MAX_COUNT || triangles > NSVCD__MAX_COUNT)
+    return NSVCD_ERROR_TOO_LARGE;
+  for (size_t i = 0; i < 3 * triangles; i++) {
+    if (mesh->indices[i] >= vertices) return NSVCD_ERROR_INDEX;
+  }
+  for (size_t i = 0; i < 3 * vertices; i++) {
+    const float x = mesh->positions[i];
+    if (!nsvcd__is_finite(x) || fabsf(x) > NSVCD_MAX_COORDINATE) return NSVCD_ERROR_NUMBER;
+  }
+  return NSVCD_OK;
+}
+#endif  // NSVCD__HAS_GROUND_VALID
+
+// ----------------------------------------------------------------------------------- ground/points
+#ifndef NSVCD__HAS_GROUND_POINTS
+#define NSVCD__HAS_GROUND_POINTS
+// In, out: vectors of three numbers, as values: f3 of floats, d3 of doubles. A box is two corners.
+
+// The greater, or the less, of two; where there is a NaN, b. fmax and fmin, which look for NaN, are
+// calls with most compilers.
+static inline double nsvcd__max(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double nsvcd__min(double a, double b) {
+  return a < b ? a : b;
+}
+
+// The algebra of f3 and of d3: NSVCD__VECTORS(nsvcd__f3, float, sqrtf) writes nsvcd__f3_add and so
+// on. _load and _row are from floats, of which a row has three; _fma(s, b, a) is s b + a, rounded
+// twice. Of floats a difference, and all that is built of a few of them, is as good as exact in
+// double.
+#define NSVCD__VECTORS(t, scalar, sqrt) \
+  typedef struct t { \
+    scalar x, y, z; \
+  } t; \
+  static inline t t##_of(scalar x, scalar y, scalar z) { \
+    const t out = {x, y, z}; \
+    return out; \
+  } \
+  static inline t t##_load(const float *p) { \
+    return t##_of((scalar)p[0], (scalar)p[1], (scalar)p[2]); \
+  } \
+  static inline t t##_row(const float *rows, size_t i) { \
+    return t##_load(rows + 3 * i); \
+  } \
+  static inline t t##_add(t a, t b) { \
+    return t##_of(a.x + b.x, a.y + b.y, a.z + b.z); \
+  } \
+  static inline t t##_sub(t a, t b) { \
+    return t##_of(a.x - b.x, a.y - b.y, a.z - b.z); \
+  } \
+  static inline t t##_scale(t a, scalar s) { \
+    return t##_of(s * a.x, s * a.y, s * a.z); \
+  } \
+  static inline t t##_fma(scalar s, t b, t a) { \
+    return t##_of(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); \
+  } \
+  static inline t t##_min(t a, t b) { \
+    return t##_of(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z); \
+  } \
+  static inline t t##_max(t a, t b) { \
+    return t##_of(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z); \
+  } \
+  static inline scalar t##_dot(t a, t b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z; \
+  } \
+  static inline t t##_cross(t a, t b) { \
+    return t##_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); \
+  } \
+  static inline scalar t##_length(t a) { \
+    return sqrt(t##_dot(a, a)); \
+  }
+NSVCD__VECTORS(nsvcd__f3, float, sqrtf)
+NSVCD__VECTORS(nsvcd__d3, double, sqrt)
+#undef NSVCD__VECTORS
+
+// ---- of floats
+
+// From, and to, rows of x, y and z, so many numbers apart.
+static inline nsvcd__f3 nsvcd__f3_get(const float *rows, size_t stride) {
+  return nsvcd__f3_of(rows[0], rows[stride], rows[2 * stride]);
+}
+static inline void nsvcd__f3_put(nsvcd__f3 a, float *rows, size_t stride) {
+  rows[0] = a.x;
+  rows[stride] = a.y;
+  rows[2 * stride] = a.z;
+}
+static inline void nsvcd__f3_store(nsvcd__f3 a, float *p) {
+  nsvcd__f3_put(a, p, 1);
+}
+// Is a component of a greater than b's?
+static inline int nsvcd__f3_exceeds(nsvcd__f3 a, nsvcd__f3 b) {
+  return (a.x > b.x) | (a.y > b.y) | (a.z > b.z);
+}
+
+// A box along the axes.
+typedef struct nsvcd__box {
+  nsvcd__f3 low, high;
+} nsvcd__box;
+
+// Component 0, 1 or 2.
+static inline double nsvcd__d3_axis(nsvcd__d3 a, size_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+static inline void nsvcd__d3_set_axis(nsvcd__d3 *a, size_t axis, double to) {
+  *(axis == 0 ? &a->x : axis == 1 ? &a->y : &a->z) = to;
+}
+static inline nsvcd__d3 nsvcd__d3_over(nsvcd__d3 a, double s) {
+  return nsvcd__d3_of(a.x / s, a.y / s, a.z / s);
+}
+static inline nsvcd__f3 nsvcd__d3_narrow(nsvcd__d3 a) {
+  return nsvcd__f3_of((float)a.x, (float)a.y, (float)a.z);
+}
+// a + t (b - a).
+static inline nsvcd__d3 nsvcd__d3_mix(nsvcd__d3 a, nsvcd__d3 b, double t) {
+  return nsvcd__d3_add(a, nsvcd__d3_scale(nsvcd__d3_sub(b, a), t));
+}
+static inline double nsvcd__d3_distance2(nsvcd__d3 a, nsvcd__d3 b) {
+  const nsvcd__d3 offset = nsvcd__d3_sub(a, b);
+  return nsvcd__d3_dot(offset, offset);
+}
+// Of length 1; `otherwise` if a has none.
+static inline nsvcd__d3 nsvcd__d3_unit(nsvcd__d3 a, nsvcd__d3 otherwise) {
+  const double length = nsvcd__d3_length(a);
+  return length > 0 ? nsvcd__d3_scale(a, 1 / length) : otherwise;
+}
+// Rounds for certain. gcc 12 at -O2 forgets to where two doubles side by side become floats and
+// doubles again: it takes the two conversions of a vector for none, and a proof built on what is
+// stored would not hold. clang 14 for WebAssembly, in turn, reads a volatile number that fills a
+// vector once more, when another one may have taken its place.
+static inline float nsvcd__to_float(double x) {
+#ifdef __wasm_simd128__
+  return (float)x;
+#else
+  volatile float rounded = (float)x;
+  return rounded;
+#endif
+}
+static inline nsvcd__f3 nsvcd__f3_round(nsvcd__d3 a) {
+  return nsvcd__f3_of(nsvcd__to_float(a.x), nsvcd__to_float(a.y), nsvcd__to_float(a.z));
+}
+static inline nsvcd__d3 nsvcd__d3_widen(nsvcd__f3 a) {
+  return nsvcd__d3_of((double)a.x, (double)a.y, (double)a.z);
+}
+// A double also where registers are wider (x87), for what is compared with itself computed again.
+static inline double nsvcd__stored(double x) {
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1
+  return x;
+#else
+  volatile double rounded = x;
+  return rounded;
+#endif
+}
+static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
+  return nsvcd__d3_of(nsvcd__stored(a.x), nsvcd__stored(a.y), nsvcd__stored(a.z));
+}
+#endif  // NSVCD__HAS_GROUND_POINTS
+
+// -------------------------------------------------------------------------------- ground/rotations
+#ifndef NSVCD__HAS_GROUND_ROTATIONS
+#define NSVCD__HAS_GROUND_ROTATIONS
+// In, out: rotations, as values: quat and mat3 of floats, dquat and dmat3 of doubles. A matrix is
+// its rows. A transform is a rotation and a place.
+
+// The algebra of both: NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf) writes
+// nsvcd__quat_dot, nsvcd__mat3_apply and so on. _fma(s, b, a) is s b + a; _axis is that of a unit
+// quaternion, times the sine of half its angle; _of is the matrix of a unit quaternion;
+// _apply_transpose is the transpose of m, times a.
+#define NSVCD__ROTATIONS(quat, mat, vec, scalar, sqrt) \
+  typedef struct quat { \
+    scalar x, y, z, w; \
+  } quat; \
+  typedef struct mat { \
+    vec x, y, z; \
+  } mat; \
+  static inline scalar quat##_dot(quat a, quat b) { \
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; \
+  } \
+  static inline quat quat##_scale(quat q, scalar s) { \
+    const quat out = {q.x * s, q.y * s, q.z * s, q.w * s}; \
+    return out; \
+  } \
+  static inline quat quat##_fma(scalar s, quat b, quat a) { \
+    const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
+    return out; \
+  } \
+  NSVCD__MERGED quat quat##_unit(quat q) { \
+    return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
+  } \
+  static inline vec quat##_axis(quat q) { \
+    return vec##_of(q.x, q.y, q.z); \
+  } \
+  NSVCD__UNFUSED mat mat##_of(quat q) { \
+    mat m; \
+    m.x.x = 1 - 2 * (q.y * q.y + q.z * q.z); \
+    m.x.y = 2 * (q.x * q.y - q.z * q.w); \
+    m.x.z = 2 * (q.x * q.z + q.y * q.w); \
+    m.y.x = 2 * (q.x * q.y + q.z * q.w); \
+    m.y.y = 1 - 2 * (q.x * q.x + q.z * q.z); \
+    m.y.z = 2 * (q.y * q.z - q.x * q.w); \
+    m.z.x = 2 * (q.x * q.z - q.y * q.w); \
+    m.z.y = 2 * (q.y * q.z + q.x * q.w); \
+    m.z.z = 1 - 2 * (q.x * q.x + q.y * q.y); \
+    return m; \
+  } \
+  static inline mat mat##_transpose(mat m) { \
+    const mat out = {vec##_of(m.x.x, m.y.x, m.z.x), vec##_of(m.x.y, m.y.y, m.z.y), \
+                     vec##_of(m.x.z, m.y.z, m.z.z)}; \
+    return out; \
+  } \
+  static inline vec mat##_apply(const mat *m, vec a) { \
+    return vec##_of(vec##_dot(m->x, a), vec##_dot(m->y, a), vec##_dot(m->z, a)); \
+  } \
+  static inline vec mat##_apply_transpose(const mat *m, vec a) { \
+    const mat back = mat##_transpose(*m); \
+    return mat##_apply(&back, a); \
+  }
+NSVCD__ROTATIONS(nsvcd__quat, nsvcd__mat3, nsvcd__f3, float, sqrtf)
+NSVCD__ROTATIONS(nsvcd__dquat, nsvcd__dmat3, nsvcd__d3, double, sqrt)
+#undef NSVCD__ROTATIONS
+
+// The inverse of a, unit, times b.
+static inline nsvcd__dquat nsvcd__dquat_inverse_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(a);
+  const nsvcd__d3 v = nsvcd__dquat_axis(b);
+  const nsvcd__d3 along = nsvcd__d3_sub(nsvcd__d3_scale(v, a.w), nsvcd__d3_scale(u, b.w));
+  const nsvcd__d3 axis = nsvcd__d3_sub(along, nsvcd__d3_cross(u, v));
+  const nsvcd__dquat out = {axis.x, axis.y, axis.z, a.w * b.w + nsvcd__d3_dot(u, v)};
+  return out;
+}
+
+static inline nsvcd__dmat3 nsvcd__dmat3_scale(const nsvcd__dmat3 *m, double s) {
+  const nsvcd__dmat3 out = {nsvcd__d3_scale(m->x, s), nsvcd__d3_scale(m->y, s),
+                            nsvcd__d3_scale(m->z, s)};
+  return out;
+}
+
+// ---- quaternions and matrices of floats
+
+// A rotation and a position: a -> rotation a + position.
+typedef struct nsvcd__transform {
+  nsvcd__mat3 rotation;
+  nsvcd__f3 position;
+} nsvcd__transform;
+
+static inline nsvcd__quat nsvcd__quat_of(float x, float y, float z, float w) {
+  const nsvcd__quat out = {x, y, z, w};
+  return out;
+}
+static inline nsvcd__quat nsvcd__quat_load(const float *p) {
+  return nsvcd__quat_of(p[0], p[1], p[2], p[3]);
+}
+// To rows of x, y, z and w, so many numbers apart.
+static inline void nsvcd__quat_put(nsvcd__quat q, float *rows, size_t stride) {
+  rows[0] = q.x;
+  rows[stride] = q.y;
+  rows[2 * stride] = q.z;
+  rows[3 * stride] = q.w;
+}
+static inline void nsvcd__quat_store(nsvcd__quat q, float *p) {
+  nsvcd__quat_put(q, p, 1);
+}
+
+// Is the shorter arc from a to b the one to -b? Products of floats are exact in double, so that
+// every machine and the exact poses of the proof say the same, also where the arcs are equally long
+// to rounding.
+static inline int nsvcd__quats_opposed(nsvcd__quat a, nsvcd__quat b) {
+  double dot = (double)a.x * (double)b.x;
+  dot += (double)a.y * (double)b.y;
+  dot += (double)a.z * (double)b.z;
+  dot += (double)a.w * (double)b.w;
+  return dot < 0;
+}
+
+// The length of the arc from a to b in quaternion space: half the angle of rotation. [0, pi/2]
+// where it is the shorter one. From the chord, because acos of a dot product near 1 has no digits
+// left.
+static inline float nsvcd__quat_arc(nsvcd__quat a, nsvcd__quat b) {
+  const nsvcd__quat chord = nsvcd__quat_fma(-1, b, a);
+  return 2 * nsvcd__asinf(0.5f * sqrtf(nsvcd__quat_dot(chord, chord)));
+}
+
+// The same rotation on the side of another quaternion, to which q is opposed or not.
+static inline nsvcd__quat nsvcd__quat_beside(nsvcd__quat q, int opposed) {
+  return opposed ? nsvcd__quat_of(-q.x, -q.y, -q.z, -q.w) : q;
+}
+// of a unit one
+static inline nsvcd__quat nsvcd__quat_inverse(nsvcd__quat q) {
+  return nsvcd__quat_of(-q.x, -q.y, -q.z, q.w);
+}
+
+// The rotation by b, then by a.
+static inline nsvcd__quat nsvcd__quat_mul(nsvcd__quat a, nsvcd__quat b) {
+  nsvcd__quat out;
+  out.x = a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y);
+  out.y = a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z);
+  out.z = a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x);
+  out.w = a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z;
+  return out;
+}
+// The turn from a to b, unit ones: its axis, times the sine of half its angle.
+static inline nsvcd__f3 nsvcd__quat_turn(nsvcd__quat a, nsvcd__quat b) {
+  return nsvcd__quat_axis(nsvcd__quat_mul(b, nsvcd__quat_inverse(a)));
+}
+
+// A share u of the way from a to b, on the shorter arc. a, b: unit to 1e-4.
+static inline nsvcd__quat nsvcd__quat_slerp(nsvcd__quat a, nsvcd__quat b, float u) {
+  const int opposed = nsvcd__quats_opposed(a, b);
+  const nsvcd__quat start = nsvcd__quat_unit(a);
+  const nsvcd__quat end = nsvcd__quat_beside(nsvcd__quat_unit(b), opposed);
+  const float angle = nsvcd__quat_arc(start, end);
+  float wa = 1 - u;
+  float wb = u;
+  // below, the difference is less than rounding
+  if (angle > 1e-3f) {
+    wa = nsvcd__sinf((1 - u) * angle);
+    wb = nsvcd__sinf(u * angle);
+  }
+  return nsvcd__quat_unit(nsvcd__quat_fma(wb, end, nsvcd__quat_scale(start, wa)));
+}
+
+// s (a + t b).
+static inline nsvcd__mat3 nsvcd__mat3_mix(float s, const nsvcd__mat3 *a, float t,
+                                          const nsvcd__mat3 *b) {
+  const nsvcd__mat3 out = {nsvcd__f3_scale(nsvcd__f3_fma(t, b->x, a->x), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->y, a->y), s),
+                           nsvcd__f3_scale(nsvcd__f3_fma(t, b->z, a->z), s)};
+  return out;
+}
+static inline nsvcd__mat3 nsvcd__mat3_mul(const nsvcd__mat3 *a, const nsvcd__mat3 *b) {
+  const nsvcd__mat3 columns = nsvcd__mat3_transpose(*b);
+  const nsvcd__mat3 out = {nsvcd__mat3_apply(&columns, a->x),
+                           nsvcd__mat3_apply(&columns, a->y),
+                           nsvcd__mat3_apply(&columns, a->z)};
+  return out;
+}
+static inline nsvcd__f3 nsvcd__f3_transform(const nsvcd__transform *t, nsvcd__f3 a) {
+  return nsvcd__f3_add(nsvcd__mat3_apply(&t->rotation, a), t->position);
+}
+#endif  // NSVCD__HAS_GROUND_ROTATIONS
+
+// ----------------------------------------------------------------------------------- ground/random
+#ifndef NSVCD__HAS_GROUND_RANDOM
+#define NSVCD__HAS_GROUND_RANDOM
+// In: a state. Out: random numbers, the same from the same state.
+
+// In (0, 1]: splitmix64.
+static inline double nsvcd__random(uint64_t *state) {
+  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (double)((z ^ (z >> 31)) >> 11) * 1.1102230246251565e-16 + 5.5e-17;
+}
+#endif  // NSVCD__HAS_GROUND_RANDOM
+
+// ----------------------------------------------------------------------------------- ground/memory
+#ifndef NSVCD__HAS_GROUND_MEMORY
+#define NSVCD__HAS_GROUND_MEMORY
+// In: the caller's allocator, or the workspace. Out: arrays from either; NULL, or a count alone,
+// where there is no memory.
+
+#ifndef NSVCD_NO_ENCODER
+static void *nsvcd__alloc(const nsvcd_allocator *allocator, size_t size) {
+  return allocator ? allocator->alloc(size, allocator->user) : malloc(size);
+}
+static void nsvcd__free(const nsvcd_allocator *allocator, void *memory) {
+  if (allocator && memory) allocator->free(memory, allocator->user);
+  if (!allocator) free(memory);
+}
+// count * size bytes; NULL also where that product cannot be counted.
+static void *nsvcd__alloc_array(const nsvcd_allocator *allocator, size_t count, size_t size) {
+  return count > SIZE_MAX / size ? NULL : nsvcd__alloc(allocator, count * size);
+}
+
+// Arrays that are given back together. Where one cannot be had, `failed` says so: who takes several
+// asks once, after the last.
+typedef union nsvcd__header {
+  union nsvcd__header *next;
+  double aligned;
+} nsvcd__header;
+typedef struct nsvcd__arena {
+  const nsvcd_allocator *allocator;
+  // an array behind each
+  nsvcd__header *last;
+  int failed;
+} nsvcd__arena;
+
+static nsvcd__arena nsvcd__arena_of(const nsvcd_allocator *allocator) {
+  const nsvcd__arena out = {allocator, NULL, 0};
+  return out;
+}
+static void nsvcd__arena_free(nsvcd__arena *arena) {
+  while (arena->last) {
+    nsvcd__header *header = arena->last;
+    arena->last = header->next;
+    nsvcd__free(arena->allocator, header);
+  }
+}
+
+// Room for an array; NULL without memory.
+static void *nsvcd__arena_room(nsvcd__arena *arena, size_t count, size_t size) {
+  nsvcd__header *header = NULL;
+  if (count <= (SIZE_MAX - sizeof *header) / size)
+    header = (nsvcd__header *)nsvcd__alloc(arena->allocator, sizeof *header + count * size);
+  if (!header) {
+    arena->failed = 1;
+    return NULL;
+  }
+  header->next = arena->last;
+  arena->last = header;
+  return header + 1;
+}
+
+// An array of zeros; NULL without memory.
+#define NSVCD__TAKE(arena, type, count) ((type *)nsvcd__arena_take(arena, count, sizeof(type)))
+static void *nsvcd__arena_take(nsvcd__arena *arena, size_t count, size_t size) {
+  void *array = nsvcd__arena_room(arena, count, size);
+  return array ? memset(array, 0, count * size) : NULL;
+}
+
+// Room in place of an array (NULL: none), of which it keeps the first `used` bytes; without memory
+// that stays.
+static void *nsvcd__arena_grow(nsvcd__arena *arena, void *old, size_t used, size_t count,
+                               size_t size) {
+  nsvcd__header **at = &arena->last;
+  void *larger = nsvcd__arena_room(arena, count, size);
+  if (!larger || !old) return larger;
+  memcpy(larger, old, used);
+  while ((void *)(*at + 1) != old) at = &(*at)->next;
+  nsvcd__header *header = *at;
+  *at = header->next;
+  nsvcd__free(arena->allocator, header);
+  return larger;
+}
+#endif
+
+// The next rows of a workspace, or, where base is NULL, only counts their bytes: in 64 bits, for
+// they may be more than a machine of 32 bits can count.
+static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_size) {
+  void *at = base ? base + *used : NULL;
+  const uint64_t bytes = (uint64_t)rows * row_size;
+  *used += (bytes + NSVCD_ALIGNMENT - 1) / NSVCD_ALIGNMENT * NSVCD_ALIGNMENT;
+  return at;
+}
+#endif  // NSVCD__HAS_GROUND_MEMORY
+
+// ============================================================ robot: is a motion of joints free?
+
+// ------------------------------------------------------------------------------------- robot/chain
+// In: a scene, and joint values. Out: a checker, and where links and parts are, in double. The
+// floor, top to bottom:
+//
+//   chain       what moves what; where everything is
+//   steps       what the joints do between two times
+//   stray       how far points of a part can be from an axis; by how much a part leaves its sweep
+//   path        is a motion of the joints free?
+//   proofs      a certificate of a pair, as the joints move it
+//   trees       configurations, and the nearest of them
+//   postures    one configuration: what is near, a way out; which pairs can meet
+//   ramps       from one state to another, within limits of speed and acceleration
+//   smooth      a way in time, then smooth
+//   route       a start and goals: two trees of proven edges, shortcuts
+//
+// It asks as any program does, by nsvcd_sweep.
+
+// The schedule of a check.
+// steps that are looked at together, at most, and how often a motion is halved where that is too
+// few
+#define NSVCD__MOST_STEPS 256
+#define NSVCD__STRETCHES 24
+// steps of what bends, at first
+#define NSVCD__FIRST_STEPS 4
+// radians or metres: where the way bends by less, steps go on across
+#define NSVCD__CORNER 1e-3
+// metres that a part may stray at first; each time a pair is asked again it may by this share of it
+#define NSVCD__COARSE 2e-3
+#define NSVCD__STRAY_SHARE 8
+#define NSVCD__FINEST 1e-5f
+// units that a look for a hit may take, before the last
+#define NSVCD__PAIR_GLANCE 200
+// what frames in double are off, as a share of the lengths that they are computed from
+#define NSVCD__FRAME_ROUNDING 1e-13
+
+// A joint, as the checker has it; and the link that it carries.
+typedef struct nsvcd__link {
+  // in the parent link: where the joint is, and how it is turned, unit
+  nsvcd__d3 place;
+  nsvcd__dquat turn;
+  // unit, in the joint's frame
+  nsvcd__d3 axis;
+  // joints between the world and this link, itself included: bit i is joint i
+  uint32_t path;
+} nsvcd__link;
+
+// Where a link is, in the world.
+typedef struct nsvcd__frame {
+  nsvcd__dquat turn;
+  nsvcd__d3 place;
+} nsvcd__frame;
+
+// Joint values, and what follows from them.
+typedef struct nsvcd__configuration {
+  double joints[NSVCD_MAX_JOINTS];
+  // of the links, the world first
+  nsvcd__frame frames[NSVCD_MAX_JOINTS + 1];
+  // of the joints, in the world: unit
+  nsvcd__d3 axes[NSVCD_MAX_JOINTS];
+} nsvcd__configuration;
+
+// Sides along the world's axes.
+typedef struct nsvcd__bounds {
+  nsvcd__d3 low, high;
+} nsvcd__bounds;
+
+// A part, as the checker has it.
+typedef struct nsvcd__member {
+  // in its link
+  nsvcd__frame frame;
+  // of a sphere about its triangles, in its link; from its origin
+  nsvcd__d3 centre;
+  double radius, extent;
+  // of a box about all of it, in its own axes, scaled; and half of its sides
+  nsvcd__d3 middle, half;
+  // about all samples, or where it rests
+  nsvcd__bounds box;
+  // of a part that moves: where its samples begin
+  size_t row;
+  // metres, at most: by how much it leaves the way between its samples, and what frames in double
+  // are off
+  double stray, rounding;
+} nsvcd__member;
+
+struct nsvcd_checker {
+  const nsvcd_scene *scene;
+  nsvcd__link links[NSVCD_MAX_JOINTS];
+  nsvcd__member *members;  // (B)
+  // (P): the pairs, as they are asked: what was hit last first
+  uint32_t *order;
+  // (P): those of a stretch that are not proven yet
+  uint32_t *left;
+  // (movers, NSVCD__MOST_STEPS + 1): samples, in the world, and boxes about the parts there
+  nsvcd__frame *frames;
+  nsvcd__bounds *boxes;
+  // (NSVCD__MOST_STEPS + 1): of both parts of a pair, as it is asked about; see nsvcd__sight
+  nsvcd_pose *seen[2];
+  // the times of the samples, and the most that a part strays in the step after each
+  double times[NSVCD__MOST_STEPS + 1], strays[NSVCD__MOST_STEPS + 1];
+  nsvcd__configuration at, next;
+  void *query;
+  size_t query_size;
+};
+
+static nsvcd__dquat nsvcd__dquat_mul(nsvcd__dquat a, nsvcd__dquat b) {
+  const nsvcd__dquat back = {-a.x, -a.y, -a.z, a.w};
+  return nsvcd__dquat_inverse_mul(back, b);
+}
+
+static nsvcd__d3 nsvcd__dquat_rotate(nsvcd__dquat q, nsvcd__d3 a) {
+  const nsvcd__d3 axis = nsvcd__dquat_axis(q);
+  const nsvcd__d3 twice = nsvcd__d3_scale(nsvcd__d3_cross(axis, a), 2);
+  return nsvcd__d3_add(nsvcd__d3_fma(q.w, twice, a), nsvcd__d3_cross(axis, twice));
+}
+
+static nsvcd__frame nsvcd__frame_of(const nsvcd_pose *pose) {
+  const float *q = pose->rotation;
+  const nsvcd__dquat turn = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+  const nsvcd__frame out = {nsvcd__dquat_unit(turn), nsvcd__d3_load(pose->position)};
+  return out;
+}
+
+// What is `inner` in a frame, in the world.
+static nsvcd__frame nsvcd__frame_in(const nsvcd__frame *frame, const nsvcd__frame *inner) {
+  const nsvcd__d3 place = nsvcd__dquat_rotate(frame->turn, inner->place);
+  const nsvcd__frame out = {nsvcd__dquat_mul(frame->turn, inner->turn),
+                            nsvcd__d3_add(frame->place, place)};
+  return out;
+}
+
+// What is `frame` in the world, as seen from another one.
+static nsvcd__frame nsvcd__frame_from(const nsvcd__frame *from, const nsvcd__frame *frame) {
+  const nsvcd__dquat back = {-from->turn.x, -from->turn.y, -from->turn.z, from->turn.w};
+  const nsvcd__d3 way = nsvcd__d3_sub(frame->place, from->place);
+  const nsvcd__frame out = {nsvcd__dquat_inverse_mul(from->turn, frame->turn),
+                            nsvcd__dquat_rotate(back, way)};
+  return out;
+}
+
+static nsvcd_pose nsvcd__pose_in(const nsvcd__frame *frame) {
+  const nsvcd__dquat turn = nsvcd__dquat_unit(frame->turn);
+  nsvcd_pose out;
+  nsvcd__f3_store(nsvcd__f3_round(frame->place), out.position);
+  out.rotation[0] = (float)turn.x;
+  out.rotation[1] = (float)turn.y;
+  out.rotation[2] = (float)turn.z;
+  out.rotation[3] = (float)turn.w;
+  return out;
+}
+
+static int nsvcd__slides(const nsvcd_checker *c, size_t joint) {
+  return c->scene->joints[joint].kind == NSVCD_JOINT_PRISMATIC;
+}
+
+// Places the links where c->joints says.
+static void nsvcd__place_links(const nsvcd_checker *checker, nsvcd__configuration *c) {
+  const nsvcd__frame world = {{0, 0, 0, 1}, {0, 0, 0}};
+  c->frames[0] = world;
+  for (size_t i = 0; i < checker->scene->joint_count; i++) {
+    const nsvcd__link *link = &checker->links[i];
+    const nsvcd__frame origin = {link->turn, link->place};
+    nsvcd__frame frame =
+        nsvcd__frame_in(&c->frames[checker->scene->joints[i].parent], &origin);
+    c->axes[i] = nsvcd__dquat_rotate(frame.turn, link->axis);
+    if (nsvcd__slides(checker, i)) {
+      frame.place = nsvcd__d3_fma(c->joints[i], c->axes[i], frame.place);
+    } else {
+      const double half = 0.5 * c->joints[i];
+      const nsvcd__d3 axis = nsvcd__d3_scale(link->axis, sin(half));
+      const nsvcd__dquat turn = {axis.x, axis.y, axis.z, cos(half)};
+      frame.turn = nsvcd__dquat_mul(frame.turn, turn);
+    }
+    c->frames[i + 1] = frame;
+  }
+}
+
+static nsvcd__frame nsvcd__frame_of_part(const nsvcd_checker *checker,
+                                         const nsvcd__configuration *c, size_t part) {
+  return nsvcd__frame_in(&c->frames[checker->scene->parts[part].link],
+                         &checker->members[part].frame);
+}
+
+NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *joints,
+                                  nsvcd_pose *poses) {
+  nsvcd__configuration c;
+  memcpy(c.joints, joints, checker->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(checker, &c);
+  for (size_t n = 0; n < checker->scene->part_count; n++) {
+    const nsvcd__frame frame = nsvcd__frame_of_part(checker, &c, n);
+    poses[n] = nsvcd__pose_in(&frame);
+  }
+}
+
+// ------------------------------------------------------------------------------------- robot/steps
+// In: a motion of the joints, and two times. Out: what the joints do between them.
+
+// A step of a motion, from one time to another, h later; x is the share of it that has gone by.
+typedef struct nsvcd__step {
+  // joints at both ends
+  double from[NSVCD_MAX_JOINTS], to[NSVCD_MAX_JOINTS];
+  // |d|, d = to - from; max |q - from|
+  double way[NSVCD_MAX_JOINTS], reach[NSVCD_MAX_JOINTS];
+  // how much each joint bends: 8 |e| is no more, see robot/stray
+  double bend[NSVCD_MAX_JOINTS];
+} nsvcd__step;
+
+// A motion as it is meant: of no pieces, a point and nothing else.
+static nsvcd_joint_motion nsvcd__motion_meant(const nsvcd_joint_motion *motion) {
+  const nsvcd_joint_motion still = {0, 0, motion->points, NULL};
+  return motion->pieces ? *motion : still;
+}
+
+static double nsvcd__piece_start(const nsvcd_joint_motion *motion, size_t piece) {
+  return motion->times ? motion->times[piece] : (double)piece;
+}
+
+static double nsvcd__piece_time(const nsvcd_joint_motion *motion, size_t piece) {
+  return nsvcd__piece_start(motion, piece + 1) - nsvcd__piece_start(motion, piece);
+}
+
+// The piece that a time is in; of two, the later one.
+static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
+  size_t low = 0;
+  size_t high = motion->pieces;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__piece_start(motion, middle) <= time)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The share of a piece that has gone by at a time.
+static double nsvcd__share_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
+  const double start = nsvcd__piece_start(motion, piece);
+  if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
+  return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
+}
+
+// Points of one joint in a piece.
+static void nsvcd__joint_points(const nsvcd_joint_motion *motion, size_t piece, size_t joints,
+                                size_t joint, double *p) {
+  const double *first = motion->points + piece * motion->degree * joints + joint;
+  for (size_t i = 0; i <= motion->degree; i++) p[i] = first[i * joints];
+}
+
+// The part of a piece from share s0 to s1: de Casteljau's algorithm, twice.
+static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
+  const double before = s1 > 0 ? s0 / s1 : 0;
+  // the first s1 of it: p[i] becomes the point of level i
+  for (size_t level = 1; level <= degree && s1 < 1; level++) {
+    for (size_t i = degree; i >= level; i--) p[i] = p[i - 1] + s1 * (p[i] - p[i - 1]);
+  }
+  // of that, what is after s0
+  for (size_t level = 1; level <= degree && before > 0; level++) {
+    for (size_t i = 0; i + level <= degree; i++) p[i] = p[i] + before * (p[i + 1] - p[i]);
+  }
+}
+
+// The joints in a piece at a share of it, and, unless NULL, their speeds.
+static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+                             double share, double *at, double *speeds) {
+  const size_t degree = motion->degree;
+  for (size_t j = 0; j < joints; j++) {
+    double p[NSVCD_MAX_DEGREE + 1];
+    nsvcd__joint_points(motion, piece, joints, j, p);
+    for (size_t level = degree; level > 0; level--) {
+      if (level == 1 && speeds)
+        speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
+      // both ends exactly
+      for (size_t i = 0; i < level; i++)
+        p[i] = share < 1 ? p[i] + share * (p[i + 1] - p[i]) : p[i + 1];
+    }
+    at[j] = p[0];
+  }
+}
+
+NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, double time,
+                              double *out) {
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  const size_t piece = nsvcd__piece_at(&m, time);
+  nsvcd__joints_at(&m, joints, piece, nsvcd__share_at(&m, piece, time), out, NULL);
+}
+
+// By how much the speed of a joint jumps where a piece begins.
+static double nsvcd__jump_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
+                             size_t joint) {
+  const double *at = motion->points + piece * motion->degree * joints + joint;
+  const double before = (at[0] - *(at - joints)) / nsvcd__piece_time(motion, piece - 1);
+  const double after = (at[joints] - at[0]) / nsvcd__piece_time(motion, piece);
+  return fabs((double)motion->degree * (after - before));
+}
+
+// What the joints do from time t0 to t1, through as many pieces as there are. Where the speed jumps
+// by v, e has a corner: |e| is more by h v / 4 at most.
+static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, double t0,
+                           double t1, nsvcd__step *step) {
+  const size_t degree = motion->degree;
+  const double twice = (double)(degree * (degree - 1));
+  const size_t first = nsvcd__piece_at(motion, t0);
+  size_t last = first;
+  double v0[NSVCD_MAX_JOINTS], v1[NSVCD_MAX_JOINTS];
+  double along = 0;
+  double square = 0;
+  const double h = t1 - t0;
+  while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
+  const double end = nsvcd__share_at(motion, last, t1);
+  nsvcd__joints_at(motion, joints, first, nsvcd__share_at(motion, first, t0), step->from, v0);
+  nsvcd__joints_at(motion, joints, last, end, step->to, v1);
+  for (size_t j = 0; j < joints; j++) {
+    const double d = step->to[j] - step->from[j];
+    step->way[j] = step->reach[j] = fabs(d);
+    step->bend[j] = 0;
+    if (degree > 1) along += d * h * (v1[j] - v0[j]);
+    square += d * d;
+  }
+  if (degree == 1 && first == last) return;
+  // what suits the mean of the second derivatives
+  const double g = square > 0 ? nsvcd__max(-2, nsvcd__min(2, along / square)) : 0;
+  for (size_t j = 0; j < joints; j++) {
+    const double from = step->from[j];
+    const double d = step->to[j] - from;
+    double jumps = 0;
+    for (size_t piece = first; piece <= last; piece++) {
+      double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
+      const double s0 = piece == first ? nsvcd__share_at(motion, piece, t0) : 0;
+      const double s1 = piece == last ? end : 1;
+      const double steps = h / nsvcd__piece_time(motion, piece);
+      nsvcd__joint_points(motion, piece, joints, j, p);
+      for (size_t i = 0; i + 2 <= degree; i++)
+        second[i] = steps * steps * twice * (p[i] - 2 * p[i + 1] + p[i + 2]);
+      if (degree >= 2) nsvcd__cut_curve(second, degree - 2, s0, s1);
+      nsvcd__cut_curve(p, degree, s0, s1);
+      for (size_t i = 0; i <= degree; i++)
+        step->reach[j] = nsvcd__max(step->reach[j], fabs(p[i] - from));
+      for (size_t i = 0; i + 2 <= degree; i++)
+        step->bend[j] = nsvcd__max(step->bend[j], fabs(second[i] - g * d));
+      if (piece > first) jumps += nsvcd__jump_at(motion, joints, piece, j);
+    }
+    step->bend[j] += 2 * h * jumps;
+  }
+}
+
+// ------------------------------------------------------------------------------------- robot/stray
+// In: a part, and a step of the joints between two samples. Out: by how much it leaves, at most,
+// the line and the slerp between them.
+//
+// THE BOUND. A step goes from joints q0 to q1 = q0 + d in a time h; x is the share of it that has
+// gone by, and u = x - g x (1 - x) / 2 for a number |g| <= 2 of our choice: it goes from 0 to 1 as
+// well, and never back. Each joint is q0 + u d + e, with e = 0 at both ends and e'' = h^2 q'' -
+// g d, derivatives by x: |e| <= max |e''| / 8; where q' jumps by v, e' does by h v, and |e| may be
+// more by h v / 4. What a point y of the part is, at most, off where
+// q0 + u d has it:
+//   sum over joints j of |e_j| r_j           r_j: no point is farther from the axis of j
+// On the straight way q0 + u d the point is off its chord by max |y''| / 8, derivatives by u. With
+// d^2 y / dq_j dq_k no more than r of the outer one of j and k, as long as both turn (an outer one
+// that slides has 1 in place of r; an inner one that slides, 0),
+//   |y''| <= sum_j |d_j| r_j (2 sum over inner k that turn of |d_k| + |d_j|)
+// and what slides has no square. The sweep goes through the same places at both ends, by a line of
+// the origin and a slerp by an angle w, and is off that chord by w^2 R / 8, R the point's distance
+// from the origin. All together, for any u, and so at all times:
+//   stray <= (sum_j max |e''_j| r_j + |y''| + w^2 R) / 8
+// r_j is that of the sample q0, and what joints beyond j can add while they move.
+// Source: this library.
+
+// The angle of the turn from a to b, radians: the shorter one.
+static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
+  const double side = nsvcd__dquat_dot(a, b) < 0 ? -1 : 1;
+  const nsvcd__dquat chord = nsvcd__dquat_fma(-side, b, a);
+  return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
+}
+
+// The bound of the banner, from levers r (F) on the path of joints. turn: w.
+static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
+                              const double *levers, double turn, double extent) {
+  double bend = 0;
+  double second = 0;
+  double inner = 0;
+  for (; path; path &= path - 1) {
+    const size_t j = nsvcd__low_bit(path);
+    const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
+    bend += step->bend[j] * levers[j];
+    second += step->way[j] * levers[j] * (2 * inner + own);
+    inner += own;
+  }
+  return (bend + second + turn * turn * extent) / 8;
+}
+
+// r of the banner: how far points of a part can be from the axes of the joints on its path, during
+// a step that begins in a configuration; 1 of what slides.
+static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                             const nsvcd__configuration *from, double *levers) {
+  const nsvcd__member *m = &c->members[part];
+  const size_t link = c->scene->parts[part].link;
+  const uint32_t path = c->links[link - 1].path;
+  const nsvcd__frame *frame = &from->frames[link];
+  const nsvcd__d3 centre =
+      nsvcd__d3_add(nsvcd__dquat_rotate(frame->turn, m->centre), frame->place);
+  double moved = 0;  // by joints beyond this one
+  for (size_t j = link; j-- > 0;) {
+    if (!(path >> j & 1)) continue;
+    levers[j] = 1;
+    if (!nsvcd__slides(c, j)) {
+      const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
+      levers[j] = nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+    }
+    moved += step->reach[j] * levers[j];
+  }
+}
+
+// What a part strays at most in a step from one configuration to another.
+static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                              const nsvcd__configuration *from,
+                              const nsvcd__configuration *to) {
+  const size_t link = c->scene->parts[part].link;
+  double levers[NSVCD_MAX_JOINTS];
+  const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
+  nsvcd__levers_of(c, part, step, from, levers);
+  return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
+                         c->members[part].extent);
+}
+
+// -------------------------------------------------------------------------------------- robot/path
+// In: a checker and a motion of its joints. Out: is it free, as the joints make it, at all times?
+
+// ---- a checker
+
+// Is x a number, and no larger? By the bits, which are in the order of what is not negative.
+static int nsvcd__is_number(double x, double most) {
+  uint64_t bits, limit;
+  memcpy(&bits, &x, sizeof bits);
+  memcpy(&limit, &most, sizeof limit);
+  return (bits & ~(uint64_t)0 >> 1) <= limit;
+}
+
+static nsvcd_result nsvcd__joint_check(const nsvcd_joint *joint, size_t i) {
+  double axis = 0;
+  if (joint->parent > i || (unsigned)joint->kind > NSVCD_JOINT_PRISMATIC)
+    return NSVCD_ERROR_JOINT;
+  for (size_t k = 0; k < 3; k++) {
+    if (!nsvcd__is_finite(joint->axis[k])) return NSVCD_ERROR_AXIS;
+    axis = nsvcd__max(axis, fabs((double)joint->axis[k]));
+  }
+  if (!(axis > 1e-15) || axis > 1e15) return NSVCD_ERROR_AXIS;
+  const nsvcd_result result = nsvcd__poses_check(&joint->origin, 1);
+  if (result) return result;
+  const double most = (double)NSVCD_MAX_COORDINATE;
+  if (!nsvcd__is_number(joint->speed, most) || !nsvcd__is_number(joint->acceleration, most))
+    return NSVCD_ERROR_SPEED;
+  if (joint->speed < 0 || joint->acceleration < 0) return NSVCD_ERROR_SPEED;
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return NSVCD_OK;
+  if (!nsvcd__is_number(joint->low, most) || !nsvcd__is_number(joint->high, most))
+    return NSVCD_ERROR_LIMITS;
+  return joint->low <= joint->high ? NSVCD_OK : NSVCD_ERROR_LIMITS;
+}
+
+static nsvcd_result nsvcd__part_check(const nsvcd_scene *scene, const nsvcd_part *part) {
+  const nsvcd_body *body = NULL;
+  const nsvcd_result result = nsvcd_body_trust(part->body, SIZE_MAX, &body);
+  if (result) return result;
+  if (part->link > scene->joint_count) return NSVCD_ERROR_LINK;
+  if (!nsvcd_body_describe(body).triangles) return NSVCD_ERROR_TRIANGLES;
+  const float scale = part->scale;
+  const int fits = scale >= NSVCD_MIN_SCALE && scale <= NSVCD_MAX_SCALE;
+  if (!(fits || (scale <= 0 && scale >= 0))) return NSVCD_ERROR_SCALE;
+  return nsvcd__poses_check(&part->pose, 1);
+}
+
+static nsvcd_result nsvcd__scene_check(const nsvcd_scene *scene) {
+  nsvcd_result result = NSVCD_OK;
+  if (!scene) return NSVCD_ERROR_ARGUMENT;
+  if (scene->joint_count < 1 || scene->joint_count > NSVCD_MAX_JOINTS)
+    return NSVCD_ERROR_COUNT;
+  if (scene->part_count > NSVCD_MAX_PARTS) return NSVCD_ERROR_COUNT;
+  if (!scene->joints) return NSVCD_ERROR_ARGUMENT;
+  if ((scene->part_count > 0 && !scene->parts) || (scene->pair_count > 0 && !scene->pairs))
+    return NSVCD_ERROR_ARGUMENT;
+  for (size_t i = 0; i < scene->joint_count && !result; i++)
+    result = nsvcd__joint_check(&scene->joints[i], i);
+  for (size_t n = 0; n < scene->part_count && !result; n++)
+    result = nsvcd__part_check(scene, &scene->parts[n]);
+  for (size_t k = 0; k < scene->pair_count && !result; k++) {
+    const nsvcd_body_pair *pair = &scene->pairs[k];
+    if (pair->a >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (pair->b >= scene->part_count) return NSVCD_ERROR_PAIR;
+    if (scene->parts[pair->a].link == scene->parts[pair->b].link) return NSVCD_ERROR_PAIR;
+  }
+  return result;
+}
+
+// A box about a part that is in this frame.
+static nsvcd__bounds nsvcd__box_of(const nsvcd__member *m, const nsvcd__frame *frame) {
+  const nsvcd__dmat3 axes = nsvcd__dmat3_of(frame->turn);
+  const nsvcd__d3 *rows[3] = {&axes.x, &axes.y, &axes.z};
+  nsvcd__d3 half = {0, 0, 0};
+  for (size_t k = 0; k < 3; k++) {
+    const nsvcd__d3 row = {fabs(rows[k]->x), fabs(rows[k]->y), fabs(rows[k]->z)};
+    nsvcd__d3_set_axis(&half, k, nsvcd__d3_dot(row, m->half));
+  }
+  const nsvcd__d3 middle = nsvcd__d3_add(nsvcd__dmat3_apply(&axes, m->middle), frame->place);
+  const nsvcd__bounds out = {nsvcd__d3_sub(middle, half), nsvcd__d3_add(middle, half)};
+  return out;
+}
+
+static nsvcd__bounds nsvcd__box_over(const nsvcd__bounds *a, const nsvcd__bounds *b) {
+  const nsvcd__bounds out = {nsvcd__d3_min(a->low, b->low), nsvcd__d3_max(a->high, b->high)};
+  return out;
+}
+
+// Are two boxes apart by more than `room` along an axis?
+static int nsvcd__boxes_apart(const nsvcd__bounds *a, const nsvcd__bounds *b, double room) {
+  return a->low.x - b->high.x > room || b->low.x - a->high.x > room ||
+         a->low.y - b->high.y > room || b->low.y - a->high.y > room ||
+         a->low.z - b->high.z > room || b->low.z - a->high.z > room;
+}
+
+// Lays a checker out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes; 0 if they are more than can be counted.
+static size_t nsvcd__checker_layout(const nsvcd_scene *scene, char *base,
+                                    nsvcd_checker **checker) {
+  nsvcd_checker counted;
+  uint64_t used = 0;
+  size_t movers = 0;
+  for (size_t n = 0; n < scene->part_count; n++) movers += scene->parts[n].link > 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd_checker));
+  nsvcd_checker *c = at ? (nsvcd_checker *)at : &counted;
+  const size_t parts = scene->part_count;
+  const size_t pairs = scene->pair_count;
+  const size_t samples = NSVCD__MOST_STEPS + 1;
+  c->members = (nsvcd__member *)nsvcd__take(base, &used, parts, sizeof(nsvcd__member));
+  c->order = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
+  c->left = (uint32_t *)nsvcd__take(base, &used, pairs, sizeof(uint32_t));
+  c->frames = (nsvcd__frame *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__frame));
+  c->boxes =
+      (nsvcd__bounds *)nsvcd__take(base, &used, movers * samples, sizeof(nsvcd__bounds));
+  for (size_t n = 0; n < 2; n++)
+    c->seen[n] = (nsvcd_pose *)nsvcd__take(base, &used, samples, sizeof(nsvcd_pose));
+  c->query_size = nsvcd_sweep_workspace_size(NULL);
+  c->query = nsvcd__take(base, &used, 1, c->query_size);
+  *checker = (nsvcd_checker *)at;
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_checker_size(const nsvcd_scene *scene) {
+  nsvcd_checker *unused;
+  return nsvcd__scene_check(scene) ? 0 : nsvcd__checker_layout(scene, NULL, &unused);
+}
+
+NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory, size_t size,
+                                         nsvcd_checker **checker) {
+  nsvcd_checker *c;
+  const nsvcd_result result = nsvcd__scene_check(scene);
+  if (result) return result;
+  if (!checker) return NSVCD_ERROR_ARGUMENT;
+  if (!memory || !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
+  const size_t needed = nsvcd__checker_layout(scene, NULL, &c);
+  if (!needed || size < needed) return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__checker_layout(scene, (char *)memory, &c);
+  c->scene = scene;
+  for (size_t i = 0; i < scene->joint_count; i++) {
+    const nsvcd_joint *joint = &scene->joints[i];
+    const nsvcd__frame origin = nsvcd__frame_of(&joint->origin);
+    nsvcd__link *link = &c->links[i];
+    link->place = origin.place;
+    link->turn = origin.turn;
+    link->axis = nsvcd__d3_unit(nsvcd__d3_load(joint->axis), nsvcd__d3_of(0, 0, 1));
+    link->path = (uint32_t)1 << i | (joint->parent ? c->links[joint->parent - 1].path : 0);
+  }
+  size_t row = 0;
+  for (size_t n = 0; n < scene->part_count; n++) {
+    const nsvcd_part *part = &scene->parts[n];
+    const double scale = part->scale > 0 ? (double)part->scale : 1;
+    const nsvcd_body_facts facts = nsvcd_body_describe(part->body);
+    nsvcd__member *m = &c->members[n];
+    m->frame = nsvcd__frame_of(&part->pose);
+    const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
+    const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
+    m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
+    // spheres are reckoned in float
+    m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
+    m->extent = 1.000001 * scale * (double)facts.extent;
+    const nsvcd__d3 low = nsvcd__d3_load(facts.low);
+    const nsvcd__d3 high = nsvcd__d3_load(facts.high);
+    const nsvcd__d3 all = {1, 1, 1};
+    m->middle = nsvcd__d3_scale(nsvcd__d3_add(low, high), 0.5 * scale);
+    // what is round goes beyond
+    m->half = nsvcd__d3_fma(scale * (double)facts.round, all,
+                            nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5 * scale));
+    m->box = nsvcd__box_of(m, &m->frame);
+    m->stray = 0;
+    m->rounding = 0;
+    m->row = part->link ? NSVCD__MOST_STEPS + 1 : 0;
+    m->row *= row;
+    row += part->link > 0;
+  }
+  for (size_t k = 0; k < scene->pair_count; k++) c->order[k] = (uint32_t)k;
+  *checker = c;
+  return NSVCD_OK;
+}
+
+// ---- samples
+
+// Places the parts that move, at a configuration, as sample k.
+static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, size_t k) {
+  const nsvcd_scene *scene = c->scene;
+  double reach = 0;
+  for (size_t link = 1; link <= scene->joint_count; link++)
+    reach = nsvcd__max(reach, nsvcd__d3_length(at->frames[link].place));
+  for (size_t n = 0; n < scene->part_count; n++) {
+    nsvcd__member *m = &c->members[n];
+    if (!scene->parts[n].link) continue;
+    const nsvcd__frame frame = nsvcd__frame_of_part(c, at, n);
+    const nsvcd__bounds box = nsvcd__box_of(m, &frame);
+    c->frames[m->row + k] = frame;
+    c->boxes[m->row + k] = box;
+    m->box = k ? nsvcd__box_over(&m->box, &box) : box;
+    // some 5e-16 of its lever for each joint
+    const double lever = reach + nsvcd__d3_length(frame.place) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * lever);
+  }
+}
+
+// Fills in, for each part that moves, its samples at c->times, one more than steps, and by how much
+// it strays between them.
+static void nsvcd__sample(nsvcd_checker *c, const nsvcd_joint_motion *motion, size_t steps) {
+  const nsvcd_scene *scene = c->scene;
+  const size_t bytes = scene->joint_count * sizeof(double);
+  nsvcd__step step;
+  nsvcd__configuration *from = &c->at;
+  nsvcd__configuration *to = &c->next;
+  for (size_t n = 0; n < scene->part_count; n++) c->members[n].stray = 0;
+  nsvcd_motion_at(motion, scene->joint_count, c->times[0], from->joints);
+  nsvcd__place_links(c, from);
+  nsvcd__sample_put(c, from, 0);
+  for (size_t k = 0; k < steps; k++) {
+    nsvcd__step_of(motion, scene->joint_count, c->times[k], c->times[k + 1], &step);
+    memcpy(to->joints, step.to, bytes);
+    nsvcd__place_links(c, to);
+    nsvcd__sample_put(c, to, k + 1);
+    c->strays[k] = 0;
+    for (size_t n = 0; n < scene->part_count; n++) {
+      nsvcd__member *m = &c->members[n];
+      if (!scene->parts[n].link) continue;
+      const double stray = nsvcd__stray_of(c, n, &step, from, to) * (1 + 1e-9);
+      c->strays[k] = nsvcd__max(c->strays[k], stray);
+      m->stray = nsvcd__max(m->stray, stray);
+    }
+    nsvcd__configuration *other = from;
+    from = to;
+    to = other;
+  }
+}
+
+// Cuts steps so that no part strays by more than is allowed, as far as can be foreseen: strays go
+// by the square of a step. Returns how many there are then, more than NSVCD__MOST_STEPS if there
+// were too many: then nothing is done.
+static size_t nsvcd__refine_steps(nsvcd_checker *c, size_t steps, double allowed) {
+  size_t total = 0;
+  for (size_t k = 0; k < steps; k++) {
+    const double pieces = ceil(sqrt(c->strays[k] / allowed));
+    if (!(pieces <= NSVCD__MOST_STEPS)) return NSVCD__MOST_STEPS + 1;
+    total += pieces > 1 ? (size_t)pieces : 1;
+  }
+  if (total > NSVCD__MOST_STEPS) return total;
+  size_t at = total;
+  c->times[total] = c->times[steps];
+  for (size_t k = steps; k-- > 0;) {
+    const double pieces = nsvcd__max(ceil(sqrt(c->strays[k] / allowed)), 1);
+    const double from = c->times[k];
+    const double way = c->times[at] - from;
+    for (size_t i = (size_t)pieces; i-- > 0;) c->times[--at] = from + way * (double)i / pieces;
+  }
+  return total;
+}
+
+// ---- pairs
+
+static nsvcd__bounds nsvcd__bounds_at(const nsvcd_checker *c, size_t part, size_t k) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->boxes[m->row + k] : m->box;
+}
+// A box about a part in a step: it goes no farther from it than it strays.
+static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_t step) {
+  const nsvcd__bounds from = nsvcd__bounds_at(c, part, step);
+  const nsvcd__bounds to = nsvcd__bounds_at(c, part, step + 1);
+  return nsvcd__box_over(&from, &to);
+}
+
+// Steps, one after another, of a pair that may come near in the first and in the last of them. As
+// many as 0 with no configuration but one.
+typedef struct nsvcd__spell {
+  size_t first, steps;
+} nsvcd__spell;
+
+// Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
+static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                           double room, nsvcd__spell *spell) {
+  size_t last = 0;
+  if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
+  spell->first = steps;
+  for (size_t k = 0; k < steps; k++) {
+    const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
+    const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
+    if (nsvcd__boxes_apart(&a, &b, room)) continue;
+    if (spell->first == steps) spell->first = k;
+    last = k + 1;
+  }
+  spell->steps = last - (steps ? spell->first : 0);
+  return steps == 0 || last > 0;
+}
+
+// A pair as one of its parts sees it: so places are small where the two are near each other,
+// however far from the world's origin they are, and a float has digits left. That is the part that
+// rests, if one does; else b, where it is half way.
+typedef struct nsvcd__sight {
+  // the frame that both are seen from, in the world
+  nsvcd__frame from;
+  // metres: what poses in float are off there, at most, of both together
+  double rounding;
+} nsvcd__sight;
+
+// Fills in c->seen. frames: of a and of b, (count) each, but one of a part that rests.
+static void nsvcd__look(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                        const nsvcd__frame *const *frames, size_t count, nsvcd__sight *view) {
+  const size_t parts[2] = {pair->a, pair->b};
+  view->from = c->scene->parts[pair->a].link ? frames[1][0] : frames[0][0];
+  if (c->scene->parts[pair->a].link && c->scene->parts[pair->b].link)
+    view->from = frames[1][count / 2];
+  view->rounding = 0;
+  for (size_t n = 0; n < 2; n++) {
+    const int moves = c->scene->parts[parts[n]].link > 0;
+    double most = 0;
+    for (size_t k = 0; k < (moves ? count : 1); k++) {
+      const nsvcd__frame in = nsvcd__frame_from(&view->from, &frames[n][k]);
+      c->seen[n][k] = nsvcd__pose_in(&in);
+      most = nsvcd__max(most, nsvcd__d3_length(in.place));
+    }
+    // places and quaternions as floats are off by no more
+    if (moves) view->rounding += 2 * (1.1e-7 * most + 1.3e-7 * c->members[parts[n]].extent);
+  }
+}
+
+// A direction and a point as they are seen, in the world.
+static nsvcd__d3 nsvcd__seen_way(const nsvcd__sight *view, nsvcd__d3 way) {
+  return nsvcd__dquat_rotate(view->from.turn, way);
+}
+static nsvcd__d3 nsvcd__seen_point(const nsvcd__sight *view, nsvcd__d3 point) {
+  return nsvcd__d3_add(nsvcd__seen_way(view, point), view->from.place);
+}
+
+// Takes a contact as it is seen to the world.
+static void nsvcd__set_contact(const nsvcd__sight *view, nsvcd_contact *contact) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, nsvcd__d3_load(contact->point));
+  const nsvcd__d3 normal = nsvcd__seen_way(view, nsvcd__d3_load(contact->normal));
+  nsvcd__f3_store(nsvcd__f3_round(point), contact->point);
+  nsvcd__f3_store(nsvcd__f3_round(normal), contact->normal);
+}
+
+// By how much a part is off the way that its samples say, at most.
+static double nsvcd__off(const nsvcd_checker *c, size_t part) {
+  return c->members[part].stray + 2 * c->members[part].rounding;
+}
+
+// Of two parts as they are seen, in so many poses each; what rests has one.
+static nsvcd_question nsvcd__question_of(const nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                         size_t count, size_t work) {
+  const size_t parts[2] = {pair->a, pair->b};
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  for (size_t n = 0; n < 2; n++) {
+    const nsvcd_part *part = &c->scene->parts[parts[n]];
+    nsvcd_mover *mover = n ? &question.b : &question.a;
+    mover->body = part->body;
+    mover->scale = part->scale;
+    mover->poses = c->seen[n];
+    mover->count = part->link ? count : 1;
+  }
+  question.method = NSVCD_METHOD_PROOF;
+  question.work = work ? work : NSVCD_DEFAULT_WORK;
+  return question;
+}
+
+// Asks whether two parts, as they are seen, come as near as the clearance.
+static nsvcd_result nsvcd__ask_seen(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    size_t count, float clearance,
+                                    const nsvcd_check_options *options, nsvcd_answer *found,
+                                    nsvcd_check_answer *answer) {
+  nsvcd_question question = nsvcd__question_of(c, pair, count, options->work);
+  question.clearance = clearance;
+  if (options->stop && options->stop(options->user)) {
+    memset(found, 0, sizeof *found);
+    found->why = NSVCD_WHY_WORK;
+    return NSVCD_OK;
+  }
+  answer->sweeps++;
+  return nsvcd_sweep(&question, c->query, c->query_size, found);
+}
+
+// The frames of a part from a sample on.
+static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
+                                            size_t sample) {
+  const nsvcd__member *m = &c->members[part];
+  return c->scene->parts[part].link ? c->frames + m->row + sample : &m->frame;
+}
+
+// Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and,
+// if a proof is wanted, all that these may be off. spell: what was asked about; the times of *found
+// are of it.
+static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                    size_t steps, int is_proof,
+                                    const nsvcd_check_options *options, nsvcd__spell *spell,
+                                    nsvcd_answer *found, nsvcd_check_answer *answer) {
+  nsvcd__sight view;
+  const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
+  const double room = (double)options->clearance + off;
+  if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
+    found->verdict = NSVCD_FREE;
+    return NSVCD_OK;
+  }
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, spell->first),
+                                         nsvcd__frames_at(c, pair->b, spell->first)};
+  nsvcd__look(c, pair, frames, spell->steps + 1, &view);
+  const double strays = is_proof ? off + view.rounding : 0;
+  const double clearance = (double)options->clearance + strays;
+  return nsvcd__ask_seen(c, pair, spell->steps + 1,
+                         clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
+}
+
+// Is a pair hit at joints of its motion? Then the answer says so.
+static nsvcd_result nsvcd__ask_at(nsvcd_checker *c, size_t pair, const double *joints,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer) {
+  nsvcd_answer found;
+  nsvcd__sight view;
+  nsvcd__frame at[2];
+  const nsvcd__frame *const frames[2] = {&at[0], &at[1]};
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(c, &c->at);
+  answer->placed++;
+  at[0] = nsvcd__frame_of_part(c, &c->at, both->a);
+  at[1] = nsvcd__frame_of_part(c, &c->at, both->b);
+  nsvcd__look(c, both, frames, 1, &view);
+  const nsvcd_result result =
+      nsvcd__ask_seen(c, both, 1, options->clearance, options, &found, answer);
+  if (result || found.verdict != NSVCD_HIT) return result;
+  answer->verdict = NSVCD_HIT;
+  answer->contact = found.nearest;
+  nsvcd__set_contact(&view, &answer->contact);
+  return NSVCD_OK;
+}
+
+// Puts a pair first in the order.
+static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
+  size_t at = 0;
+  while (c->order[at] != pair) at++;
+  for (; at > 0; at--) c->order[at] = c->order[at - 1];
+  c->order[0] = (uint32_t)pair;
+}
+
+// Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
+// proof reached, then about where the samples' own way hits. found: what the proof said.
+static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                    size_t pair, size_t steps, nsvcd__spell *spell,
+                                    nsvcd_answer *found, const nsvcd_check_options *options,
+                                    nsvcd_check_answer *answer) {
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  double joints[NSVCD_MAX_JOINTS];
+  nsvcd_result result = NSVCD_OK;
+  answer->pair = pair;
+  answer->why = found->why;
+  for (int look = 0; look < 2 && !result && found->verdict != NSVCD_FREE; look++) {
+    if (steps > 0) {
+      // times of a sweep go by samples
+      const double at =
+          (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
+      const size_t k = spell->first + within;
+      const double share = at - (double)within;
+      const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
+      answer->piece = nsvcd__piece_at(motion, time);
+      answer->share = nsvcd__share_at(motion, answer->piece, time);
+    }
+    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->share, joints,
+                     NULL);
+    result = nsvcd__ask_at(c, pair, joints, options, answer);
+    if (answer->verdict == NSVCD_HIT) return result;
+    if (look == 0 && !result)
+      result = nsvcd__ask_pair(c, both, steps, 0, options, spell, found, answer);
+  }
+  return result;
+}
+
+// A stretch of a motion from time t0 to t1 in so many steps at first, or, with none, one
+// configuration. What takes too many steps is halved, so often at most.
+static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_motion *motion,
+                                         double t0, double t1, size_t steps, int halvings,
+                                         const nsvcd_check_options *options,
+                                         nsvcd_check_answer *answer) {
+  size_t left = c->scene->pair_count;
+  double allowed = NSVCD__COARSE;
+  nsvcd_answer found;
+  nsvcd__spell spell;
+  nsvcd_check_options glance = *options;
+  if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
+  memcpy(c->left, c->order, left * sizeof *c->left);
+  answer->piece = nsvcd__piece_at(motion, t0);
+  answer->share = nsvcd__share_at(motion, answer->piece, t0);
+  for (size_t k = 0; k <= steps; k++)
+    c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
+  nsvcd__sample(c, motion, steps);
+  answer->placed += steps + 1;
+  while (left > 0) {
+    const size_t finer = nsvcd__refine_steps(c, steps, allowed);
+    if (finer > NSVCD__MOST_STEPS) {
+      const double middle = 0.5 * (t0 + t1);
+      answer->why = NSVCD_WHY_WORK;
+      if (halvings == 0 || !(middle > t0 && middle < t1)) return NSVCD_OK;
+      const nsvcd_result result =
+          nsvcd__check_stretch(c, motion, t0, middle, steps, halvings - 1, options, answer);
+      if (result || answer->verdict != NSVCD_FREE) return result;
+      answer->verdict = NSVCD_UNDECIDED;
+      return nsvcd__check_stretch(c, motion, middle, t1, steps, halvings - 1, options, answer);
+    }
+    if (finer > steps) {
+      steps = finer;
+      nsvcd__sample(c, motion, steps);
+      answer->placed += steps + 1;
+    }
+    size_t kept = 0;
+    for (size_t n = 0; n < left; n++) {
+      const size_t pair = c->left[n];
+      const nsvcd_body_pair *both = &c->scene->pairs[pair];
+      nsvcd_result result =
+          nsvcd__ask_pair(c, both, steps, 1, options, &spell, &found, answer);
+      if (!result && found.verdict == NSVCD_FREE) continue;
+      // a glance, but for the last time
+      const int is_last = steps == 0 || allowed <= (double)options->finest;
+      if (!result)
+        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found,
+                                 is_last ? options : &glance, answer);
+      if (result) return result;
+      if (answer->verdict == NSVCD_HIT) {
+        nsvcd__put_first(c, pair);
+        return NSVCD_OK;
+      }
+      c->left[kept++] = (uint32_t)pair;
+    }
+    left = kept;
+    if (left == 0) break;
+    if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
+    allowed = nsvcd__max(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
+  }
+  answer->pair = NSVCD_NONE;
+  answer->verdict = NSVCD_FREE;
+  return NSVCD_OK;
+}
+
+// Does the motion turn sharply where a piece begins? There a sample belongs.
+static int nsvcd__is_corner(const nsvcd_joint_motion *motion, size_t joints, size_t piece) {
+  const double before = nsvcd__piece_time(motion, piece - 1);
+  const double after = nsvcd__piece_time(motion, piece);
+  double jumps = 0;
+  for (size_t j = 0; j < joints; j++) jumps += nsvcd__jump_at(motion, joints, piece, j);
+  return !(jumps * nsvcd__min(before, after) <= NSVCD__CORNER);
+}
+
+// What a joint may be out of its limits by rounding.
+static double nsvcd__limit_off(const nsvcd_joint *joint) {
+  return 1e-9 * (1 + fabs(joint->low) + fabs(joint->high));
+}
+
+// Does a joint leave its limits in a piece? Halved until it is within at all its points, or out at
+// an end.
+static int nsvcd__leaves(const double *points, size_t degree, double low, double high,
+                         int depth) {
+  double first[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
+  int within = 1;
+  for (size_t i = 0; i <= degree; i++) within &= points[i] >= low && points[i] <= high;
+  if (within) return 0;
+  if (depth == 0 || !(points[0] >= low && points[0] <= high)) return 1;
+  if (!(points[degree] >= low && points[degree] <= high)) return 1;
+  memcpy(first, points, (degree + 1) * sizeof *points);
+  memcpy(second, points, (degree + 1) * sizeof *points);
+  nsvcd__cut_curve(first, degree, 0, 0.5);
+  nsvcd__cut_curve(second, degree, 0.5, 1);
+  return nsvcd__leaves(first, degree, low, high, depth - 1) ||
+         nsvcd__leaves(second, degree, low, high, depth - 1);
+}
+
+// A joint that leaves its limits in a piece by more than rounding, or NSVCD_NONE.
+static size_t nsvcd__joint_outside(const nsvcd_scene *scene, const nsvcd_joint_motion *motion,
+                                   size_t piece) {
+  double own[NSVCD_MAX_DEGREE + 1];
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    nsvcd__joint_points(motion, piece, scene->joint_count, j, own);
+    const double off = nsvcd__limit_off(joint);
+    if (nsvcd__leaves(own, motion->degree, joint->low - off, joint->high + off, 30)) return j;
+  }
+  return NSVCD_NONE;
+}
+
+// Is a motion, as it is meant, in order?
+static nsvcd_result nsvcd__motion_check(const nsvcd_joint_motion *m, size_t joints) {
+  const double most = (double)NSVCD_MAX_COORDINATE;
+  if (m->pieces && (m->degree < 1 || m->degree > NSVCD_MAX_DEGREE)) return NSVCD_ERROR_DEGREE;
+  if (m->pieces > SIZE_MAX / sizeof(double) / (NSVCD_MAX_DEGREE + 1) / joints)
+    return NSVCD_ERROR_DEGREE;
+  for (size_t k = 0; k < (m->pieces * m->degree + 1) * joints; k++) {
+    if (!nsvcd__is_number(m->points[k], most)) return NSVCD_ERROR_VALUE;
+  }
+  for (size_t p = 0; p <= m->pieces && m->times; p++) {
+    if (!nsvcd__is_number(m->times[p], most)) return NSVCD_ERROR_TIMES;
+    if (p > 0 && !(m->times[p] > m->times[p - 1])) return NSVCD_ERROR_TIMES;
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
+                                  const nsvcd_check_options *options,
+                                  nsvcd_check_answer *answer) {
+  nsvcd_check_answer found;
+  nsvcd_check_options o;
+  if (!checker || !motion || !answer || !motion->points) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = checker->scene;
+  const size_t joints = scene->joint_count;
+  const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
+  nsvcd_result result = nsvcd__motion_check(&m, joints);
+  if (result) return result;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__is_finite(o.clearance) || o.clearance < 0) return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_finite(o.finest) || o.finest < 0) return NSVCD_ERROR_FINEST;
+  o.finest = o.finest > 0 ? o.finest : NSVCD__FINEST;
+  memset(&found, 0, sizeof found);
+  found.joint = found.pair = found.piece = NSVCD_NONE;
+  for (size_t p = 0; p < m.pieces + !m.pieces && found.joint == NSVCD_NONE; p++)
+    found.joint = nsvcd__joint_outside(scene, &m, p);
+  found.verdict = NSVCD_UNDECIDED;
+  if (m.pieces == 0) result = nsvcd__check_stretch(checker, &m, 0, 0, 0, 0, &o, &found);
+  // from corner to corner
+  for (size_t p = 0, next; p < m.pieces && !result; p = next) {
+    next = p + 1;
+    while (next < m.pieces && !nsvcd__is_corner(&m, joints, next)) next++;
+    const size_t steps = next - p == 1 && m.degree == 1 ? 1 : NSVCD__FIRST_STEPS;
+    found.verdict = NSVCD_UNDECIDED;
+    result = nsvcd__check_stretch(checker, &m, nsvcd__piece_start(&m, p),
+                                  nsvcd__piece_start(&m, next), steps, NSVCD__STRETCHES, &o,
+                                  &found);
+    if (found.verdict != NSVCD_FREE) break;
+  }
+  if (result) return result;
+  if (found.verdict == NSVCD_FREE) {
+    found.piece = NSVCD_NONE;
+    found.share = 0;
+    found.why = NSVCD_WHY_NOTHING;
+  }
+  *answer = found;
+  return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------------ robot/proofs
+// In: a pair of parts, a motion of the joints, and their meshes' trees. Out: a certificate that the
+// two never meet, as the joints move them.
+//
+// THE CHORDS. Two parts are seen from the last link that carries both. Let x in [0,1] be the share
+// of a stretch of a piece that has gone by, V_j and A_j bounds of |q_j'| and |q_j''| by x, and L_j
+// one of the distance of a point y from joint j: the sum of what stands between them; of a joint
+// that slides 1. Then
+//   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
+// the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
+// bound of robot/stray is a better one, from where the links are; this one a checker can reckon
+// again in a few lines.
+// Source: this library.
+
+#ifdef NEURALSVCD_CERTIFY_H
+// A part, as its motion model sees it.
+typedef struct nsvcd__carried {
+  const nsvcd_checker *checker;
+  nsvcd_joint_motion motion;
+  size_t part;
+  // from which it is seen
+  size_t base;
+} nsvcd__carried;
+
+static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
+  const double first = nsvcd__piece_start(m, 0);
+  const double whole = nsvcd__piece_start(m, m->pieces) - first;
+  return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
+}
+
+static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
+  size_t low = 0;
+  size_t high = m->pieces;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (nsvcd__knot_of(m, middle) <= t)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The points of a joint's curve from one time of [0,1] to another, both in a piece. Returns by how
+// much they, and their differences as the stray has them, are off at most, and a hundredth more:
+// ROUNDINGS of examples/verify/nsvcd_verify_robot.h.
+static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
+                              double *p) {
+  const nsvcd_joint_motion *m = &c->motion;
+  const size_t piece = nsvcd__knot_before(m, 0.5 * (t0 + t1));
+  const double start = nsvcd__knot_of(m, piece);
+  const double whole = nsvcd__knot_of(m, piece + 1) - start;
+  const double from = nsvcd__max((t0 - start) / whole, 0);
+  const double to = nsvcd__min((t1 - start) / whole, 1);
+  double most = 0;
+  nsvcd__joint_points(m, piece, c->checker->scene->joint_count, joint, p);
+  for (size_t i = 0; i <= m->degree; i++) most = nsvcd__max(most, fabs(p[i]));
+  nsvcd__cut_curve(p, m->degree, from, to);
+  return 5.05e-13 * most;
+}
+
+static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
+  const nsvcd__carried *c = (const nsvcd__carried *)motion;
+  const nsvcd_scene *scene = c->checker->scene;
+  nsvcd__frame at = c->checker->members[c->part].frame;
+  for (size_t link = scene->parts[c->part].link; link != c->base;
+       link = scene->joints[link - 1].parent) {
+    const nsvcd__link *carrier = &c->checker->links[link - 1];
+    double p[NSVCD_MAX_DEGREE + 1];
+    (void)nsvcd__curve_of(c, link - 1, t, t, p);
+    const int slides = nsvcd__slides(c->checker, link - 1);
+    const nsvcd__d3 axis = nsvcd__d3_scale(carrier->axis, slides ? p[0] : sin(0.5 * p[0]));
+    nsvcd__frame joint = {{axis.x, axis.y, axis.z, cos(0.5 * p[0])}, {0, 0, 0}};
+    if (slides) {
+      const nsvcd__frame slid = {{0, 0, 0, 1}, axis};
+      joint = slid;
+    }
+    const nsvcd__frame origin = {carrier->turn, carrier->place};
+    at = nsvcd__frame_in(&joint, &at);
+    at = nsvcd__frame_in(&origin, &at);
+  }
+  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(at.turn));
+  nsvcd_placement out;
+  memcpy(out.rotation, &rotation, sizeof out.rotation);
+  memcpy(out.position, &at.place, sizeof out.position);
+  return out;
+}
+
+static double nsvcd__carried_next(const void *motion, double t) {
+  const nsvcd_joint_motion *m = &((const nsvcd__carried *)motion)->motion;
+  return nsvcd__knot_of(m, nsvcd__knot_before(m, t) + 1);
+}
+
+// THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
+// origin, and what goes with it.
+static nsvcd_deviation nsvcd__carried_deviation(const void *motion, double t0, double t1) {
+  const nsvcd__carried *c = (const nsvcd__carried *)motion;
+  const nsvcd_scene *scene = c->checker->scene;
+  const double n = (double)c->motion.degree;
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  nsvcd_deviation outer, out;
+  memset(&outer, 0, sizeof outer);
+  memset(&out, 0, sizeof out);
+  for (size_t link = scene->parts[c->part].link; link != c->base;
+       link = scene->joints[link - 1].parent) {
+    const int slides = nsvcd__slides(c->checker, link - 1);
+    const double per_metre = slides ? 0 : 1;
+    const double base = slides ? 1 : reach;
+    double p[NSVCD_MAX_DEGREE + 1];
+    double most = 0;
+    double speed = 0;
+    double bend = 0;
+    const double off = nsvcd__curve_of(c, link - 1, t0, t1, p);
+    for (size_t i = 0; i <= c->motion.degree; i++) most = nsvcd__max(most, fabs(p[i]));
+    for (size_t i = 0; i + 1 <= c->motion.degree; i++)
+      speed = nsvcd__max(speed, n * fabs(p[i + 1] - p[i]));
+    for (size_t i = 0; i + 2 <= c->motion.degree; i++)
+      bend = nsvcd__max(bend, n * (n - 1) * fabs(p[i + 2] - 2 * p[i + 1] + p[i]));
+    most += off;
+    speed += off;
+    bend += off;
+    const double own = slides ? 0 : speed;
+    out.base += bend * base + own * (2 * outer.base + own * base);
+    out.per_metre += bend * per_metre + own * (2 * outer.per_metre + own * per_metre);
+    outer.base += speed * base;
+    outer.per_metre += speed * per_metre;
+    const nsvcd__d3 offset = c->checker->links[link - 1].place;
+    reach += nsvcd__d3_length(offset) + (slides ? most : 0);
+  }
+  out.base *= 0.1250001;
+  out.per_metre *= 0.1250001;
+  return out;
+}
+
+// The lower half of a double first, whatever the machine's order.
+static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  const uint32_t halves[2] = {(uint32_t)bits, (uint32_t)(bits >> 32)};
+  return nsvcd__digest(digest, halves, 2);
+}
+
+// A digest of what carries a part, and by how much its places can be off: lengths that they are
+// reckoned from.
+static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
+  const nsvcd_scene *scene = c->checker->scene;
+  const nsvcd_part *part = &scene->parts[c->part];
+  const nsvcd_joint_motion *m = &c->motion;
+  const float scale = part->scale > 0 ? part->scale : 1;
+  double reach = nsvcd__d3_length(c->checker->members[c->part].frame.place);
+  uint32_t d = nsvcd__digest((uint32_t)c->base, part->pose.position, 7);
+  d = nsvcd__digest(d, &scale, 1);
+  for (size_t link = part->link; link != c->base; link = scene->joints[link - 1].parent) {
+    const nsvcd_joint *joint = &scene->joints[link - 1];
+    const uint32_t slides = joint->kind == NSVCD_JOINT_PRISMATIC;
+    double most = 0;
+    d = nsvcd__digest(d + slides, joint->origin.position, 7);
+    d = nsvcd__digest(d + (uint32_t)link, joint->axis, 3);
+    for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+      const double *value = &m->points[i * scene->joint_count + link - 1];
+      d = nsvcd__digest_double(d, *value);
+      most = nsvcd__max(most, fabs(*value));
+    }
+    reach += nsvcd__d3_length(c->checker->links[link - 1].place) + (slides ? most : 0);
+  }
+  d += (uint32_t)m->degree;
+  for (size_t i = 0; i <= m->pieces; i++) {
+    d = nsvcd__digest_double(d, nsvcd__piece_start(m, i));
+  }
+  const nsvcd_motion_model model = {(double)scale,
+                                    nsvcd__carried_place,
+                                    nsvcd__carried_next,
+                                    nsvcd__carried_deviation,
+                                    c,
+                                    reach,
+                                    d};
+  return model;
+}
+
+// Are there pieces, and are they such that a double has digits left for angles and for times?
+static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *m) {
+  const size_t joints = c->scene->joint_count;
+  if (m->pieces < 1 || m->pieces > NSVCD_MAX_POSES) return 0;
+  for (size_t i = 0; i <= m->pieces * m->degree; i++) {
+    const size_t piece = i > 0 ? (i - 1) / m->degree : 0;
+    const double whole = nsvcd__knot_of(m, piece + 1) - nsvcd__knot_of(m, piece);
+    if (!(whole >= 1.001e-9)) return 0;
+    for (size_t j = 0; j < joints; j++) {
+      const double *value = &m->points[i * joints + j];
+      const double step = i > 0 ? (double)m->degree * fabs(*value - *(value - joints)) : 0;
+      if (!nsvcd__slides(c, j) && !(fabs(*value) <= 1e3)) return 0;
+      if (!(step <= 0.999e5 * whole)) return 0;
+    }
+  }
+  return 1;
+}
+
+// The last link that carries two others.
+static size_t nsvcd__common_link(const nsvcd_scene *scene, size_t a, size_t b) {
+  while (a != b) {
+    if (a > b)
+      a = scene->joints[a - 1].parent;
+    else
+      b = scene->joints[b - 1].parent;
+  }
+  return a;
+}
+
+NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
+                                                  const nsvcd_tree *a, const nsvcd_tree *b) {
+  return motion ? nsvcd_certify_models_workspace_size(motion->pieces + 1, a, b) : 0;
+}
+
+NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
+                                         const nsvcd_joint_motion *motion, size_t pair,
+                                         float clearance, const nsvcd_tree *a,
+                                         const nsvcd_tree *b,
+                                         const nsvcd_certify_options *options, void *workspace,
+                                         size_t workspace_size, uint8_t *bytes,
+                                         size_t capacity, nsvcd_certificate *made) {
+  nsvcd__carried carried[2];
+  nsvcd_motion_model models[2];
+  if (!checker || !motion || !a || !b || !made || (capacity > 0 && !bytes))
+    return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = checker->scene;
+  if (!motion->points) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_result result = nsvcd__motion_check(motion, scene->joint_count);
+  if (result) return result;
+  if (pair >= scene->pair_count) return NSVCD_ERROR_PAIR;
+  if (!nsvcd__is_provable(checker, motion)) return NSVCD_ERROR_TURN;
+  const nsvcd_body_pair *parts = &scene->pairs[pair];
+  const size_t base =
+      nsvcd__common_link(scene, scene->parts[parts->a].link, scene->parts[parts->b].link);
+  for (size_t k = 0; k < 2; k++) {
+    carried[k].checker = checker;
+    carried[k].motion = *motion;
+    carried[k].part = k ? parts->b : parts->a;
+    carried[k].base = base;
+    models[k] = nsvcd__carried_model(&carried[k]);
+  }
+  return nsvcd_certify_models(models, motion->pieces + 1, clearance, a, b, options, workspace,
+                              workspace_size, bytes, capacity, made);
+}
+#endif  // NEURALSVCD_CERTIFY_H
+
+// ------------------------------------------------------------------------------------- robot/trees
+// In: configurations. Out: a tree of them, and the one that is nearest to another.
+//
+// Distances are Euclidean, radians and metres alike. A k-d tree that grows: a leaf of more points
+// than it may hold is cut half way along the joint in which they are widest apart.
+
+#define NSVCD__LEAF 8
+
+typedef struct nsvcd__cell {
+  // where it is cut, or of a leaf: nothing
+  double at;
+  // by which joint; NSVCD_MAX_JOINTS: a leaf
+  uint32_t joint;
+  // the two halves, one after another; of a leaf: a node and, by `next`, the others, and how many
+  uint32_t first, count;
+} nsvcd__cell;
+
+typedef struct nsvcd__tree {
+  size_t joints, count, cell_count;
+  double *points;      // (nodes, F)
+  uint32_t *parents;   // (nodes): of a root, itself
+  uint32_t *next;      // (nodes): in a leaf
+  nsvcd__cell *cells;  // (2 nodes)
+} nsvcd__tree;
+
+static double nsvcd__way2(const double *a, const double *b, size_t joints) {
+  double sum = 0;
+  for (size_t j = 0; j < joints; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
+  return sum;
+}
+
+// Cuts a leaf, unless all its points are the same.
+static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
+  nsvcd__cell *cell = &t->cells[index];
+  size_t widest = 0;
+  double width = 0;
+  double middle = 0;
+  for (size_t j = 0; j < t->joints; j++) {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      low = nsvcd__min(low, t->points[node * t->joints + j]);
+      high = nsvcd__max(high, t->points[node * t->joints + j]);
+    }
+    if (!(high - low > width)) continue;
+    widest = j;
+    width = high - low;
+    middle = 0.5 * (low + high);
+  }
+  if (!(width > 0)) return;
+  nsvcd__cell *halves = &t->cells[t->cell_count];
+  t->cell_count += 2;
+  for (size_t k = 0; k < 2; k++) {
+    halves[k].joint = NSVCD_MAX_JOINTS;
+    halves[k].count = 0;
+  }
+  uint32_t node = cell->first;
+  for (uint32_t n = 0; n < cell->count; n++) {
+    const uint32_t following = t->next[node];
+    nsvcd__cell *half = &halves[t->points[node * t->joints + widest] > middle];
+    t->next[node] = half->first;
+    half->first = node;
+    half->count++;
+    node = following;
+  }
+  cell->joint = (uint32_t)widest;
+  cell->at = middle;
+  cell->first = (uint32_t)(halves - t->cells);
+}
+
+// parent: t->count of a root. Returns the node.
+static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
+  const size_t node = t->count++;
+  size_t index = 0;
+  memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
+  t->parents[node] = (uint32_t)parent;
+  if (t->cell_count == 0) {
+    t->cell_count = 1;
+    t->cells[0].joint = NSVCD_MAX_JOINTS;
+    t->cells[0].count = 0;
+  }
+  while (t->cells[index].joint < NSVCD_MAX_JOINTS)
+    index = t->cells[index].first + (at[t->cells[index].joint] > t->cells[index].at);
+  t->next[node] = t->cells[index].first;
+  t->cells[index].first = (uint32_t)node;
+  if (++t->cells[index].count > NSVCD__LEAF) nsvcd__leaf_cut(t, index);
+  return node;
+}
+
+// Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
+static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
+                              double *off, double off2, size_t *nearest, double *best) {
+  const nsvcd__cell *cell = &t->cells[index];
+  if (!(off2 < *best)) return;
+  if (cell->joint == NSVCD_MAX_JOINTS) {
+    uint32_t node = cell->first;
+    for (uint32_t n = 0; n < cell->count; n++, node = t->next[node]) {
+      const double way = nsvcd__way2(&t->points[node * t->joints], at, t->joints);
+      if (!(way < *best)) continue;
+      *best = way;
+      *nearest = node;
+    }
+    return;
+  }
+  const double side = at[cell->joint] - cell->at;
+  const double was = off[cell->joint];
+  nsvcd__nearest_in(t, cell->first + (side > 0), at, off, off2, nearest, best);
+  off[cell->joint] = side;
+  nsvcd__nearest_in(t, cell->first + !(side > 0), at, off, off2 + side * side - was * was,
+                    nearest, best);
+  off[cell->joint] = was;
+}
+
+// The node nearest to a configuration, of a tree that has one.
+static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
+  double off[NSVCD_MAX_JOINTS] = {0};
+  double best = HUGE_VAL;
+  size_t nearest = 0;
+  nsvcd__nearest_in(t, 0, at, off, 0, &nearest, &best);
+  return nearest;
+}
+
+// ---------------------------------------------------------------------------------- robot/postures
+// In: a robot in one configuration. Out: pairs that are near, and how that changes with the joints;
+// a configuration near by that is free; which pairs can meet.
+
+#define NSVCD__GAP_WITHIN 0.05f
+#define NSVCD__GAP_TO 2e-5f
+#define NSVCD__GAP_DEEPEST 0.02f
+// of `deepest`: the first skin that is tried; and how often a lift is halved
+#define NSVCD__LEAST_SKIN 0.015625f
+#define NSVCD__DEPTH_HALVINGS 12
+// of the depth: what is looked at to see which faces part last; and the least share of a lift that
+// parts them, of which a slope is told
+#define NSVCD__DEPTH_BEYOND 1.01
+#define NSVCD__LEAST_RATE 0.1
+#define NSVCD__FARTHEST_ESCAPE 0.5
+// metres that an escape leaves beside the clearance, so that a route can begin there
+#define NSVCD__ESCAPE_ROOM 5e-4f
+// spheres about the joints that random configurations are drawn on, and how many on each; how much
+// nearer than the best the next is drawn; halvings of the way back
+#define NSVCD__ESCAPE_RINGS 8
+#define NSVCD__ESCAPE_DRAWS 64
+#define NSVCD__ESCAPE_NEARER 0.9
+#define NSVCD__ESCAPE_HALVINGS 10
+#define NSVCD__PAIR_SAMPLES 64
+
+static nsvcd_result nsvcd__check_joints(const nsvcd_checker *checker, const double *joints) {
+  if (!checker || !joints) return NSVCD_ERROR_ARGUMENT;
+  for (size_t j = 0; j < checker->scene->joint_count; j++) {
+    if (!nsvcd__is_number(joints[j], (double)NSVCD_MAX_COORDINATE)) return NSVCD_ERROR_VALUE;
+  }
+  return NSVCD_OK;
+}
+
+// Places all parts where the joints say, as the first of their samples.
+static void nsvcd__stand(nsvcd_checker *c, const double *joints) {
+  memcpy(c->at.joints, joints, c->scene->joint_count * sizeof *joints);
+  nsvcd__place_links(c, &c->at);
+  nsvcd__sample_put(c, &c->at, 0);
+}
+
+// Of two parts where they stand.
+static nsvcd_question nsvcd__ask_standing(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                          size_t work, nsvcd__sight *view) {
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, 0),
+                                         nsvcd__frames_at(c, pair->b, 0)};
+  nsvcd__look(c, pair, frames, 1, view);
+  return nsvcd__question_of(c, pair, 1, work);
+}
+
+// ---- gaps
+
+// How the point of a part that is seen at `at` now moves along a normal, by each joint: added to
+// the slope, times `sign`.
+static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__sight *view,
+                             nsvcd__d3 at, nsvcd__d3 along, double sign, double *slope) {
+  const nsvcd__d3 point = nsvcd__seen_point(view, at);
+  const nsvcd__d3 normal = nsvcd__seen_way(view, along);
+  const uint32_t link = c->scene->parts[part].link;
+  for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
+    const size_t j = nsvcd__low_bit(path);
+    const nsvcd__d3 lever = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
+    const nsvcd__d3 speed =
+        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], lever);
+    slope[j] += sign * nsvcd__d3_dot(normal, speed);
+  }
+}
+
+// Asks a question with a lifted by so much.
+static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *question,
+                                      nsvcd__d3 lift, nsvcd_answer *found) {
+  nsvcd_pose lifted = *question->a.poses;
+  nsvcd_question asked = *question;
+  const nsvcd__d3 place = nsvcd__d3_add(nsvcd__d3_load(lifted.position), lift);
+  asked.a.poses = &lifted;
+  nsvcd__f3_store(nsvcd__f3_round(place), lifted.position);
+  return nsvcd_sweep(&asked, c->query, c->query_size, found);
+}
+
+// A lift of a off b that parts them, by the least of some skins, each four times the one before,
+// that is enough. 0: none up to `deepest` is.
+static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question question,
+                                        float deepest, nsvcd__d3 *lift) {
+  nsvcd_answer found;
+  for (float share = NSVCD__LEAST_SKIN; share <= 1; share *= 4) {
+    question.skin = share * deepest;
+    const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    if (result) return result;
+    *lift = nsvcd__d3_load(found.lift);
+    if (found.verdict == NSVCD_FREE) return NSVCD_OK;
+  }
+  *lift = nsvcd__d3_of(0, 0, 0);
+  return NSVCD_OK;
+}
+
+// Of parts that touch: how deep, where, along which normal, and how that shrinks. question: with
+// all that poses are off as its clearance.
+static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question question,
+                                        const nsvcd__sight *view, const nsvcd_gap_options *o,
+                                        nsvcd_gap *gap) {
+  const nsvcd_body_pair *both = &c->scene->pairs[gap->pair];
+  nsvcd_answer found;
+  nsvcd__d3 lift = {0, 0, 0};
+  double low = 0;  // share of the lift: they touch there; and they do not
+  double high = 1;
+  question.ask = NSVCD_ASK_HIT;
+  question.to = 0;
+  nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
+  const double length = nsvcd__d3_length(lift);
+  if (result || !(length > 0)) return result;
+  for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
+    const double middle = 0.5 * (low + high);
+    result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, middle), &found);
+    *(!result && found.verdict == NSVCD_FREE ? &high : &low) = middle;
+  }
+  if (result) return result;
+  // a little beyond, which faces are near
+  const double beyond = NSVCD__DEPTH_BEYOND * high + (double)o->to / length;
+  question.clearance = 0;
+  question.ask = NSVCD_ASK_DISTANCE;
+  question.to = 0.1f * o->to;
+  result = nsvcd__ask_lifted(c, &question, nsvcd__d3_scale(lift, beyond), &found);
+  if (result) return result;
+  const nsvcd__d3 along = nsvcd__d3_scale(lift, 1 / length);
+  const nsvcd__d3 normal = nsvcd__d3_load(found.nearest.normal);
+  const nsvcd__d3 point = nsvcd__d3_load(found.nearest.point);
+  gap->depth = nsvcd__above(high * length);
+  gap->contact = found.nearest;
+  gap->contact.gap = 0;
+  nsvcd__f3_store(nsvcd__f3_round(along), gap->contact.normal);
+  nsvcd__set_contact(view, &gap->contact);
+  // a lift parts the two faces slower than it goes, unless it is along their normal
+  const double rate = nsvcd__d3_dot(along, normal);
+  if (!(rate > NSVCD__LEAST_RATE)) return NSVCD_OK;
+  const nsvcd__d3 on_a = nsvcd__d3_fma(-high, lift, point);
+  nsvcd__slope_add(c, both->a, view, on_a, normal, 1 / rate, gap->slope);
+  nsvcd__slope_add(c, both->b, view, point, normal, -1 / rate, gap->slope);
+  return NSVCD_OK;
+}
+
+// The gap of a pair where it stands. *is_near: it is within.
+static nsvcd_result nsvcd__gap_of(nsvcd_checker *c, size_t pair, const nsvcd_gap_options *o,
+                                  nsvcd_gap *gap, int *is_near) {
+  const nsvcd_body_pair *both = &c->scene->pairs[pair];
+  const nsvcd__member *members[2] = {&c->members[both->a], &c->members[both->b]};
+  nsvcd_answer found;
+  nsvcd__sight view;
+  const double frames_off = 2 * (members[0]->rounding + members[1]->rounding);
+  const double within = (double)o->within + frames_off;
+  *is_near = 0;
+  if (nsvcd__boxes_apart(&members[0]->box, &members[1]->box, 1.000001 * within))
+    return NSVCD_OK;
+  nsvcd_question question = nsvcd__ask_standing(c, both, o->work, &view);
+  // places are off by so much, at most, and a lift that is told in floats
+  const double off = frames_off + view.rounding;
+  const float deepest_off = nsvcd__above(off + 2e-7 * (double)o->deepest);
+  question.clearance = nsvcd__above((double)o->within + off);
+  nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict == NSVCD_FREE) return result;
+  question.clearance = 0;
+  question.ask = NSVCD_ASK_DISTANCE;
+  question.to = o->to;
+  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result) return result;
+  *is_near = 1;
+  memset(gap, 0, sizeof *gap);
+  gap->pair = pair;
+  gap->verdict = found.verdict;
+  gap->why = found.why;
+  gap->contact = found.nearest;
+  if (found.verdict == NSVCD_HIT) {
+    nsvcd__set_contact(&view, &gap->contact);
+    gap->distance.high = nsvcd__above(off);
+    gap->depth = HUGE_VALF;
+    question.clearance = deepest_off;
+    return found.inside ? NSVCD_OK : nsvcd__touching_gap(c, question, &view, o, gap);
+  }
+  gap->distance.high = nsvcd__above((double)found.distance.high + off);
+  gap->distance.low = (float)nsvcd__max((double)found.distance.low * (1 - 1e-7) - off, 0);
+  // of both at the point on b: that on a is off it along the normal, and no turn changes that
+  const nsvcd__d3 normal = nsvcd__d3_load(gap->contact.normal);
+  const nsvcd__d3 point = nsvcd__d3_load(gap->contact.point);
+  nsvcd__slope_add(c, both->a, &view, point, normal, 1, gap->slope);
+  nsvcd__slope_add(c, both->b, &view, point, normal, -1, gap->slope);
+  nsvcd__set_contact(&view, &gap->contact);
+  if (gap->verdict != NSVCD_FREE || gap->distance.low > 0) return NSVCD_OK;
+  // the poses are free of each other: are the parts?
+  question.ask = NSVCD_ASK_HIT;
+  question.to = 0;
+  question.clearance = nsvcd__above(off);
+  result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+  if (result || found.verdict == NSVCD_FREE) return result;
+  gap->verdict = NSVCD_UNDECIDED;
+  gap->why = NSVCD_WHY_TOO_NEAR;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
+                                 const nsvcd_gap_options *options, nsvcd_gap *gaps,
+                                 size_t capacity, size_t *count) {
+  nsvcd_gap_options o;
+  size_t near_ones = 0;
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (!result && (!count || (!gaps && capacity > 0))) result = NSVCD_ERROR_ARGUMENT;
+  if (result) return result;
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__is_length(o.within)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.deepest)) return NSVCD_ERROR_WITHIN;
+  if (!nsvcd__is_length(o.to)) return NSVCD_ERROR_TO;
+  o.within = o.within > 0 ? o.within : NSVCD__GAP_WITHIN;
+  o.to = o.to > 0 ? o.to : NSVCD__GAP_TO;
+  o.deepest = o.deepest > 0 ? o.deepest : NSVCD__GAP_DEEPEST;
+  nsvcd__stand(checker, joints);
+  for (size_t n = 0; n < checker->scene->pair_count && !result; n++) {
+    nsvcd_gap gap;
+    int is_near;
+    result = nsvcd__gap_of(checker, n, &o, &gap, &is_near);
+    if (result || !is_near) continue;
+    if (near_ones < capacity) gaps[near_ones] = gap;
+    near_ones++;
+  }
+  if (!result) *count = near_ones;
+  return result;
+}
+
+// ---- a way out
+
+static void nsvcd__take_into_limits(const nsvcd_scene *scene, double *joints) {
+  for (size_t j = 0; j < scene->joint_count; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+    const double low = is_endless ? -(double)NSVCD_MAX_COORDINATE : joint->low;
+    const double high = is_endless ? (double)NSVCD_MAX_COORDINATE : joint->high;
+    joints[j] = nsvcd__max(low, nsvcd__min(high, joints[j]));
+  }
+}
+
+static nsvcd_result nsvcd__is_free_at(nsvcd_checker *c, const double *joints,
+                                      const nsvcd_escape_options *o, int *is_free) {
+  const nsvcd_joint_motion still = {0, 0, joints, NULL};
+  const nsvcd_check_options options = {o->clearance, 0, 0, o->stop, o->user};
+  nsvcd_check_answer answer;
+  const nsvcd_result result = nsvcd_check(c, &still, &options, &answer);
+  *is_free = !result && answer.verdict == NSVCD_FREE && answer.joint == NSVCD_NONE;
+  return result;
+}
+
+// From a place that is free back towards `from`, which is not, as far as that stays free.
+static nsvcd_result nsvcd__draw_back(nsvcd_checker *c, const double *from,
+                                     const nsvcd_escape_options *o, double *at) {
+  const size_t joints = c->scene->joint_count;
+  double blocked[NSVCD_MAX_JOINTS];
+  nsvcd_result result = NSVCD_OK;
+  memcpy(blocked, from, joints * sizeof *at);
+  for (size_t n = 0; n < NSVCD__ESCAPE_HALVINGS && !result; n++) {
+    double middle[NSVCD_MAX_JOINTS];
+    int is_free;
+    for (size_t j = 0; j < joints; j++) middle[j] = 0.5 * (blocked[j] + at[j]);
+    result = nsvcd__is_free_at(c, middle, o, &is_free);
+    if (!result) memcpy(is_free ? at : blocked, middle, joints * sizeof *at);
+  }
+  return result;
+}
+
+// Draws on spheres about `from`, from the inside to the outside, until one is free; then on ever
+// smaller ones, nearer than the best.
+static nsvcd_result nsvcd__seek_escape(nsvcd_checker *c, const double *from,
+                                       const nsvcd_escape_options *o, double *out,
+                                       int *is_found) {
+  const size_t joints = c->scene->joint_count;
+  uint64_t random = o->seed;
+  double best = o->farthest;
+  *is_found = 0;
+  for (size_t n = 0; n < NSVCD__ESCAPE_RINGS * NSVCD__ESCAPE_DRAWS; n++) {
+    const double ring = (double)(n / NSVCD__ESCAPE_DRAWS + 1) / NSVCD__ESCAPE_RINGS;
+    const double radius = *is_found ? NSVCD__ESCAPE_NEARER * best : ring * o->farthest;
+    double at[NSVCD_MAX_JOINTS];
+    double square = 0;
+    int is_free;
+    if (o->stop && o->stop(o->user)) return NSVCD_OK;
+    for (size_t j = 0; j < joints; j++) {
+      at[j] = 2 * nsvcd__random(&random) - 1;
+      square += at[j] * at[j];
+    }
+    for (size_t j = 0; j < joints; j++) at[j] = from[j] + radius / sqrt(square) * at[j];
+    nsvcd__take_into_limits(c->scene, at);
+    nsvcd_result result = nsvcd__is_free_at(c, at, o, &is_free);
+    if (result) return result;
+    if (!is_free) continue;
+    result = nsvcd__draw_back(c, from, o, at);
+    if (result) return result;
+    *is_found = 1;
+    best = sqrt(nsvcd__way2(at, from, joints));
+    memcpy(out, at, joints * sizeof *at);
+  }
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_escape(nsvcd_checker *checker, const double *joints,
+                                   const nsvcd_escape_options *options, double *out,
+                                   int *is_found) {
+  nsvcd_escape_options o;
+  double from[NSVCD_MAX_JOINTS], at[NSVCD_MAX_JOINTS];
+  nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (!result && (!out || !is_found)) result = NSVCD_ERROR_ARGUMENT;
+  if (result) return result;
+  const size_t bytes = checker->scene->joint_count * sizeof(double);
+  memset(&o, 0, sizeof o);
+  if (options) o = *options;
+  if (!nsvcd__within(&o.clearance, 1, 0.5f * NSVCD_MAX_COORDINATE) || o.clearance < 0)
+    return NSVCD_ERROR_CLEARANCE;
+  if (!nsvcd__is_number(o.farthest, (double)NSVCD_MAX_COORDINATE) || o.farthest < 0)
+    return NSVCD_ERROR_FARTHEST;
+  o.farthest = o.farthest > 0 ? o.farthest : NSVCD__FARTHEST_ESCAPE;
+  memcpy(from, joints, bytes);
+  nsvcd__take_into_limits(checker->scene, from);
+  int is_free;
+  memcpy(at, from, bytes);
+  result = nsvcd__is_free_at(checker, from, &o, &is_free);
+  o.clearance += NSVCD__ESCAPE_ROOM;
+  if (!result && !is_free) result = nsvcd__seek_escape(checker, from, &o, at, &is_free);
+  if (result) return result;
+  *is_found = is_free;
+  if (is_free) memcpy(out, at, bytes);
+  return NSVCD_OK;
+}
+
+// ---- pairs
+
+// Do two parts touch in all of so many configurations, drawn within the limits?
+static nsvcd_result nsvcd__touch_in_all(nsvcd_checker *c, const nsvcd_body_pair *pair,
+                                        size_t samples, uint64_t random, int *in_all) {
+  nsvcd_answer found;
+  nsvcd__sight view;
+  nsvcd_result result = NSVCD_OK;
+  *in_all = 1;
+  for (size_t n = 0; n < samples && *in_all && !result; n++) {
+    double joints[NSVCD_MAX_JOINTS];
+    for (size_t j = 0; j < c->scene->joint_count; j++) {
+      const nsvcd_joint *joint = &c->scene->joints[j];
+      const int is_endless = joint->kind == NSVCD_JOINT_CONTINUOUS;
+      const double low = is_endless ? 0 : joint->low;
+      const double high = is_endless ? 6.283185307179586 : joint->high;
+      joints[j] = low + (high - low) * nsvcd__random(&random);
+    }
+    nsvcd__stand(c, joints);
+    const nsvcd_question question = nsvcd__ask_standing(c, pair, 0, &view);
+    result = nsvcd_sweep(&question, c->query, c->query_size, &found);
+    *in_all = !result && found.verdict == NSVCD_HIT;
+  }
+  return result;
+}
+
+// Does one joint separate two links, neither of them the world?
+static int nsvcd__are_adjacent(const nsvcd_scene *scene, const nsvcd_body_pair *pair) {
+  const size_t a = scene->parts[pair->a].link;
+  const size_t b = scene->parts[pair->b].link;
+  return a > 0 && b > 0 &&
+         (scene->joints[a - 1].parent == b || scene->joints[b - 1].parent == a);
+}
+
+// The next pair of parts on links that differ; the first after {0, 0}. Returns 0 where there is
+// none.
+static int nsvcd__next_pair(const nsvcd_scene *scene, nsvcd_body_pair *pair) {
+  do {
+    if (++pair->b >= scene->part_count) {
+      pair->a++;
+      pair->b = pair->a + 1;
+    }
+    if (pair->b >= scene->part_count) return 0;
+  } while (scene->parts[pair->a].link == scene->parts[pair->b].link);
+  return 1;
+}
+
+NSVCDDEF nsvcd_result nsvcd_find_pairs(nsvcd_checker *checker, size_t samples, uint64_t seed,
+                                       nsvcd_body_pair *pairs, size_t capacity,
+                                       nsvcd_pair_counts *counts) {
+  if (!checker || !counts || (!pairs && capacity > 0)) return NSVCD_ERROR_ARGUMENT;
+  const nsvcd_scene *scene = checker->scene;
+  nsvcd_body_pair pair = {0, 0};
+  nsvcd_pair_counts found = {0, 0, 0};
+  size_t total = 0;
+  while (nsvcd__next_pair(scene, &pair)) total++;
+  if (capacity < total) return NSVCD_ERROR_WORKSPACE;
+  // what is asked from the front, what touches in all samples from the back
+  pair.a = pair.b = 0;
+  while (nsvcd__next_pair(scene, &pair)) {
+    int in_all;
+    if (nsvcd__are_adjacent(scene, &pair)) continue;
+    const nsvcd_result result = nsvcd__touch_in_all(
+        checker, &pair, samples ? samples : NSVCD__PAIR_SAMPLES, seed, &in_all);
+    if (result) return result;
+    pairs[in_all ? total - ++found.touching : found.asked++] = pair;
+  }
+  pair.a = pair.b = 0;
+  while (nsvcd__next_pair(scene, &pair)) {
+    if (nsvcd__are_adjacent(scene, &pair)) pairs[found.asked + found.adjacent++] = pair;
+  }
+  for (size_t n = 0; n < found.touching / 2; n++) {
+    nsvcd_body_pair *first = &pairs[total - found.touching + n];
+    nsvcd_body_pair *last = &pairs[total - 1 - n];
+    pair = *first;
+    *first = *last;
+    *last = pair;
+  }
+  *counts = found;
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double *joints,
+                                      size_t part, uint32_t link, nsvcd_part *out) {
+  nsvcd__configuration c;
+  const nsvcd_result result = nsvcd__check_joints(checker, joints);
+  if (result) return result;
+  const nsvcd_scene *scene = checker->scene;
+  if (!out) return NSVCD_ERROR_ARGUMENT;
+  if (part >= scene->part_count || link > scene->joint_count) return NSVCD_ERROR_LINK;
+  memcpy(c.joints, joints, scene->joint_count * sizeof *joints);
+  nsvcd__place_links(checker, &c);
+  const nsvcd__frame at = nsvcd__frame_of_part(checker, &c, part);
+  const nsvcd__frame inner = nsvcd__frame_from(&c.frames[link], &at);
+  nsvcd_part moved = scene->parts[part];
+  moved.link = link;
+  moved.pose = nsvcd__pose_in(&inner);
+  const nsvcd_result placed = nsvcd__poses_check(&moved.pose, 1);
+  if (!placed) *out = moved;
+  return placed;
+}
+
+// ------------------------------------------------------------------------------------- robot/ramps
+// In: two states, places and speeds of the joints, and limits of speed and acceleration. Out: a
+// motion from one to the other in the least time of the slowest joint, each of the others with the
+// least acceleration that takes as long.
+//
+// A joint speeds up, and down again, or the other way round; where it would be too fast in between,
+// it goes on at the limit. What it does is of degree 2 piece by piece.
+// Source: Hauser and Ng-Thow-Hing (2010).
+
+// of a ramp: each joint has two times at which its acceleration changes
+#define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
+// share of the limits of speed and acceleration that is asked for: the rest is for rounding
+#define NSVCD__RAMP_SHARE (1 - 1e-6)
+#define NSVCD__RAMP_MOST (1 - 5e-7)
+// seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
+// changes no farther apart than that are one
+#define NSVCD__SLIVER 1e-4
+#define NSVCD__SAME_TIME 1e-12
+
+static double nsvcd__speed_of(const nsvcd_joint *joint) {
+  return joint->speed > 0 ? joint->speed : 1;
+}
+static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
+  return joint->acceleration > 0 ? joint->acceleration : 1;
+}
+
+// A joint's way in a ramp: acceleration a until t1, none until t2, -a after that.
+typedef struct nsvcd__ramp_joint {
+  double a, t1, t2;
+} nsvcd__ramp_joint;
+
+// The least time from place x0 and speed v0 to x1 and v1, both within the limits.
+static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, double speed,
+                               double most) {
+  const double way = x1 - x0;
+  // changing speed takes this way: is there more to go, or less?
+  const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
+  const double side = way >= least ? 1 : -1;
+  const double peak2 = side * most * way + 0.5 * (v0 * v0 + v1 * v1);
+  const double peak = side * sqrt(nsvcd__max(peak2, 0));
+  if (fabs(peak) <= speed) return (fabs(peak - v0) + fabs(peak - v1)) / most;
+  const double fast = side * speed;
+  const double changing = (speed * speed - 0.5 * (v0 * v0 + v1 * v1)) / (side * most);
+  return (fabs(fast - v0) + fabs(fast - v1)) / most + nsvcd__max((way - changing) / fast, 0);
+}
+
+// The way with the least acceleration that takes this time. Returns 0 if there is none within the
+// limits.
+static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double speed,
+                             double most, double time, nsvcd__ramp_joint *out) {
+  const double way = x1 - x0;
+  const double change = v1 - v0;
+  // time^2 a^2 + b a - change^2 = 0: the root of the greater size
+  const double b = 2 * time * (v0 + v1) - 4 * way;
+  const double root = sqrt(b * b + 4 * time * time * change * change);
+  double a = -(b + (b > 0 ? root : -root)) / (2 * time * time);
+  out->t1 = 0.5 * time;
+  if (a > 0 || a < 0) out->t1 += 0.5 * change / a;
+  out->t1 = nsvcd__max(0, nsvcd__min(time, out->t1));
+  out->t2 = out->t1;
+  const double peak = v0 + a * out->t1;
+  if (fabs(peak) > speed) {
+    const double fast = peak > 0 ? speed : -speed;
+    const double up = (fast - v0) * (fast - v0) + (fast - v1) * (fast - v1);
+    a = up / (2 * (fast * time - way));
+    if (!(a * fast > 0)) return 0;
+    out->t1 = (fast - v0) / a;
+    out->t2 = time - (fast - v1) / a;
+    if (!(out->t1 >= 0 && out->t2 >= out->t1 && out->t2 <= time)) return 0;
+  }
+  out->a = a;
+  return fabs(a) <= most;
+}
+
+// Place and speed at a time of a way that begins with x0 and v0.
+static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, double t,
+                           double *x, double *v) {
+  const double up = nsvcd__min(t, r->t1);
+  const double even = nsvcd__max(nsvcd__min(t, r->t2) - r->t1, 0);
+  const double down = nsvcd__max(t - r->t2, 0);
+  const double fast = v0 + r->a * up;
+  *x = x0 + (0.5 * (v0 + fast)) * up + fast * even + (fast - 0.5 * r->a * down) * down;
+  *v = fast - r->a * down;
+}
+
+// Does a joint turn round out of its limits on the way? Its ends are within.
+static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint *r, double x0,
+                              double v0, double time) {
+  if (joint->kind == NSVCD_JOINT_CONTINUOUS) return 0;
+  // where it stands still
+  const double turns[2] = {
+      r->a * v0 < 0 ? -v0 / r->a : 0,
+      r->a * (v0 + r->a * r->t1) > 0 ? r->t2 + (v0 + r->a * r->t1) / r->a : 0};
+  for (size_t k = 0; k < 2; k++) {
+    double x, v;
+    const int is_there = k ? turns[k] > r->t2 && turns[k] < time : turns[k] < r->t1;
+    if (!is_there || !(turns[k] > 0)) continue;
+    nsvcd__ramp_at(r, x0, v0, turns[k], &x, &v);
+    if (x < joint->low || x > joint->high) return 1;
+  }
+  return 0;
+}
+
+// Writes a ramp of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
+// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no ramp
+// within the limits that takes less than `longest`, or two of its changes nearly coincide.
+static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
+                                double longest, double *points, double *times) {
+  const size_t joints = scene->joint_count;
+  nsvcd__ramp_joint ramps[NSVCD_MAX_JOINTS];
+  double changes[NSVCD__RAMP_PIECES + 1];
+  size_t count = 0;
+  double time = 0;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    time = nsvcd__max(time,
+                      nsvcd__ramp_time(states[0][j], states[2][j], states[1][j], states[3][j],
+                                       NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
+                                       NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+  }
+  if (!(time < longest)) return 0;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &scene->joints[j];
+    const double speed = NSVCD__RAMP_SHARE * nsvcd__speed_of(joint);
+    const double most = NSVCD__RAMP_MOST * nsvcd__acceleration_of(joint);
+    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed, most,
+                           time, &ramps[j]))
+      return 0;
+    if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
+    changes[count++] = ramps[j].t1;
+    changes[count++] = ramps[j].t2;
+  }
+  changes[count++] = time;
+  // sorted, by insertion
+  for (size_t k = 1; k < count; k++) {
+    const double own = changes[k];
+    size_t at = k;
+    for (; at > 0 && changes[at - 1] > own; at--) changes[at] = changes[at - 1];
+    changes[at] = own;
+  }
+  size_t pieces = 0;
+  times[0] = 0;
+  memcpy(points, states[0], joints * sizeof *points);
+  for (size_t k = 0; k < count; k++) {
+    if (changes[k] - times[pieces] <= NSVCD__SAME_TIME) continue;
+    if (changes[k] - times[pieces] < NSVCD__SLIVER) return 0;
+    const double before = times[pieces];
+    const double half = 0.5 * (changes[k] - before);
+    double *to = points + 2 * pieces * joints;
+    for (size_t j = 0; j < joints; j++) {
+      double x, v;
+      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], before, &x, &v);
+      to[joints + j] = to[j] + half * v;
+      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], changes[k], &x, &v);
+      to[2 * joints + j] = x;
+    }
+    times[++pieces] = changes[k];
+  }
+  memcpy(points + 2 * pieces * joints, states[1], joints * sizeof *points);
+  return pieces;
+}
+
+// ------------------------------------------------------------------------------------ robot/smooth
+// In: a way, a polyline that is proven. Out: a motion in time along it, then one that is smooth.
+//
+// Each edge is gone along from rest to rest. Then, again and again, two times are drawn: the motion
+// between them is replaced by a ramp, if that is quicker and proven. Where it still rests, the two
+// times are drawn about that.
+// Source: Hauser and Ng-Thow-Hing (2010).
+
+// of a motion, at most
+#define NSVCD__MOST_PIECES 2048
+// seconds: half of the windows about a rest, the widest, and how often it may be halved
+#define NSVCD__HALF_WINDOW 0.8
+#define NSVCD__WINDOWS 6
+// of the duration without obstacles: there is nothing to win
+#define NSVCD__FAST_ENOUGH 1.001
+// what a ramp is to win, to be worth its proof: a share of its own time, and, unless a rest goes
+// with it, of what the motion takes longer than without obstacles
+#define NSVCD__LEAST_GAIN 1e-4
+#define NSVCD__WORTHY_GAIN 0.02
+// metres that the search stays farther away than asked for, so that the whole is proven anew
+#define NSVCD__SPARE 1e-4f
+// metres that a part may stray from its sweeps, at least, in the search
+#define NSVCD__SEEK_FINEST 5e-4f
+// units that a question of the search may take
+#define NSVCD__SEEK_WORK 1000
+
+// A motion of degree 2 that is being made.
+typedef struct nsvcd__course {
+  double *points;  // (2 NSVCD__MOST_PIECES + 1, F)
+  double *times;   // (NSVCD__MOST_PIECES + 1)
+  size_t pieces;
+} nsvcd__course;
+
+typedef struct nsvcd__router {
+  nsvcd_checker *checker;
+  const nsvcd_scene *scene;
+  size_t joints;
+  nsvcd_route_problem problem;
+  nsvcd_route_options options;
+  nsvcd_check_options check;
+  uint64_t random;
+  int is_stopped;
+  // turns since each tree has grown
+  size_t idle[2];
+  nsvcd__tree trees[2];  // from the start, from the goals
+  // (F): the range of their roots
+  double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
+  size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
+  double *way;    // (nodes of both trees + shortcuts, F)
+  size_t way_count;
+  nsvcd__course course, other, ramp;
+  nsvcd_route_answer answer;
+} nsvcd__router;
+
+static nsvcd_joint_motion nsvcd__motion_of(const nsvcd__course *course) {
+  const nsvcd_joint_motion out = {course->pieces, 2, course->points, course->times};
+  return out;
+}
+
+// Is a motion proven free, and within the limits? answer.check says what is wrong.
+static nsvcd_result nsvcd__prove_by(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                                    const nsvcd_check_options *options, int *is_free) {
+  r->answer.checks++;
+  const nsvcd_result result = nsvcd_check(r->checker, motion, options, &r->answer.check);
+  *is_free =
+      !result && r->answer.check.verdict == NSVCD_FREE && r->answer.check.joint == NSVCD_NONE;
+  r->answer.proven += (size_t)*is_free;
+  if (!*is_free && options->stop && options->stop(options->user)) r->is_stopped = 1;
+  return result;
+}
+
+// The same by what the search asks for. What the caller stops is not free.
+static nsvcd_result nsvcd__ask_motion(nsvcd__router *r, const nsvcd_joint_motion *motion,
+                                      int *is_free) {
+  *is_free = 0;
+  if (!r->is_stopped && r->problem.stop && r->problem.stop(r->problem.user)) r->is_stopped = 1;
+  return r->is_stopped ? NSVCD_OK : nsvcd__prove_by(r, motion, &r->check, is_free);
+}
+
+static nsvcd_result nsvcd__prove_edge(nsvcd__router *r, const double *from, const double *to,
+                                      int *is_free) {
+  double points[2 * NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = {1, 1, points, NULL};
+  memcpy(points, from, r->joints * sizeof *points);
+  memcpy(points + r->joints, to, r->joints * sizeof *points);
+  return nsvcd__ask_motion(r, &motion, is_free);
+}
+
+// Adds a piece of degree 2 from where the course is; the times rise by `time`.
+static void nsvcd__course_add(nsvcd__course *c, size_t joints, const double *middle,
+                              const double *end, double time) {
+  double *at = c->points + (2 * c->pieces + 1) * joints;
+  memcpy(at, middle, joints * sizeof *at);
+  memcpy(at + joints, end, joints * sizeof *at);
+  c->times[c->pieces + 1] = c->times[c->pieces] + time;
+  c->pieces++;
+}
+
+static void nsvcd__course_begin(nsvcd__course *c, size_t joints, const double *at) {
+  c->pieces = 0;
+  c->times[0] = 0;
+  memcpy(c->points, at, joints * sizeof *at);
+}
+
+// Goes along the way, with a rest at each corner. Returns 0 where there are too many. A way of one
+// place is a rest, of no pieces.
+static int nsvcd__course_along(nsvcd__router *r) {
+  nsvcd__course *c = &r->course;
+  const size_t joints = r->joints;
+  if (3 * r->way_count > NSVCD__MOST_PIECES) return 0;
+  nsvcd__course_begin(c, joints, r->way);
+  for (size_t k = 0; k + 1 < r->way_count; k++) {
+    const double *from = r->way + k * joints;
+    const double *to = from + joints;
+    // of the share of the edge that has been gone along
+    double speed = HUGE_VAL;
+    double most = HUGE_VAL;
+    for (size_t j = 0; j < joints; j++) {
+      const nsvcd_joint *joint = &r->scene->joints[j];
+      const double d = fabs(to[j] - from[j]);
+      if (!(d > 0)) continue;
+      speed = nsvcd__min(speed, NSVCD__RAMP_SHARE * nsvcd__speed_of(joint) / d);
+      most = nsvcd__min(most, NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint) / d);
+    }
+    if (!(speed < HUGE_VAL)) continue;
+    const double up = nsvcd__min(speed / most, sqrt(1 / most));
+    const double fast = most * up;
+    const double even = (1 - fast * up) / fast;
+    const double changed = 0.5 * fast * up;  // share of the edge
+    const int is_even = even > NSVCD__SLIVER;
+    // 0, changed, 1 - changed, 1; without an even part, a half
+    const double shares[4] = {0, is_even ? changed : 0.5, is_even ? 1 - changed : 0.5, 1};
+    const double middles[3] = {0, 0.5, 1};
+    const double lasts[3] = {is_even ? up : 1 / fast, even, is_even ? up : 1 / fast};
+    for (size_t n = 0; n < 3; n++) {
+      double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+      if (n == 1 && !is_even) continue;
+      for (size_t j = 0; j < joints; j++) {
+        middle[j] = from[j] + middles[n] * (to[j] - from[j]);
+        end[j] = n == 2 ? to[j] : from[j] + shares[n + 1] * (to[j] - from[j]);
+      }
+      nsvcd__course_add(c, joints, middle, end, lasts[n]);
+    }
+  }
+  return 1;
+}
+
+// Is the motion at rest where a piece begins?
+static int nsvcd__rests_at(const nsvcd__course *c, size_t joints, size_t piece) {
+  const double *at = c->points + 2 * piece * joints;
+  for (size_t j = 0; j < joints; j++) {
+    if (fabs(at[j + joints] - at[j]) > 1e-12 * (1 + fabs(at[j]))) return 0;
+  }
+  return 1;
+}
+
+// Copies the course from time t0 to t1 to the end of another. Returns 0 where a sliver would be
+// left, or there is no room.
+static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, double t1,
+                              nsvcd__course *out) {
+  const nsvcd_joint_motion motion = nsvcd__motion_of(c);
+  for (size_t p = nsvcd__piece_at(&motion, t0); p < c->pieces && c->times[p] < t1; p++) {
+    const double from = nsvcd__max(t0, c->times[p]);
+    const double to = nsvcd__min(t1, c->times[p + 1]);
+    double middle[NSVCD_MAX_JOINTS], end[NSVCD_MAX_JOINTS];
+    if (to - from <= NSVCD__SAME_TIME) continue;
+    if (to - from < NSVCD__SLIVER || out->pieces == NSVCD__MOST_PIECES) return 0;
+    for (size_t j = 0; j < joints; j++) {
+      double points[NSVCD_MAX_DEGREE + 1];
+      nsvcd__joint_points(&motion, p, joints, j, points);
+      nsvcd__cut_curve(points, 2, nsvcd__share_at(&motion, p, from),
+                       nsvcd__share_at(&motion, p, to));
+      middle[j] = points[1];
+      end[j] = points[2];
+    }
+    nsvcd__course_add(out, joints, middle, end, to - from);
+  }
+  return 1;
+}
+
+// Replaces the course from time t0 to t1 by a ramp, if that is quicker by `gain` and proven.
+static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
+  const size_t joints = r->joints;
+  double states[4][NSVCD_MAX_JOINTS];
+  const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+  const double times[2] = {t0, t1};
+  for (size_t n = 0; n < 2; n++) {
+    const size_t piece = nsvcd__piece_at(&motion, times[n]);
+    nsvcd__joints_at(&motion, joints, piece, nsvcd__share_at(&motion, piece, times[n]),
+                     states[n], states[n + 2]);
+  }
+  nsvcd__course *ramp = &r->ramp;
+  ramp->pieces =
+      nsvcd__ramp_write(r->scene, states, t1 - t0 - gain, ramp->points, ramp->times);
+  if (!ramp->pieces) return NSVCD_OK;
+  // the whole as it would be: what is left of the course, and the ramp between
+  nsvcd__course *out = &r->other;
+  nsvcd__course_begin(out, joints, r->course.points);
+  const double end = r->course.times[r->course.pieces];
+  if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
+  if (out->pieces + ramp->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
+  for (size_t p = 0; p < ramp->pieces; p++) {
+    const double *middle = ramp->points + (2 * p + 1) * joints;
+    nsvcd__course_add(out, joints, middle, middle + joints,
+                      ramp->times[p + 1] - ramp->times[p]);
+  }
+  if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
+  int is_free;
+  const nsvcd_joint_motion asked = nsvcd__motion_of(ramp);
+  const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
+  if (result || !is_free) return result;
+  const nsvcd__course was = r->course;
+  r->course = r->other;
+  r->other = was;
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__smooth(nsvcd__router *r) {
+  for (size_t n = 0; n < r->options.smoothings && !r->is_stopped; n++) {
+    const nsvcd__course *c = &r->course;
+    const double end = c->times[c->pieces];
+    if (end <= NSVCD__FAST_ENOUGH * r->answer.unhindered) return NSVCD_OK;
+    double t0 = end * nsvcd__random(&r->random);
+    double t1 = end * nsvcd__random(&r->random);
+    size_t rests = 0;
+    double rest = 0;
+    for (size_t p = 1; p < c->pieces && n % 2; p++) {
+      // each as likely as the others
+      if (!nsvcd__rests_at(c, r->joints, p)) continue;
+      if (nsvcd__random(&r->random) * (double)++rests <= 1) rest = c->times[p];
+    }
+    if (rests > 0) {
+      const double window =
+          NSVCD__HALF_WINDOW /
+          (double)(1 << (size_t)(NSVCD__WINDOWS * nsvcd__random(&r->random)));
+      t0 = nsvcd__max(0, rest - window);
+      t1 = nsvcd__min(end, rest + window);
+    }
+    const double least = NSVCD__LEAST_GAIN * fabs(t1 - t0);
+    const double worthy = NSVCD__WORTHY_GAIN * (end - r->answer.unhindered);
+    const nsvcd_result result = nsvcd__smooth_once(r, nsvcd__min(t0, t1), nsvcd__max(t0, t1),
+                                                   rests ? least : nsvcd__max(least, worthy));
+    if (result) return result;
+  }
+  return NSVCD_OK;
+}
+
+// ------------------------------------------------------------------------------------- robot/route
+// In: a start and goals. Out: a motion that is proven free, in the caller's memory.
+
+#define NSVCD__NODES 20000
+// for each node; and those after which a tree that has not grown is to along its joints
+#define NSVCD__TRIES 4
+#define NSVCD__IDLE 100
+#define NSVCD__SHORTCUTS 20
+#define NSVCD__SMOOTHINGS 200
+// of all joints whose limits are wider, only what is no farther than this from the start and the
+// goals is drawn from, but for one configuration in eight
+#define NSVCD__BESIDE 3.2
+// radians or metres: corners of a way that are no farther apart are one
+#define NSVCD__SAME_CORNER 1e-9
+
+// ---- memory
+
+static nsvcd_result nsvcd__route_check(const nsvcd_checker *checker,
+                                       const nsvcd_route_problem *problem,
+                                       const nsvcd_route_options *options) {
+  if (!checker || !problem || !problem->start || !problem->goals) return NSVCD_ERROR_ARGUMENT;
+  const size_t most = NSVCD_MAX_NODES;
+  if (problem->goal_count < 1 || problem->goal_count > most) return NSVCD_ERROR_COUNT;
+  if (problem->guess ? problem->guess_count > most : problem->guess_count > 0)
+    return NSVCD_ERROR_COUNT;
+  if (options && (options->nodes > most || !(options->edge >= 0))) return NSVCD_ERROR_ROUTE;
+  if (options && options->shortcuts > most && options->shortcuts != NSVCD_NONE)
+    return NSVCD_ERROR_ROUTE;
+  const double *rows[3] = {problem->start, problem->goals, problem->guess};
+  const size_t counts[3] = {1, problem->goal_count, problem->guess_count};
+  for (size_t n = 0; n < 3; n++) {
+    for (size_t k = 0; k < counts[n] * checker->scene->joint_count; k++) {
+      if (!nsvcd__is_number(rows[n][k], (double)NSVCD_MAX_COORDINATE))
+        return NSVCD_ERROR_VALUE;
+    }
+  }
+  return NSVCD_OK;
+}
+
+static void nsvcd__course_take(nsvcd__course *c, char *base, uint64_t *used, size_t pieces,
+                               size_t joints) {
+  c->points = (double *)nsvcd__take(base, used, (2 * pieces + 1) * joints, sizeof(double));
+  c->times = (double *)nsvcd__take(base, used, pieces + 1, sizeof(double));
+}
+
+// Lays a router out at base, which is aligned, or, where that is NULL, only counts. Returns the
+// bytes; 0 if they are more than can be counted.
+static size_t nsvcd__router_layout(const nsvcd_checker *checker,
+                                   const nsvcd_route_problem *problem,
+                                   const nsvcd_route_options *options, char *base,
+                                   nsvcd__router **router) {
+  nsvcd__router counted;
+  uint64_t used = 0;
+  void *at = nsvcd__take(base, &used, 1, sizeof(nsvcd__router));
+  nsvcd__router *r = at ? (nsvcd__router *)at : &counted;
+  memset(r, 0, sizeof *r);
+  if (options) r->options = *options;
+  nsvcd_route_options *o = &r->options;
+  o->nodes = o->nodes ? o->nodes : NSVCD__NODES;
+  o->tries = o->tries ? o->tries : NSVCD__TRIES * o->nodes;
+  o->edge = o->edge > 0 ? o->edge : 1;
+  if (!o->shortcuts) o->shortcuts = NSVCD__SHORTCUTS;
+  if (!o->smoothings) o->smoothings = NSVCD__SMOOTHINGS;
+  if (o->shortcuts == NSVCD_NONE) o->shortcuts = 0;
+  if (o->smoothings == NSVCD_NONE) o->smoothings = 0;
+  const size_t joints = checker->scene->joint_count;
+  // what is given is not counted as a node
+  const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
+  for (size_t k = 0; k < 2; k++) {
+    nsvcd__tree *t = &r->trees[k];
+    t->joints = joints;
+    t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
+    t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->next = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
+    t->cells = (nsvcd__cell *)nsvcd__take(base, &used, 2 * nodes, sizeof(nsvcd__cell));
+  }
+  r->goals = (size_t *)nsvcd__take(base, &used, problem->goal_count, sizeof(size_t));
+  // a shortcut from an edge to the next adds a corner
+  const size_t rows = 2 * nodes + o->shortcuts;
+  r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
+  nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
+  nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
+  *router = (nsvcd__router *)at;
+  return used <= SIZE_MAX ? (size_t)used : 0;
+}
+
+NSVCDDEF size_t nsvcd_route_size(const nsvcd_checker *checker,
+                                 const nsvcd_route_problem *problem,
+                                 const nsvcd_route_options *options) {
+  nsvcd__router *unused;
+  if (nsvcd__route_check(checker, problem, options)) return 0;
+  return nsvcd__router_layout(checker, problem, options, NULL, &unused);
+}
+
+// ---- trees
+
+// A value of a joint in the limits, near the start and the goals or anywhere.
+static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
+  const nsvcd_joint *joint = &r->scene->joints[j];
+  double low = r->low[j] - NSVCD__BESIDE;
+  double high = r->high[j] + NSVCD__BESIDE;
+  if (joint->kind != NSVCD_JOINT_CONTINUOUS) {
+    low = is_wide ? joint->low : nsvcd__max(low, joint->low);
+    high = is_wide ? joint->high : nsvcd__min(high, joint->high);
+  }
+  return low + (high - low) * nsvcd__random(&r->random);
+}
+
+// A configuration that the tree whose turn it is is to grow towards: any, or, where it has not
+// grown for long, every other time one of its own with one joint moved. The way out of a hole is
+// often along a joint, and no other edge of some length is free there.
+static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
+  const size_t joints = r->joints;
+  const nsvcd__tree *t = &r->trees[turn % 2];
+  if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
+    const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
+    const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
+    memcpy(out, t->points + node * joints, joints * sizeof *out);
+    out[joint] = nsvcd__draw_joint(r, joint, 1);
+    return;
+  }
+  const int is_wide = nsvcd__random(&r->random) < 0.125;
+  for (size_t j = 0; j < joints; j++) out[j] = nsvcd__draw_joint(r, j, is_wide);
+}
+
+// Are there as many nodes, or tries, as are allowed?
+static int nsvcd__is_at_limit(const nsvcd__router *r) {
+  return r->trees[0].count + r->trees[1].count >= r->options.nodes ||
+         r->answer.checks >= r->options.tries;
+}
+
+// Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
+// `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
+// is the configuration.
+static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *to,
+                                int is_greedy, size_t *node, int *is_there) {
+  const size_t joints = r->joints;
+  *node = nsvcd__tree_nearest(t, to);
+  *is_there = 0;
+  do {
+    double next[NSVCD_MAX_JOINTS];
+    const double *from = t->points + *node * joints;
+    const double way = sqrt(nsvcd__way2(from, to, joints));
+    const int ends = way <= r->options.edge;
+    for (size_t j = 0; j < joints; j++)
+      next[j] = ends ? to[j] : from[j] + r->options.edge / way * (to[j] - from[j]);
+    if (!(way > 0)) {
+      *is_there = 1;
+      return NSVCD_OK;
+    }
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, from, next, &is_free);
+    if (result) return result;
+    if (!is_free || nsvcd__is_at_limit(r)) return NSVCD_OK;
+    *node = nsvcd__tree_add(t, next, *node);
+    *is_there = ends;
+  } while (is_greedy && !*is_there);
+  return NSVCD_OK;
+}
+
+// Writes the way through nodes of both trees that are at the same place.
+static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
+  const size_t joints = r->joints;
+  const size_t bytes = joints * sizeof(double);
+  const nsvcd__tree *start = &r->trees[0];
+  const nsvcd__tree *goal = &r->trees[1];
+  size_t count = 1;
+  for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
+  r->way_count = count;
+  for (size_t n = from_start; count-- > 0; n = start->parents[n])
+    memcpy(r->way + count * joints, start->points + n * joints, bytes);
+  size_t n = from_goal;
+  for (; goal->parents[n] != n; n = goal->parents[n])
+    memcpy(r->way + r->way_count++ * joints, goal->points + goal->parents[n] * joints, bytes);
+  r->answer.goal = r->goals[n];
+}
+
+// The way that is guessed: the trees take what is free of it from both ends.
+static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
+  const nsvcd_route_problem *p = &r->problem;
+  const size_t joints = r->joints;
+  size_t first = 0;
+  size_t last = p->guess_count;
+  size_t nodes[2] = {0, 0};
+  int is_free = 1;
+  // which goal it leads to
+  if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
+  for (int side = 0; side < 2; side++) {
+    nsvcd__tree *t = &r->trees[side];
+    for (is_free = 1; is_free && first < last;) {
+      const double *to = p->guess + (side ? last - 1 : first) * joints;
+      const nsvcd_result result =
+          nsvcd__prove_edge(r, t->points + nodes[side] * joints, to, &is_free);
+      if (result) return result;
+      if (!is_free) continue;
+      nodes[side] = nsvcd__tree_add(t, to, nodes[side]);
+      first += side == 0;
+      last -= side == 1;
+    }
+  }
+  if (first < last) return NSVCD_OK;
+  // what is left between
+  const nsvcd_result result =
+      nsvcd__prove_edge(r, r->trees[0].points + nodes[0] * joints,
+                        r->trees[1].points + nodes[1] * joints, is_found);
+  if (result || !*is_found) return result;
+  nodes[0] = nsvcd__tree_add(&r->trees[0], r->trees[1].points + nodes[1] * joints, nodes[0]);
+  nsvcd__way_through(r, nodes[0], nodes[1]);
+  return NSVCD_OK;
+}
+
+static nsvcd_result nsvcd__seek(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  int is_found = 0;
+  nsvcd_result result = nsvcd__take_guess(r, &is_found);
+  if (result || is_found) return result;
+  // straight lines
+  for (size_t g = 0; g < r->trees[1].count && g < r->problem.goal_count && !r->is_stopped;
+       g++) {
+    const double *goal = r->trees[1].points + g * joints;
+    result = nsvcd__prove_edge(r, r->trees[0].points, goal, &is_found);
+    if (result) return result;
+    if (!is_found) continue;
+    nsvcd__way_through(r, nsvcd__tree_add(&r->trees[0], goal, 0), g);
+    return NSVCD_OK;
+  }
+  for (size_t turn = 0; !r->is_stopped; turn++) {
+    nsvcd__tree *grown = &r->trees[turn % 2];
+    nsvcd__tree *other = &r->trees[1 - turn % 2];
+    double drawn[NSVCD_MAX_JOINTS];
+    size_t node, met;
+    int is_there;
+    nsvcd__draw(r, turn, drawn);
+    const size_t before = grown->count;
+    result = nsvcd__grow(r, grown, drawn, 0, &node, &is_there);
+    if (result) return result;
+    if (nsvcd__is_at_limit(r)) return NSVCD_OK;
+    r->idle[turn % 2] = grown->count == before ? r->idle[turn % 2] + 1 : 0;
+    if (grown->count == before) continue;
+    result = nsvcd__grow(r, other, grown->points + node * joints, 1, &met, &is_there);
+    if (result) return result;
+    if (!is_there) continue;
+    nsvcd__way_through(r, turn % 2 ? met : node, turn % 2 ? node : met);
+    return NSVCD_OK;
+  }
+  return NSVCD_OK;
+}
+
+// ---- shortcuts
+
+// A place on the way, this far along it: the corner before and the place.
+static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
+  const size_t joints = r->joints;
+  size_t k = 0;
+  for (; k + 2 < r->way_count; k++) {
+    const double *from = r->way + k * joints;
+    const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+    if (gone <= length) break;
+    gone -= length;
+  }
+  const double *from = r->way + k * joints;
+  const double length = sqrt(nsvcd__way2(from, from + joints, joints));
+  const double share = length > 0 ? nsvcd__min(gone / length, 1) : 0;
+  for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
+  return k;
+}
+
+// Replaces what is between two places on the way by an edge, again and again, where that is free.
+static nsvcd_result nsvcd__shorten(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  for (size_t n = 0; n < r->options.shortcuts && r->way_count > 2 && !r->is_stopped; n++) {
+    double at[2][NSVCD_MAX_JOINTS];
+    double length = 0;
+    for (size_t k = 0; k + 1 < r->way_count; k++)
+      length += sqrt(nsvcd__way2(r->way + k * joints, r->way + (k + 1) * joints, joints));
+    const double a = length * nsvcd__random(&r->random);
+    const double b = length * nsvcd__random(&r->random);
+    const size_t first = nsvcd__way_at(r, nsvcd__min(a, b), at[0]);
+    const size_t last = nsvcd__way_at(r, nsvcd__max(a, b), at[1]);
+    // on one edge there is nothing to win, and the way grows by a corner where none is cut off
+    if (first == last) continue;
+    int is_free;
+    const nsvcd_result result = nsvcd__prove_edge(r, at[0], at[1], &is_free);
+    if (result) return result;
+    if (!is_free) continue;
+    // corners first + 1 to last make way for two
+    const size_t rest = r->way_count - (last + 1);
+    memmove(r->way + (first + 3) * joints, r->way + (last + 1) * joints,
+            rest * joints * sizeof(double));
+    memcpy(r->way + (first + 1) * joints, at[0], joints * sizeof(double));
+    memcpy(r->way + (first + 2) * joints, at[1], joints * sizeof(double));
+    r->way_count = first + 3 + rest;
+  }
+  return NSVCD_OK;
+}
+
+// Drops corners that are nearly at the one before: of so short an edge rounding would say what its
+// acceleration is. What is timed is proven as a whole.
+static void nsvcd__thin_way(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  const size_t bytes = joints * sizeof(double);
+  const double least = NSVCD__SAME_CORNER * NSVCD__SAME_CORNER;
+  const double *last = r->way + (r->way_count - 1) * joints;
+  size_t kept = 1;
+  for (size_t k = 1; k < r->way_count; k++) {
+    const double *at = r->way + k * joints;
+    if (nsvcd__way2(r->way + (kept - 1) * joints, at, joints) < least) continue;
+    memmove(r->way + kept++ * joints, at, bytes);
+  }
+  // the end stays where it is
+  memmove(r->way + (kept - 1) * joints, last, bytes);
+  r->way_count = kept;
+}
+
+// ---- a route
+
+NSVCDDEF const char *nsvcd_route_status_string(nsvcd_route_status status) {
+  switch (status) {
+    case NSVCD_ROUTE_FOUND:
+      return "found";
+    case NSVCD_ROUTE_LIMIT:
+      return "no way found with so many nodes or tries";
+    case NSVCD_ROUTE_STOPPED:
+      return "stopped";
+    case NSVCD_ROUTE_START:
+      return "start not free";
+    case NSVCD_ROUTE_GOAL:
+      return "no goal free";
+  }
+  return "not a status";
+}
+
+// A configuration in *out, taken into the limits where rounding has it out. Is it free? All the
+// work is given to that.
+static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *out,
+                                   int *is_free) {
+  const nsvcd_joint_motion motion = {0, 0, out, NULL};
+  for (size_t j = 0; j < r->joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double off = nsvcd__limit_off(joint);
+    out[j] = at[j];
+    if (joint->kind == NSVCD_JOINT_CONTINUOUS) continue;
+    if (at[j] < joint->low && at[j] >= joint->low - off) out[j] = joint->low;
+    if (at[j] > joint->high && at[j] <= joint->high + off) out[j] = joint->high;
+  }
+  // if it is free only with nothing to spare, or by more work, so are edges from there
+  const nsvcd_check_options was = r->check;
+  for (size_t n = 0; n < 4; n++) {
+    r->check = was;
+    if (n % 2) r->check.clearance = r->options.clearance;
+    if (n / 2) r->check.work = 0;
+    const nsvcd_result result = nsvcd__ask_motion(r, &motion, is_free);
+    if (result || *is_free) return result;
+    // no work makes that free
+    const nsvcd_check_answer *found = &r->answer.check;
+    if (found->joint != NSVCD_NONE || (n % 2 && found->verdict == NSVCD_HIT)) break;
+  }
+  r->check = was;
+  return NSVCD_OK;
+}
+
+// Adds a root to a tree, and takes it into the range of all roots.
+static void nsvcd__plant_root(nsvcd__router *r, nsvcd__tree *t, const double *at) {
+  const int is_first = r->trees[0].count == 0;
+  for (size_t j = 0; j < r->joints; j++) {
+    r->low[j] = is_first ? at[j] : nsvcd__min(r->low[j], at[j]);
+    r->high[j] = is_first ? at[j] : nsvcd__max(r->high[j], at[j]);
+  }
+  nsvcd__tree_add(t, at, t->count);
+}
+
+// Roots of the trees. Sets the status where there are none.
+static nsvcd_result nsvcd__plant(nsvcd__router *r) {
+  double at[NSVCD_MAX_JOINTS];
+  int is_free;
+  nsvcd_result result = nsvcd__take_in(r, r->problem.start, at, &is_free);
+  if (result) return result;
+  if (!is_free) r->answer.status = NSVCD_ROUTE_START;
+  if (!is_free) return NSVCD_OK;
+  nsvcd__plant_root(r, &r->trees[0], at);
+  for (size_t g = 0; g < r->problem.goal_count && !result; g++) {
+    result = nsvcd__take_in(r, r->problem.goals + g * r->joints, at, &is_free);
+    if (result || !is_free) continue;
+    // as near as whole turns bring it
+    for (size_t j = 0; j < r->joints; j++) {
+      const double turns = floor((at[j] - r->trees[0].points[j]) / 6.283185307179586 + 0.5);
+      if (r->scene->joints[j].kind == NSVCD_JOINT_CONTINUOUS)
+        at[j] -= 6.283185307179586 * turns;
+    }
+    r->goals[r->trees[1].count] = g;
+    nsvcd__plant_root(r, &r->trees[1], at);
+  }
+  if (!r->trees[1].count) r->answer.status = NSVCD_ROUTE_GOAL;
+  return result;
+}
+
+// From the way to a motion, proven as it is: smooth, else with a rest at each corner.
+static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
+  const size_t joints = r->joints;
+  const double *last = r->way + (r->way_count - 1) * joints;
+  for (size_t j = 0; j < joints; j++) {
+    const nsvcd_joint *joint = &r->scene->joints[j];
+    const double time = nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                         nsvcd__acceleration_of(joint));
+    r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
+  }
+  int is_free = 0;
+  nsvcd_check_options whole;
+  memset(&whole, 0, sizeof whole);
+  whole.clearance = r->options.clearance;
+  whole.stop = r->check.stop;
+  whole.user = r->check.user;
+  for (int rests = 0; rests < 2 && !is_free; rests++) {
+    nsvcd_result result = NSVCD_OK;
+    if (!nsvcd__course_along(r)) break;
+    if (!rests) result = nsvcd__smooth(r);
+    if (result) return result;
+    // though the search is stopped: what it has found by then is not given up
+    const nsvcd_joint_motion motion = nsvcd__motion_of(&r->course);
+    result = nsvcd__prove_by(r, &motion, &whole, &is_free);
+    if (result) return result;
+  }
+  if (!is_free) return NSVCD_OK;
+  nsvcd_route_answer *answer = &r->answer;
+  answer->status = NSVCD_ROUTE_FOUND;
+  answer->motion = nsvcd__motion_of(&r->course);
+  answer->duration = r->course.times[r->course.pieces];
+  for (size_t p = 1; p < r->course.pieces; p++)
+    answer->stops += (size_t)nsvcd__rests_at(&r->course, joints, p);
+  return NSVCD_OK;
+}
+
+NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_problem *problem,
+                                  const nsvcd_route_options *options, void *memory,
+                                  size_t size, nsvcd_route_answer *answer) {
+  nsvcd__router *r;
+  nsvcd_result result = nsvcd__route_check(checker, problem, options);
+  if (result) return result;
+  if (!answer) return NSVCD_ERROR_ARGUMENT;
+  if (options && (!nsvcd__is_finite(options->clearance) || options->clearance < 0))
+    return NSVCD_ERROR_CLEARANCE;
+  const size_t needed = nsvcd__router_layout(checker, problem, options, NULL, &r);
+  if (!memory || !nsvcd__is_aligned(memory) || !needed || size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__router_layout(checker, problem, options, (char *)memory, &r);
+  r->checker = checker;
+  r->scene = checker->scene;
+  r->joints = checker->scene->joint_count;
+  r->problem = *problem;
+  r->random = r->options.seed;
+  r->check.clearance = r->options.clearance + NSVCD__SPARE;
+  r->check.finest = NSVCD__SEEK_FINEST;
+  r->check.work = NSVCD__SEEK_WORK;
+  r->check.stop = problem->abandon;
+  r->check.user = problem->user;
+  r->answer.status = NSVCD_ROUTE_LIMIT;
+  result = nsvcd__plant(r);
+  if (!result && r->trees[1].count > 0) result = nsvcd__seek(r);
+  if (!result && r->way_count > 0) result = nsvcd__shorten(r);
+  if (!result && r->way_count > 0) {
+    nsvcd__thin_way(r);
+    result = nsvcd__time_way(r);
+  }
+  if (result) return result;
+  if (r->is_stopped && r->answer.status != NSVCD_ROUTE_FOUND)
+    r->answer.status = NSVCD_ROUTE_STOPPED;
+  r->answer.nodes = r->trees[0].count + r->trees[1].count;
+  *answer = r->answer;
+  return NSVCD_OK;
+}
+
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#endif  // NEURALSVCD_ROBOT_IMPLEMENTATION
+
+// Licence: LICENSE, or the end of neuralsvcd.h.

@@ -1,0 +1,76 @@
+// neuralsvcd_robot.h - v0.3.0 - does a robot, moved by its joints, hit anything?
+// SPDX-License-Identifier: MIT
+//
+// nsvcd_check proves that a motion of the joints is free, as the joints make it; nsvcd_route finds
+// one; nsvcd_gaps tells what is near a configuration. On top of neuralsvcd.h, of which it uses what
+// any program can. In ONE C or C++ file:
+//
+//   #define NEURALSVCD_ROBOT_IMPLEMENTATION
+//   #include "extras/neuralsvcd_robot.h"
+//
+// Where neuralsvcd_certify.h is included before it, there is nsvcd_certify_pair too.
+//
+// CONTENTS
+//
+// GLOSSARY
+//   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
+//   step, sample      of a piece, between two samples; a configuration in which parts are placed
+//   stray             by how much a part leaves, in a step, the line and the slerp between samples
+//   lever             how far a point of a part can be from a joint's axis
+#ifndef NEURALSVCD_ROBOT_H
+#define NEURALSVCD_ROBOT_H
+#ifndef NEURALSVCD_H  // include it first where it stands elsewhere
+#include "header.h"
+#endif
+#ifdef NSVCD_NO_PROOF
+#error "neuralsvcd_robot.h: proofs are all it does, and NSVCD_NO_PROOF leaves them out"
+#endif
+
+// ================================================================== interface: what a program sees
+#ifdef __cplusplus
+extern "C" {
+#endif
+#include "interface/robots.h"    // joints, parts, checks of motions; nsvcd_check
+#include "interface/postures.h"  // one configuration: what is near, a way out; nsvcd_gaps
+#include "interface/routes.h"    // a start and goals; nsvcd_route
+#ifdef __cplusplus
+}
+#endif
+#endif  // NEURALSVCD_ROBOT_H
+
+// ================================================================================== IMPLEMENTATION
+#if defined(NEURALSVCD_ROBOT_IMPLEMENTATION) && !defined(NEURALSVCD_ROBOT_IMPLEMENTED)
+#define NEURALSVCD_ROBOT_IMPLEMENTED
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // of ground, not all is needed
+#endif
+
+// ====================================================================== ground: numbers and memory
+#include "ground/compiler.h"   // what is asked of the compiler; libc and libm
+#include "ground/angles.h"     // sines and angles, by libm or computed here
+#include "ground/bits.h"       // bits, sizes, digests
+#include "ground/valid.h"      // is what a caller hands over in order?
+#include "ground/points.h"     // vectors of three, of floats and of doubles
+#include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles
+#include "ground/random.h"     // random numbers
+#include "ground/memory.h"     // the allocator; the rows of a workspace
+
+// ============================================================ robot: is a motion of joints free?
+#include "robot/chain.h"  // what moves what; where everything is
+#include "robot/steps.h"  // what the joints do between two times
+#include "robot/stray.h"  // by how much a part leaves the line and the slerp between two samples
+#include "robot/path.h"      // pieces, pair by pair
+#include "robot/proofs.h"    // certificates of pairs
+#include "robot/trees.h"     // configurations, and the nearest of them
+#include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
+#include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
+#include "robot/smooth.h"  // a way in time, then smooth
+#include "robot/route.h"   // two trees of proven edges, shortcuts
+
+#if defined(__GNUC__) || defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#endif  // NEURALSVCD_ROBOT_IMPLEMENTATION
+
+// Licence: LICENSE, or the end of neuralsvcd.h.
