@@ -160,13 +160,10 @@ NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvc
 //   models     (2), not NULL: of the meshes of a and b
 //   keyframes  of both, 0 and 1 too; where there are more, UNDECIDED
 //   errors     ARGUMENT, CLEARANCE, WORKSPACE
-NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
-                                           float clearance, const nsvcd_tree *a,
-                                           const nsvcd_tree *b,
-                                           const nsvcd_certify_options *options,
-                                           void *workspace, size_t workspace_size,
-                                           uint8_t *bytes, size_t capacity,
-                                           nsvcd_certificate *made);
+NSVCDDEF nsvcd_result nsvcd_certify_models(
+    const nsvcd_motion_model *models, size_t keyframes, float clearance, const nsvcd_tree *a,
+    const nsvcd_tree *b, const nsvcd_certify_options *options, void *workspace,
+    size_t workspace_size, uint8_t *bytes, size_t capacity, nsvcd_certificate *made);
 #ifdef __cplusplus
 }
 #endif
@@ -1493,7 +1490,8 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
   }
   const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
   const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
-  return nsvcd__placement_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
+  return nsvcd__placement_of(q,
+                             nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
 }
 
 static double nsvcd__mover_next(const void *motion, double t) {
@@ -1617,7 +1615,8 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
 
 // Returns 0 where there are more keyframes than there is room for.
 static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
-  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return 1;
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
+    return 1;
   const nsvcd_motion_model *a = &s->a->model;
   const nsvcd_motion_model *b = &s->b->model;
   double t = t0;
@@ -1879,7 +1878,8 @@ static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world),
+                         1 / by->model.scale);
 }
 
 // In that frame: no length is more, and no point is off by as much as the margin.
@@ -2408,13 +2408,10 @@ NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvc
   return size > SIZE_MAX ? 0 : (size_t)size;
 }
 
-NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
-                                           float clearance, const nsvcd_tree *a,
-                                           const nsvcd_tree *b,
-                                           const nsvcd_certify_options *options,
-                                           void *workspace, size_t workspace_size,
-                                           uint8_t *bytes, size_t capacity,
-                                           nsvcd_certificate *made) {
+NSVCDDEF nsvcd_result nsvcd_certify_models(
+    const nsvcd_motion_model *models, size_t keyframes, float clearance, const nsvcd_tree *a,
+    const nsvcd_tree *b, const nsvcd_certify_options *options, void *workspace,
+    size_t workspace_size, uint8_t *bytes, size_t capacity, nsvcd_certificate *made) {
   nsvcd__certifier c;
   const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
   if (!models || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
@@ -2424,8 +2421,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, siz
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size, bytes,
-                        capacity, made);
+  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size,
+                        bytes, capacity, made);
 }
 
 static size_t nsvcd__keyframes_of(const nsvcd_question *question) {

@@ -15,6 +15,7 @@
 //     robots          joints, parts, checks of motions; nsvcd_check
 //     postures        one configuration: what is near, a way out; nsvcd_gaps
 //     routes          a start and goals; nsvcd_route
+//     pairs           a certificate of a pair of parts; nsvcd_certify_pair
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
 //     angles          sines and angles, by libm or computed here
@@ -208,30 +209,6 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
-
-#ifdef NEURALSVCD_CERTIFY_H
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
-// the mesh that has more.
-NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
-                                                  const nsvcd_tree *a, const nsvcd_tree *b);
-
-// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
-// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
-//   checker    not NULL
-//   motion     not NULL, as nsvcd_check takes it, of one piece or more
-//   pair       of the scene's pairs
-//   clearance  metres
-//   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
-//              turn by more than 1,000 or, in the whole motion's time, 100,000
-NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
-                                         const nsvcd_joint_motion *motion, size_t pair,
-                                         float clearance, const nsvcd_tree *a,
-                                         const nsvcd_tree *b,
-                                         const nsvcd_certify_options *options, void *workspace,
-                                         size_t workspace_size, uint8_t *bytes,
-                                         size_t capacity, nsvcd_certificate *made);
-#endif
 
 // ------------------------------------------------------------------------------ interface/postures
 // In: a robot in one configuration. Out: what is near, how that changes with the joints, a way out;
@@ -466,6 +443,42 @@ NSVCDDEF nsvcd_result nsvcd_route(nsvcd_checker *checker, const nsvcd_route_prob
 }
 #endif
 #endif  // NEURALSVCD_ROBOT_H
+
+#if defined(NEURALSVCD_CERTIFY_H) && !defined(NEURALSVCD_ROBOT_PAIRS_H)
+#define NEURALSVCD_ROBOT_PAIRS_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// --------------------------------------------------------------------------------- interface/pairs
+// In: a pair of a robot's parts, a motion of its joints, their meshes' trees. Out: bytes that prove
+// that the two never meet.
+
+// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
+// the mesh that has more.
+NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
+                                                  const nsvcd_tree *a, const nsvcd_tree *b);
+
+// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
+// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
+//   checker    not NULL
+//   motion     not NULL, as nsvcd_check takes it, of one piece or more
+//   pair       of the scene's pairs
+//   clearance  metres
+//   a, b       trees of the meshes of the pair's parts, not NULL
+//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
+//              turn by more than 1,000 or, in the whole motion's time, 100,000
+NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
+                                         const nsvcd_joint_motion *motion, size_t pair,
+                                         float clearance, const nsvcd_tree *a,
+                                         const nsvcd_tree *b,
+                                         const nsvcd_certify_options *options, void *workspace,
+                                         size_t workspace_size, uint8_t *bytes,
+                                         size_t capacity, nsvcd_certificate *made);
+#ifdef __cplusplus
+}
+#endif
+#endif
 
 // ================================================================================== IMPLEMENTATION
 #if defined(NEURALSVCD_ROBOT_IMPLEMENTATION) && !defined(NEURALSVCD_ROBOT_IMPLEMENTED)

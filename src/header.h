@@ -188,11 +188,11 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#include "interface/results.h"       // codes, what they say, the caller's allocator
-#include "interface/meshes.h"        // OBJ files, parts of a mesh
-#include "interface/bodies.h"        // encoding, loading, scaling, facts
-#include "interface/queries.h"       // movers, options, answers; nsvcd_sweep and its kin
-#include "interface/plans.h"         // splines, planning problems; nsvcd_plan
+#include "interface/results.h"  // codes, what they say, the caller's allocator
+#include "interface/meshes.h"   // OBJ files, parts of a mesh
+#include "interface/bodies.h"   // encoding, loading, scaling, facts
+#include "interface/queries.h"  // movers, options, answers; nsvcd_sweep and its kin
+#include "interface/plans.h"    // splines, planning problems; nsvcd_plan
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 """Writes build/api.html, a page of what a program sees: the comments and declarations of interface/, and what header.h
-says before them. Nothing is said there that is not said in these files.
+says before them, and of the headers of extras/. Nothing is said there that is not said in these files.
 
     python3 src/make_api.py [OUT]
 """
@@ -161,7 +161,7 @@ dt { font-family: ui-monospace, monospace; font-size: 13.5px; max-width: 14rem }
 def page_of(src: Path) -> str:
     plan = (src / "header.h").read_text(encoding="ascii").splitlines()
     rooms = []
-    for line in plan:
+    for line in [line for name in ("header", "certify", "robot") for line in (src / f"{name}.h").read_text(encoding="ascii").splitlines()]:
         if room := ROOM.match(line):
             lines = (src / "interface" / f"{room['name']}.h").read_text(encoding="ascii").splitlines()
             rooms.append((room["name"], room["says"], *items_of(lines)))

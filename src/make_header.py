@@ -144,8 +144,8 @@ def made_of(src: Path, plan: str = "header", shared: frozenset[str] = frozenset(
     text_of_plan = (src / f"{plan}.h").read_text(encoding="ascii").splitlines()
     out: list[str] = []
     above: list[str] = [plan]
-    if plan != "header":
-        above += [room for room in rooms_of(src, "header") if room.startswith("interface/")]
+    if plan != "header":  # programs see these, whichever header they stand in
+        above += [room for other in PLANS if other != plan for room in rooms_of(src, other) if room.startswith("interface/")]
     by_set: list[str] = []  # the texts of rooms that are compiled for each set
     once = True  # what stands before the implementation is
     for line in text_of_plan:

@@ -38,6 +38,17 @@ extern "C" {
 #endif
 #endif  // NEURALSVCD_ROBOT_H
 
+#if defined(NEURALSVCD_CERTIFY_H) && !defined(NEURALSVCD_ROBOT_PAIRS_H)
+#define NEURALSVCD_ROBOT_PAIRS_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+#include "interface/pairs.h"  // a certificate of a pair of parts; nsvcd_certify_pair
+#ifdef __cplusplus
+}
+#endif
+#endif
+
 // ================================================================================== IMPLEMENTATION
 #if defined(NEURALSVCD_ROBOT_IMPLEMENTATION) && !defined(NEURALSVCD_ROBOT_IMPLEMENTED)
 #define NEURALSVCD_ROBOT_IMPLEMENTED

@@ -240,11 +240,13 @@ class Bench:
         (folder / "build").mkdir()
         (folder / "weights.h").symlink_to(ROOT / "weights.h")
         (folder / HEADER).write_text(text)
+        (folder / "extras").symlink_to(ROOT / "extras")
+        extras = {"certificate": "extras/neuralsvcd_certify.h", "robot": "extras/neuralsvcd_robot.h"}
         for path in [ROOT / "src/header.h", *(ROOT / "src").glob("*/*.h")]:
             room = folder / path.relative_to(ROOT)
             room.parent.mkdir(parents=True, exist_ok=True)
             up = "../" * (len(room.relative_to(folder).parts) - 1)
-            room.write_text(f'#include "{up}{HEADER}"\n')
+            room.write_text(f'#include "{up}{extras.get(path.parent.name, HEADER)}"\n')
         return folder
 
     def assembly(self, folder: Path) -> str:

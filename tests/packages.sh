@@ -156,7 +156,7 @@ if command -v meson >/dev/null; then
   cp -r packages/project "$dir/wrapped"
   mkdir -p "$dir/wrapped/subprojects/neuralsvcd/packages"
   cp packages/meson/neuralsvcd.wrap "$dir/wrapped/subprojects/"
-  cp meson.build neuralsvcd.h weights.h "$dir/wrapped/subprojects/neuralsvcd/"  # as git would have fetched it
+  cp -r meson.build neuralsvcd.h weights.h extras "$dir/wrapped/subprojects/neuralsvcd/"  # as git would have fetched it
   cp packages/neuralsvcd.c "$dir/wrapped/subprojects/neuralsvcd/packages/"
   unset PKG_CONFIG_PATH
   meson_runs "Meson, as a subproject" "$dir/wrapped"

@@ -177,7 +177,7 @@ def main() -> int:
     code: list[str] = []
     functions = 0
     rooms = sorted(SRC.glob("*/*.h"))
-    for path in [SRC / "header.h", *rooms]:
+    for path in [*sorted(SRC.glob("*.h")), *rooms]:
         lines = path.read_text(encoding="ascii").rstrip("\n").split("\n")
         faults = long_lines(lines) + long_functions(lines) + joined_statements(lines)
         faults += missing_paths(lines) + cut_rows(lines)

@@ -8,7 +8,7 @@ from setuptools import Extension, setup
 from setuptools.command.sdist import sdist
 
 # What is compiled lies outside of this folder, in the repository; an sdist has it as it lies there, in a folder of its own.
-NEEDED = ["LICENSE", "neuralsvcd.h", "weights.h", "examples/verify/*.h", "examples/scenery/*.h"]
+NEEDED = ["LICENSE", "neuralsvcd.h", "weights.h", "extras/*.h", "examples/verify/*.h", "examples/scenery/*.h"]
 OWN = Path("repository")
 REPOSITORY = OWN if OWN.exists() else Path("../..")
 

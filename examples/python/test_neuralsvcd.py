@@ -1412,6 +1412,7 @@ class Wheel(unittest.TestCase):
             for part in ("verify", "scenery"):
                 shutil.copytree(HERE.parent / part, folder / "checkout" / "examples" / part,
                                 ignore=lambda _, names: [name for name in names if not name.endswith(".h")])
+            shutil.copytree(ROOT / "extras", folder / "checkout" / "extras")
             for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
                 shutil.copy(ROOT / file, folder / "checkout")
             for file in ("_neuralsvcd.c", "_nsvcd_verify.c", "setup.py", "pyproject.toml", "README.md"):

@@ -22,7 +22,7 @@ class NeuralSvcd(ConanFile):
         self.version = re.search(r" v(\S+) ", first_line).group(1)
 
     def export_sources(self):
-        for file in ("neuralsvcd.h", "weights.h", "LICENSE"):
+        for file in ("neuralsvcd.h", "weights.h", "extras/*.h", "LICENSE"):
             copy(self, file, self._checkout(), self.export_sources_folder)
 
     def package_id(self):

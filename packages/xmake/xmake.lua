@@ -11,6 +11,7 @@ package("neuralsvcd")
     on_install(function (package)
         os.cp("neuralsvcd.h", package:installdir("include"))
         os.cp("weights.h", package:installdir("include"))
+        os.cp("extras/*.h", package:installdir("include/extras"))
     end)
     on_test(function (package)
         assert(package:check_csnippets({test = [[

@@ -432,13 +432,10 @@ NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvc
   return size > SIZE_MAX ? 0 : (size_t)size;
 }
 
-NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
-                                           float clearance, const nsvcd_tree *a,
-                                           const nsvcd_tree *b,
-                                           const nsvcd_certify_options *options,
-                                           void *workspace, size_t workspace_size,
-                                           uint8_t *bytes, size_t capacity,
-                                           nsvcd_certificate *made) {
+NSVCDDEF nsvcd_result nsvcd_certify_models(
+    const nsvcd_motion_model *models, size_t keyframes, float clearance, const nsvcd_tree *a,
+    const nsvcd_tree *b, const nsvcd_certify_options *options, void *workspace,
+    size_t workspace_size, uint8_t *bytes, size_t capacity, nsvcd_certificate *made) {
   nsvcd__certifier c;
   const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
   if (!models || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
@@ -448,8 +445,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, siz
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size, bytes,
-                        capacity, made);
+  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size,
+                        bytes, capacity, made);
 }
 
 static size_t nsvcd__keyframes_of(const nsvcd_question *question) {

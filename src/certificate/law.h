@@ -103,7 +103,8 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
   }
   const nsvcd__dquat q = nsvcd__dquat_fma(after, arc.to, nsvcd__dquat_scale(arc.from, before));
   const nsvcd__d3 from_position = nsvcd__d3_load(a->position);
-  return nsvcd__placement_of(q, nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
+  return nsvcd__placement_of(q,
+                             nsvcd__d3_mix(from_position, nsvcd__d3_load(a[1].position), u));
 }
 
 static double nsvcd__mover_next(const void *motion, double t) {

@@ -63,7 +63,8 @@ static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__ride
 
 // Returns 0 where there are more keyframes than there is room for.
 static int nsvcd__stretch_to(nsvcd__stretch *s, double t0, double t1) {
-  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1)) return 1;
+  if (s->count > 0 && !(s->t0 < t0) && !(s->t0 > t0) && !(s->t1 < t1) && !(s->t1 > t1))
+    return 1;
   const nsvcd_motion_model *a = &s->a->model;
   const nsvcd_motion_model *b = &s->b->model;
   double t = t0;

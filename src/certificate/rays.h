@@ -12,7 +12,8 @@ static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
   const nsvcd__d3 world = nsvcd__d3_add(nsvcd__turned_by(of, of_at, x), offset);
-  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world), 1 / by->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply_transpose(&by_at->turn, world),
+                         1 / by->model.scale);
 }
 
 // In that frame: no length is more, and no point is off by as much as the margin.

@@ -116,10 +116,7 @@ NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvc
 //   models     (2), not NULL: of the meshes of a and b
 //   keyframes  of both, 0 and 1 too; where there are more, UNDECIDED
 //   errors     ARGUMENT, CLEARANCE, WORKSPACE
-NSVCDDEF nsvcd_result nsvcd_certify_models(const nsvcd_motion_model *models, size_t keyframes,
-                                           float clearance, const nsvcd_tree *a,
-                                           const nsvcd_tree *b,
-                                           const nsvcd_certify_options *options,
-                                           void *workspace, size_t workspace_size,
-                                           uint8_t *bytes, size_t capacity,
-                                           nsvcd_certificate *made);
+NSVCDDEF nsvcd_result nsvcd_certify_models(
+    const nsvcd_motion_model *models, size_t keyframes, float clearance, const nsvcd_tree *a,
+    const nsvcd_tree *b, const nsvcd_certify_options *options, void *workspace,
+    size_t workspace_size, uint8_t *bytes, size_t capacity, nsvcd_certificate *made);

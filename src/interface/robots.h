@@ -152,27 +152,3 @@ NSVCDDEF void nsvcd_checker_place(const nsvcd_checker *checker, const double *jo
 NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_motion *motion,
                                   const nsvcd_check_options *options,
                                   nsvcd_check_answer *answer);
-
-#ifdef NEURALSVCD_CERTIFY_H
-// Bytes of the workspace of nsvcd_certify_pair: some 250 for each piece, and 4 for each vertex of
-// the mesh that has more.
-NSVCDDEF size_t nsvcd_certify_pair_workspace_size(const nsvcd_joint_motion *motion,
-                                                  const nsvcd_tree *a, const nsvcd_tree *b);
-
-// nsvcd_certify for a pair of parts, as a motion of the joints makes them move: a certificate of
-// theirs for each pair is a proof that a motion is free (examples/verify/nsvcd_verify_robot.h).
-//   checker    not NULL
-//   motion     not NULL, as nsvcd_check takes it, of one piece or more
-//   pair       of the scene's pairs
-//   clearance  metres
-//   a, b       trees of the meshes of the pair's parts, not NULL
-//   errors     those of nsvcd_certify and nsvcd_check, PAIR, and TURN for a motion whose joints
-//              turn by more than 1,000 or, in the whole motion's time, 100,000
-NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
-                                         const nsvcd_joint_motion *motion, size_t pair,
-                                         float clearance, const nsvcd_tree *a,
-                                         const nsvcd_tree *b,
-                                         const nsvcd_certify_options *options, void *workspace,
-                                         size_t workspace_size, uint8_t *bytes,
-                                         size_t capacity, nsvcd_certificate *made);
-#endif

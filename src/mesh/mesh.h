@@ -4,7 +4,6 @@
 #include "../ground/valid.h"
 #include "../ground/memory.h"
 
-
 #ifndef NSVCD_NO_ENCODER
 NSVCDDEF void nsvcd_mesh_free(nsvcd_mesh *mesh, const nsvcd_allocator *allocator) {
   if (!mesh) return;

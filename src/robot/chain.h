@@ -15,6 +15,8 @@
 // It asks as any program does, by nsvcd_sweep.
 #pragma once
 #include "../ground/memory.h"
+#include "../ground/rotations.h"
+#include "../ground/valid.h"
 #include "../interface/robots.h"
 
 // The schedule of a check.

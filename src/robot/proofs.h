@@ -11,6 +11,7 @@
 // again in a few lines.
 // Source: this library.
 #pragma once
+#include "../interface/pairs.h"
 #include "path.h"
 
 #ifdef NEURALSVCD_CERTIFY_H
