@@ -10,7 +10,9 @@ here=$(pwd)
 cat >"$dir/twice.c" <<END
 #include "$here/neuralsvcd.h"
 #include "$here/neuralsvcd.h"
+#ifndef NSVCD_NO_PROOF
 #include "$here/extras/neuralsvcd_robot.h"
+#endif
 #define NEURALSVCD_IMPLEMENTATION
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #define NEURALSVCD_ROBOT_IMPLEMENTATION
