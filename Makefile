@@ -13,7 +13,8 @@ CFLAGS ?= -O3 -march=native
 endif
 WARNINGS = -Wall -Wextra
 ALL_CFLAGS = $(CFLAGS) -std=c99 $(WARNINGS)
-LIBRARY = neuralsvcd.h weights.h
+EXTRAS = extras/neuralsvcd_certify.h extras/neuralsvcd_robot.h
+LIBRARY = neuralsvcd.h weights.h $(EXTRAS)
 ROOMS = $(wildcard src/*.h src/*/*.h)
 # What the examples and the tests share.
 SCENERY = $(wildcard examples/scenery/*.h examples/svcd/*.h)
@@ -51,8 +52,8 @@ help:  ## this list
 build:
 	mkdir -p build
 
-header:  ## writes neuralsvcd.h from the rooms of src/
-	python3 src/make_header.py
+header:  ## writes neuralsvcd.h and extras/ from the rooms of src/; LINES=1: errors and debuggers name these
+	python3 src/make_header.py $(if $(LINES),--lines)
 api: | build  ## build/api.html: what a program sees, as a page
 	python3 src/make_api.py
 

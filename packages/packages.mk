@@ -34,14 +34,15 @@ build/release/neuralsvcd.h: $(LIBRARY)
 
 # DESTDIR=folder is put before PREFIX.
 # The checker of certificates needs nothing of the library; what documents it all goes with it.
-INSTALLED_HEADERS = $(LIBRARY) $(wildcard examples/verify/nsvcd_verify*.h)
+INSTALLED_HEADERS = neuralsvcd.h weights.h $(wildcard examples/verify/nsvcd_verify*.h)
 DOCUMENTS = LICENSE examples/FORMATS.md
 # What svcd says of itself, and where that is looked for.
 MANUALS = man:man/man1/svcd.1 bash:bash-completion/completions/svcd zsh:zsh/site-functions/_svcd fish:fish/vendor_completions.d/svcd.fish
 install: shared static $(PROGRAMS)  ## PREFIX=/usr/local: the headers, libraries, svcd, svcd-verify and their manual, pkg-config, a CMake package
-	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd $(DESTDIR)$(PREFIX)/lib/pkgconfig \
+	mkdir -p $(DESTDIR)$(PREFIX)/include/neuralsvcd/extras $(DESTDIR)$(PREFIX)/lib/pkgconfig \
 	  $(DESTDIR)$(PREFIX)/lib/cmake/neuralsvcd $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd
 	cp $(INSTALLED_HEADERS) $(DESTDIR)$(PREFIX)/include/neuralsvcd/
+	cp $(EXTRAS) $(DESTDIR)$(PREFIX)/include/neuralsvcd/extras/
 	cp $(DOCUMENTS) $(DESTDIR)$(PREFIX)/share/doc/neuralsvcd/
 	cp build/libneuralsvcd.a $(DESTDIR)$(PREFIX)/lib/
 	if test -f build/libneuralsvcd.dylib; then cp build/libneuralsvcd.dylib $(DESTDIR)$(PREFIX)/lib/; else \

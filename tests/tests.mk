@@ -33,12 +33,12 @@ $(BENCHES): build/%: tests/bench/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) |
 	$(CC) $(ALL_CFLAGS) -Wno-unused-function $(CCD_CFLAGS) -o $@ $< $(CCD_LIBS) -lm
 
 # The planner with other checks than proofs: one call of its header goes elsewhere.
-build/peers/neuralsvcd.h: $(LIBRARY) | build
+build/peers/neuralsvcd_robot.h: $(LIBRARY) | build
 	mkdir -p build/peers
-	grep -c 'result = nsvcd_check(r->checker, motion' neuralsvcd.h | grep -qx 1
-	sed 's/result = nsvcd_check(r->checker, motion/result = peer_check(r->checker, motion/' neuralsvcd.h >$@
-build/route_peers: tests/bench/bench_routes.c build/peers/neuralsvcd.h $(HELPERS) $(PEERS) $(SCENERY) | build
-	$(CC) $(ALL_CFLAGS) -Ibuild/peers -I. -DROUTE_PEERS -Wno-unused-function -o $@ $< -lm
+	grep -c 'result = nsvcd_check(r->checker, motion' extras/neuralsvcd_robot.h | grep -qx 1
+	sed 's/result = nsvcd_check(r->checker, motion/result = peer_check(r->checker, motion/' extras/neuralsvcd_robot.h >$@
+build/route_peers: tests/bench/bench_routes.c build/peers/neuralsvcd_robot.h $(HELPERS) $(PEERS) $(SCENERY) | build
+	$(CC) $(ALL_CFLAGS) -Ibuild -I. -DROUTE_PEERS -Wno-unused-function -o $@ $< -lm
 
 # Each file of tests as a program of its own, compiled otherwise: build/FLAVOUR/test_X; what it says is in
 # build/FLAVOUR/test_X.txt, which is there when it has passed.
