@@ -153,7 +153,7 @@
 //     compiler        what is asked of the compiler; libc and libm
 //     strings         what codes and statuses say
 //     angles          sines and angles, by libm or reckoned here
-//     bits            bits, sizes, digests
+//     bits            bits and sizes
 //     valid           is what a caller hands over in order?
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
@@ -1730,17 +1730,6 @@ static uint32_t nsvcd__magnitude(float x) {
 static inline int nsvcd__is_finite(float x) {
   return nsvcd__magnitude(x) < 0x7f800000u;
 }
-
-// Goes on with a digest over (count) words of 32 bits.
-static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    uint32_t word;
-    memcpy(&word, (const char *)words + 4 * i, 4);
-    digest = (digest ^ word) * 0x9e3779b1u;
-    digest ^= digest >> 15;
-  }
-  return digest;
-}
 #endif  // NSVCD__HAS_GROUND_BITS
 
 // ------------------------------------------------------------------------------------ ground/valid
@@ -1764,7 +1753,7 @@ static int nsvcd__within(const float *values, size_t count, float most) {
 }
 
 // A float not less than x, which is not negative.
-static float nsvcd__above(double x) {
+static inline float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
@@ -1831,7 +1820,7 @@ static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
 }
 
 // A mesh may come from anywhere: everything below relies on what is checked here.
-static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
   if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;
@@ -2190,7 +2179,7 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
 
 // The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
 // makes of such a triangle's normal is some 1e-16 of its longest edge squared.
-static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
@@ -2288,7 +2277,7 @@ static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
-static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   const size_t corners_a = nsvcd__corners_of(a);
   const size_t corners_b = nsvcd__corners_of(b);
   const size_t edges_a = corners_a < 3 ? 1 : 3;

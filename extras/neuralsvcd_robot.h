@@ -19,7 +19,8 @@
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
 //     angles          sines and angles, by libm or computed here
-//     bits            bits, sizes, digests
+//     bits            bits and sizes
+//     digests         digests of words
 //     valid           is what a caller hands over in order?
 //     points          vectors of three, of floats and of doubles
 //     rotations       quaternions and matrices, of floats and of doubles
@@ -639,6 +640,12 @@ static uint32_t nsvcd__magnitude(float x) {
 static inline int nsvcd__is_finite(float x) {
   return nsvcd__magnitude(x) < 0x7f800000u;
 }
+#endif  // NSVCD__HAS_GROUND_BITS
+
+// ---------------------------------------------------------------------------------- ground/digests
+#ifndef NSVCD__HAS_GROUND_DIGESTS
+#define NSVCD__HAS_GROUND_DIGESTS
+// In: words of 32 bits. Out: a digest of them.
 
 // Goes on with a digest over (count) words of 32 bits.
 static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) {
@@ -650,7 +657,7 @@ static uint32_t nsvcd__digest(uint32_t digest, const void *words, size_t count) 
   }
   return digest;
 }
-#endif  // NSVCD__HAS_GROUND_BITS
+#endif  // NSVCD__HAS_GROUND_DIGESTS
 
 // ------------------------------------------------------------------------------------ ground/valid
 #ifndef NSVCD__HAS_GROUND_VALID
@@ -673,7 +680,7 @@ static int nsvcd__within(const float *values, size_t count, float most) {
 }
 
 // A float not less than x, which is not negative.
-static float nsvcd__above(double x) {
+static inline float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
@@ -740,7 +747,7 @@ static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
 }
 
 // A mesh may come from anywhere: everything below relies on what is checked here.
-static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
   if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;

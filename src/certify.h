@@ -40,7 +40,8 @@ extern "C" {
 // ====================================================================== ground: numbers and memory
 #include "ground/compiler.h"   // what is asked of the compiler; libc and libm
 #include "ground/angles.h"     // sines and angles, by libm or computed here
-#include "ground/bits.h"       // bits, sizes, digests
+#include "ground/bits.h"       // bits and sizes
+#include "ground/digests.h"    // digests of words
 #include "ground/valid.h"      // is what a caller hands over in order?
 #include "ground/points.h"     // vectors of three, of floats and of doubles
 #include "ground/rotations.h"  // quaternions and matrices, of floats and of doubles

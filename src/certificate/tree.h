@@ -10,6 +10,7 @@
 // What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
 // rules by which nodes are cut and opened, and the form of the bits, are the same in both.
 #pragma once
+#include "../ground/digests.h"
 #include "../ground/valid.h"
 #include "../interface/certificates.h"
 #include "../ground/memory.h"

@@ -9,7 +9,7 @@ static nsvcd__d3 nsvcd__face_normal(const nsvcd__d3 *t) {
 
 // The same as a unit vector; 0 where the triangle has no area. What rounding, or fused arithmetic,
 // makes of such a triangle's normal is some 1e-16 of its longest edge squared.
-static nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
+static inline nsvcd__d3 nsvcd__face_direction(const nsvcd__d3 *t) {
   const nsvcd__d3 n = nsvcd__face_normal(t);
   double longest = 0;
   for (size_t k = 0; k < 3; k++)
@@ -107,7 +107,7 @@ static size_t nsvcd__corners_of(const nsvcd__d3 *t) {
 }
 
 // The nearest points of two triangles; the distance is 0 where they meet.
-static nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
+static inline nsvcd__nearest nsvcd__nearest_of(const nsvcd__d3 *a, const nsvcd__d3 *b) {
   const size_t corners_a = nsvcd__corners_of(a);
   const size_t corners_b = nsvcd__corners_of(b);
   const size_t edges_a = corners_a < 3 ? 1 : 3;

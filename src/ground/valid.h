@@ -19,7 +19,7 @@ static int nsvcd__within(const float *values, size_t count, float most) {
 }
 
 // A float not less than x, which is not negative.
-static float nsvcd__above(double x) {
+static inline float nsvcd__above(double x) {
   return (float)(x * (1 + 2e-7)) + 1e-37f;
 }
 
@@ -86,7 +86,7 @@ static nsvcd_result nsvcd__track_check(const nsvcd_mover *mover) {
 }
 
 // A mesh may come from anywhere: everything below relies on what is checked here.
-static nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
+static inline nsvcd_result nsvcd__mesh_check(const nsvcd_mesh *mesh) {
   if (!mesh) return NSVCD_ERROR_ARGUMENT;
   if (mesh->triangle_count == 0) return NSVCD_ERROR_EMPTY;
   if (!mesh->positions || !mesh->indices) return NSVCD_ERROR_ARGUMENT;

@@ -12,6 +12,7 @@
 // Source: this library.
 #pragma once
 #include "../interface/pairs.h"
+#include "../ground/digests.h"
 #include "path.h"
 
 #ifdef NEURALSVCD_CERTIFY_H
