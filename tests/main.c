@@ -53,6 +53,15 @@ void test_optimizer(void);
 void test_level(void);
 void test_cost(void);
 
+void promises_meshes(void);
+void promises_bodies(void);
+void promises_queries(void);
+void promises_certificates(void);
+void promises_robots(void);
+void promises_postures(void);
+void promises_routes(void);
+void promises_plans(void);
+
 typedef struct test_file {
   const char *name;
   void (*run)(void);
@@ -60,7 +69,18 @@ typedef struct test_file {
 
 #define OF(name) \
   { #name, test_##name }
+#define PROMISES_OF(name) \
+  { "promises_" #name, promises_##name }
 static const test_file files[] = {
+    // the public contracts, one after another
+    PROMISES_OF(meshes),
+    PROMISES_OF(bodies),
+    PROMISES_OF(queries),
+    PROMISES_OF(certificates),
+    PROMISES_OF(robots),
+    PROMISES_OF(postures),
+    PROMISES_OF(routes),
+    PROMISES_OF(plans),
     // the sections of the header, in its order
     OF(results),
     OF(math),

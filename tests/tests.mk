@@ -18,8 +18,12 @@ build/test_asks.o build/test_round.o: TEST_CFLAGS := $(filter-out -m%,$(TEST_CFL
 
 $(TEST_OBJECTS): build/%.o: tests/%.c $(HELPERS) $(PEERS) $(SCENERY) $(LIBRARY) | build
 	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<
-build/tests: $(TEST_OBJECTS)
-	$(CC) $(TEST_CFLAGS) -pthread -o $@ $(TEST_OBJECTS) -lm
+# The promises of the public contracts are linked to the library, as a program is.
+PROMISES = $(patsubst tests/promises/%.c,build/promises_%.o,$(wildcard tests/promises/*.c))
+$(PROMISES): build/promises_%.o: tests/promises/%.c $(wildcard tests/promises/*.h) tests/check.h $(VERIFIER) $(LIBRARY) | build
+	$(CC) $(TEST_CFLAGS) -pthread -std=c99 $(TEST_WARNINGS) -c -o $@ $<
+build/tests: $(TEST_OBJECTS) $(PROMISES) build/library.o
+	$(CC) $(TEST_CFLAGS) -pthread -o $@ $^ -lm
 
 # On all processors: CORES=1 for one.
 CORES ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)

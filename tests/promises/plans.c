@@ -1,0 +1,178 @@
+// What src/interface/plans.h promises, a test each: a smooth trajectory that is free, or why not.
+#include "scene.h"
+
+void promises_plans(void);
+
+// A crate slides over the floor, x and y its joints, from one side of a wall to the other.
+#define JOINTS 2
+static const float low[JOINTS] = {-2, -2}, high[JOINTS] = {2, 2};
+static const float from[JOINTS] = {-1, 0.1f}, to[JOINTS] = {1, 0.1f};
+static const nsvcd_body_pair crate_and_wall[1] = {{0, 1}};
+
+static void place(void *user, const float *joints, nsvcd_pose *poses) {
+  (void)user;
+  poses[0] = at(joints[0], joints[1], 0);
+  poses[1] = at(0, 0, 0);
+}
+
+typedef struct floor_plan {
+  const nsvcd_body *bodies[2];
+  nsvcd_plan_problem problem;
+} floor_plan;
+
+static void floor_open(floor_plan *f) {
+  const nsvcd_encode_options options = {.latents = 1};
+  memset(f, 0, sizeof *f);
+  f->bodies[0] = body_of(box_mesh(0.4f, 0.4f, 0.4f), &options);
+  f->bodies[1] = body_of(box_mesh(0.1f, 1, 1), &options);
+  f->problem = (nsvcd_plan_problem){.joints = JOINTS,
+                                    .low = low,
+                                    .high = high,
+                                    .start = from,
+                                    .goal = to,
+                                    .bodies = f->bodies,
+                                    .body_count = 2,
+                                    .pairs = crate_and_wall,
+                                    .pair_count = 1,
+                                    .place = place};
+}
+static void floor_close(floor_plan *f) {
+  nsvcd_body_free(f->bodies[0], NULL);
+  nsvcd_body_free(f->bodies[1], NULL);
+}
+
+static nsvcd_plan_answer plan_of(const nsvcd_plan_problem *problem, float *control) {
+  const size_t size = nsvcd_plan_workspace_size(problem, NULL);
+  void *workspace = malloc(size);
+  nsvcd_plan_answer answer;
+  memset(&answer, 0, sizeof answer);
+  CHECK(size > 0);
+  CHECK_EQ(nsvcd_plan(problem, NULL, workspace, size, control, &answer), NSVCD_OK);
+  free(workspace);
+  return answer;
+}
+
+static void a_spline_passes_through_its_points_and_rests_at_both_ends(void) {
+  const float control[5] = {0, 2, 1, 4, 3};
+  float out;
+  for (int i = 0; i < 5; i++) {
+    nsvcd_spline(control, 3, 1, (float)i / 4, 0, &out);
+    CHECK_NEAR(out, control[i], 1e-6);
+  }
+  for (size_t derivative = 1; derivative <= 2; derivative++) {
+    nsvcd_spline(control, 3, 1, 0, derivative, &out);
+    CHECK_NEAR(out, 0, 1e-4);
+    nsvcd_spline(control, 3, 1, 1, derivative, &out);
+    CHECK_NEAR(out, 0, 1e-4);
+  }
+  nsvcd_spline(control, 3, 1, 0.5f, 1, &out);  // central differences
+  CHECK_NEAR(out, (4 - 2) / 0.5, 1e-4);
+}
+
+// The spline at many times, asked about as one motion: its way leads round the wall.
+static void a_plan_that_converged_is_free(void) {
+  enum { POSES = 512 };
+  static nsvcd_pose poses[POSES];
+  float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  floor_plan f;
+  floor_open(&f);
+  const nsvcd_plan_answer answer = plan_of(&f.problem, control);
+  CHECK(answer.status == NSVCD_PLAN_CONVERGED && !answer.collides && answer.stray < 1e-3f);
+  for (int i = 0; i < POSES; i++) {
+    float joints[JOINTS];
+    nsvcd_spline(control, answer.via_points, JOINTS, (float)i / (POSES - 1), 0, joints);
+    for (int k = 0; k < JOINTS; k++) CHECK(joints[k] >= low[k] && joints[k] <= high[k]);
+    poses[i] = at(joints[0], joints[1], 0);
+  }
+  for (int k = 0; k < JOINTS; k++) {
+    CHECK_NEAR(poses[0].position[k], from[k], 1e-6);
+    CHECK_NEAR(poses[POSES - 1].position[k], to[k], 1e-6);
+  }
+  const nsvcd_question question = question_about(f.bodies[0], poses, POSES, f.bodies[1]);
+  CHECK_EQ(verdict_of(&question), NSVCD_FREE);
+  floor_close(&f);
+}
+
+// Of poses, not sweeps, and by the second stage alone.
+static void stages_can_be_left_out_and_poses_asked_about_instead(void) {
+  const nsvcd_plan_options options = {
+      .discrete = 1, .explore = {.iterations = NSVCD_NONE}, .refine = {.via_points = 3}};
+  static const float beside[JOINTS] = {-1, 1.2f}, across[JOINTS] = {1, 1.2f};
+  float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  nsvcd_plan_answer answer;
+  floor_plan f;
+  floor_open(&f);
+  f.problem.start = beside;
+  f.problem.goal = across;
+  const size_t size = nsvcd_plan_workspace_size(&f.problem, &options);
+  void *workspace = malloc(size);
+  CHECK_EQ(nsvcd_plan(&f.problem, &options, workspace, size, control, &answer), NSVCD_OK);
+  CHECK(answer.status == NSVCD_PLAN_CONVERGED && answer.via_points == 3);
+  free(workspace);
+  floor_close(&f);
+}
+
+static void the_same_problem_is_the_same_plan(void) {
+  float control[2][JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  floor_plan f;
+  floor_open(&f);
+  const nsvcd_plan_answer first = plan_of(&f.problem, control[0]);
+  const nsvcd_plan_answer again = plan_of(&f.problem, control[1]);
+  CHECK_EQ(first.via_points, again.via_points);
+  CHECK(!memcmp(control[0], control[1], JOINTS * (first.via_points + 2) * sizeof(float)));
+  floor_close(&f);
+}
+
+static void a_start_or_a_goal_that_is_not_free_is_told(void) {
+  static const float inside[JOINTS] = {0, 0.2f}, outside[JOINTS] = {1, 2.5f};
+  float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  floor_plan f;
+  floor_open(&f);
+  f.problem.start = inside;
+  nsvcd_plan_answer answer = plan_of(&f.problem, control);
+  CHECK(answer.status == NSVCD_PLAN_START && answer.collides && answer.pair == 0);
+  f.problem.start = from;
+  f.problem.goal = outside;
+  answer = plan_of(&f.problem, control);
+  CHECK(answer.status == NSVCD_PLAN_GOAL && answer.joint == 1);
+  CHECK(strlen(nsvcd_plan_status_string(answer.status)) > 3);
+  floor_close(&f);
+}
+
+static int at_once(void *user, const nsvcd_plan_progress *progress) {
+  CHECK(progress->control != NULL);
+  return ++*(int *)user > 0;
+}
+static void a_plan_can_be_cancelled_and_refuses_by_name(void) {
+  float control[JOINTS * (NSVCD_MAX_VIA_POINTS + 2)];
+  int told = 0;
+  nsvcd_plan_answer answer;
+  floor_plan f;
+  floor_open(&f);
+  f.problem.progress = at_once;
+  f.problem.user = &told;
+  CHECK_EQ(plan_of(&f.problem, control).status, NSVCD_PLAN_CANCELLED);
+  CHECK_EQ(told, 1);
+  const size_t size = nsvcd_plan_workspace_size(&f.problem, NULL);
+  void *workspace = malloc(size);
+  f.problem.low = high;
+  f.problem.high = low;
+  CHECK_EQ(nsvcd_plan(&f.problem, NULL, workspace, size, control, &answer), NSVCD_ERROR_LIMITS);
+  f.problem.pair_count = 0;
+  f.problem.joints = NSVCD_MAX_JOINTS + 1;
+  CHECK_EQ(nsvcd_plan_workspace_size(&f.problem, NULL), 0);
+  CHECK_EQ(nsvcd_plan(&f.problem, NULL, workspace, size, control, &answer), NSVCD_ERROR_COUNT);
+  free(workspace);
+  floor_close(&f);
+}
+
+void promises_plans(void) {
+  RUN(a_spline_passes_through_its_points_and_rests_at_both_ends);
+  RUN(a_plan_that_converged_is_free);
+  RUN(stages_can_be_left_out_and_poses_asked_about_instead);
+  RUN(the_same_problem_is_the_same_plan);
+  RUN(a_start_or_a_goal_that_is_not_free_is_told);
+  RUN(a_plan_can_be_cancelled_and_refuses_by_name);
+}
+
+CHECK_ALONE(promises_plans)

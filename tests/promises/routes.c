@@ -1,0 +1,133 @@
+// What src/interface/routes.h promises, a test each: a way for a robot that is proven, or why not.
+#include "arm.h"
+
+void promises_routes(void);
+
+// From one side of the post to the other, which the straight line hits.
+static const double from[ARM_JOINTS] = {-0.6, 0}, to[ARM_JOINTS] = {0.6, 0};
+
+static nsvcd_route_answer route_of(const arm *a, const nsvcd_route_problem *problem,
+                                   const nsvcd_route_options *options, void **memory) {
+  nsvcd_route_answer answer;
+  const size_t size = nsvcd_route_size(a->checker, problem, options);
+  memset(&answer, 0, sizeof answer);
+  CHECK(size > 0);
+  *memory = malloc(size);
+  CHECK_EQ(nsvcd_route(a->checker, problem, options, *memory, size, &answer), NSVCD_OK);
+  return answer;
+}
+
+static void a_route_is_free_from_the_start_to_the_goal(void) {
+  const nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
+  const nsvcd_route_options options = {.clearance = 0.01f};
+  double there[ARM_JOINTS];
+  void *memory;
+  arm a;
+  arm_open(&a, at(1.8f, 0, 0));
+  const nsvcd_route_answer answer = route_of(&a, &problem, &options, &memory);
+  CHECK(answer.status == NSVCD_ROUTE_FOUND && answer.goal == 0);
+  CHECK_EQ(check_of(&a, &answer.motion, 0.01f).verdict, NSVCD_FREE);
+  CHECK_GE(answer.duration, answer.unhindered);
+  nsvcd_motion_at(&answer.motion, ARM_JOINTS, 0, there);
+  for (int k = 0; k < ARM_JOINTS; k++) CHECK_NEAR(there[k], from[k], 1e-12);
+  nsvcd_motion_at(&answer.motion, ARM_JOINTS, answer.duration, there);
+  for (int k = 0; k < ARM_JOINTS; k++) CHECK_NEAR(there[k], to[k], 1e-12);
+  free(memory);
+  arm_close(&a);
+}
+
+// By differences: a joint's speed and acceleration are 1 where nothing is said.
+static void a_route_keeps_to_the_limits_of_speed_and_acceleration(void) {
+  enum { STEPS = 4000 };
+  const nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
+  double last[ARM_JOINTS] = {0, 0}, before[ARM_JOINTS], joints[ARM_JOINTS];
+  void *memory;
+  arm a;
+  arm_open(&a, at(1.8f, 0, 0));
+  const nsvcd_route_answer answer = route_of(&a, &problem, NULL, &memory);
+  const double step = answer.duration / STEPS;
+  nsvcd_motion_at(&answer.motion, ARM_JOINTS, 0, before);
+  for (int i = 1; i <= STEPS; i++) {
+    nsvcd_motion_at(&answer.motion, ARM_JOINTS, i == STEPS ? answer.duration : step * i, joints);
+    for (int k = 0; k < ARM_JOINTS; k++) {
+      const double speed = (joints[k] - before[k]) / step;
+      CHECK_LE(fabs(speed), 1 + 1e-6);
+      CHECK_LE(fabs(speed - last[k]), step * (1 + 1e-3));  // at rest as it begins
+      CHECK(fabs(joints[k]) <= 3);
+      last[k] = speed;
+      before[k] = joints[k];
+    }
+  }
+  for (int k = 0; k < ARM_JOINTS; k++) CHECK_LE(fabs(last[k]), step);  // and as it ends
+  free(memory);
+  arm_close(&a);
+}
+
+static void the_same_seed_is_the_same_route(void) {
+  const nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
+  const nsvcd_route_options options = {.seed = 7};
+  nsvcd_route_answer answers[2];
+  void *memory[2];
+  arm arms[2];
+  for (int i = 0; i < 2; i++) {
+    arm_open(&arms[i], at(1.8f, 0, 0));
+    answers[i] = route_of(&arms[i], &problem, &options, &memory[i]);
+  }
+  const nsvcd_joint_motion *m = &answers[0].motion;
+  const size_t points = ARM_JOINTS * (m->pieces * m->degree + 1);
+  CHECK_EQ(answers[1].motion.pieces, m->pieces);
+  CHECK(!memcmp(answers[1].motion.points, m->points, points * sizeof(double)));
+  for (int i = 0; i < 2; i++) {
+    free(memory[i]);
+    arm_close(&arms[i]);
+  }
+}
+
+static void a_start_or_a_goal_that_is_not_free_is_told(void) {
+  static const double hit[ARM_JOINTS] = {0, 0}, out[ARM_JOINTS] = {0.6, 3.5};
+  nsvcd_route_problem problem = {.start = hit, .goals = to, .goal_count = 1};
+  void *memory;
+  arm a;
+  arm_open(&a, at(1.8f, 0, 0));
+  nsvcd_route_answer answer = route_of(&a, &problem, NULL, &memory);
+  CHECK(answer.status == NSVCD_ROUTE_START && answer.check.verdict == NSVCD_HIT);
+  CHECK_EQ(answer.check.pair, FORE);
+  free(memory);
+  problem.start = from;
+  problem.goals = out;
+  answer = route_of(&a, &problem, NULL, &memory);
+  CHECK(answer.status == NSVCD_ROUTE_GOAL && answer.check.joint == 1);
+  CHECK(strlen(nsvcd_route_status_string(answer.status)) > 3);
+  free(memory);
+  arm_close(&a);
+}
+
+static int at_once(void *user) {
+  (void)user;
+  return 1;
+}
+static void a_search_ends_by_its_nodes_and_by_the_caller(void) {
+  nsvcd_route_problem problem = {.start = from, .goals = to, .goal_count = 1};
+  const nsvcd_route_options options = {.tries = 2};
+  void *memory;
+  arm a;
+  arm_open(&a, at(1.8f, 0, 0));
+  CHECK_EQ(route_of(&a, &problem, &options, &memory).status, NSVCD_ROUTE_LIMIT);
+  free(memory);
+  problem.stop = at_once;
+  CHECK_EQ(route_of(&a, &problem, NULL, &memory).status, NSVCD_ROUTE_STOPPED);
+  free(memory);
+  problem.goal_count = 0;
+  CHECK_EQ(nsvcd_route_size(a.checker, &problem, NULL), 0);
+  arm_close(&a);
+}
+
+void promises_routes(void) {
+  RUN(a_route_is_free_from_the_start_to_the_goal);
+  RUN(a_route_keeps_to_the_limits_of_speed_and_acceleration);
+  RUN(the_same_seed_is_the_same_route);
+  RUN(a_start_or_a_goal_that_is_not_free_is_told);
+  RUN(a_search_ends_by_its_nodes_and_by_the_caller);
+}
+
+CHECK_ALONE(promises_routes)

@@ -1,0 +1,79 @@
+// What the tests of the promises share: boxes, poses, and a question asked. They see the library as
+// a program does that links it: its declarations alone.
+#ifndef NSVCD_TESTS_PROMISES_SCENE_H
+#define NSVCD_TESTS_PROMISES_SCENE_H
+
+#include "../../neuralsvcd.h"
+#include "../check.h"
+
+// The corners and the faces of a box about the origin; `faces` of them, the lid (z up) last.
+#define BOX_CORNERS 8
+#define BOX_FACES 6
+#define OPEN_BOX_FACES 5
+static const uint32_t box_faces[4 * BOX_FACES] = {0, 2, 3, 1, 0, 1, 5, 4, 1, 3, 7, 5,
+                                                  3, 2, 6, 7, 2, 0, 4, 6, 4, 5, 7, 6};
+
+static inline nsvcd_mesh box_mesh_of(float x, float y, float z, size_t faces) {
+  static const uint32_t sizes[BOX_FACES] = {4, 4, 4, 4, 4, 4};
+  float corners[3 * BOX_CORNERS];
+  nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+  for (int i = 0; i < BOX_CORNERS; i++) {
+    corners[3 * i] = i & 1 ? x / 2 : -x / 2;
+    corners[3 * i + 1] = i & 2 ? y / 2 : -y / 2;
+    corners[3 * i + 2] = i & 4 ? z / 2 : -z / 2;
+  }
+  const nsvcd_faces given = {corners, box_faces, sizes, BOX_CORNERS, 4 * faces, faces};
+  CHECK_EQ(nsvcd_mesh_of_faces(&given, NULL, &mesh), NSVCD_OK);
+  return mesh;
+}
+static inline nsvcd_mesh box_mesh(float x, float y, float z) {
+  return box_mesh_of(x, y, z, BOX_FACES);
+}
+
+static inline const nsvcd_body *body_of(nsvcd_mesh mesh, const nsvcd_encode_options *options) {
+  const nsvcd_body *body = NULL;
+  CHECK_EQ(nsvcd_encode(&mesh, options, NULL, NULL, 0, &body), NSVCD_OK);
+  nsvcd_mesh_free(&mesh, NULL);
+  return body;
+}
+static inline const nsvcd_body *box(float x, float y, float z) {
+  return body_of(box_mesh(x, y, z), NULL);
+}
+
+static inline nsvcd_pose at(float x, float y, float z) {
+  const nsvcd_pose pose = {{x, y, z}, {0, 0, 0, 1}};
+  return pose;
+}
+// Turned about z, radians.
+static inline nsvcd_pose turned(float x, float y, float z, float angle) {
+  const nsvcd_pose pose = {{x, y, z}, {0, 0, sinf(angle / 2), cosf(angle / 2)}};
+  return pose;
+}
+
+// A moves along its poses, and b rests at the origin.
+static inline nsvcd_question question_about(const nsvcd_body *a, const nsvcd_pose *poses,
+                                            size_t count, const nsvcd_body *b) {
+  nsvcd_question question;
+  memset(&question, 0, sizeof question);
+  question.a.body = a;
+  question.a.poses = poses;
+  question.a.count = count;
+  question.b.body = b;
+  return question;
+}
+
+static inline nsvcd_answer answer_to(const nsvcd_question *question) {
+  const size_t size = nsvcd_sweep_workspace_size(question);
+  void *workspace = malloc(size);
+  nsvcd_answer answer;
+  memset(&answer, 0, sizeof answer);
+  CHECK(size > 0);
+  CHECK_EQ(nsvcd_sweep(question, workspace, size, &answer), NSVCD_OK);
+  free(workspace);
+  return answer;
+}
+static inline nsvcd_verdict verdict_of(const nsvcd_question *question) {
+  return answer_to(question).verdict;
+}
+
+#endif  // NSVCD_TESTS_PROMISES_SCENE_H
