@@ -168,6 +168,10 @@ static void body_scale(void) {
   CHECK_EQ(nsvcd_body_scale(body, 0, memory, blob_capacity, &scaled), NSVCD_ERROR_SCALE);
   CHECK_EQ(nsvcd_body_scale(body, -1, memory, blob_capacity, &scaled), NSVCD_ERROR_SCALE);
   CHECK_EQ(nsvcd_body_scale(body, (float)NAN, memory, blob_capacity, &scaled), NSVCD_ERROR_SCALE);
+  CHECK_EQ(nsvcd_body_scale(NULL, 1, memory, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(body, 1, NULL, blob_capacity, &scaled), NSVCD_ERROR_ARGUMENT);
+  CHECK_EQ(nsvcd_body_scale(body, (float)INFINITY, memory, blob_capacity, &scaled),
+           NSVCD_ERROR_SCALE);
   CHECK_EQ(nsvcd_body_scale(body, 1e30f, memory, blob_capacity, &scaled), NSVCD_ERROR_SCALE);
   CHECK_EQ(nsvcd_body_scale(body, 1, memory, body_bytes(body) - 1, &scaled), NSVCD_ERROR_WORKSPACE);
   CHECK_EQ(nsvcd_body_scale(body, 1, memory + 4, blob_capacity - 4, &scaled),

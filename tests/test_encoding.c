@@ -11,21 +11,6 @@
 
 void test_encoding(void);
 
-static void query_bodies_are_the_same_to_the_bit(void) {
-  for (uint64_t seed = 1; seed <= 5; seed++) {
-    nsvcd_mesh mesh = query_solid(seed, 0.3);
-    query_memory memory[2];
-    const nsvcd_body *a = query_encode(&mesh, 200, &memory[0]);
-    memset(query_workspace(), (int)seed, nsvcd_sweep_workspace_size(NULL));
-    const nsvcd_body *b = query_encode(&mesh, 200, &memory[1]);
-    CHECK_EQ(nsvcd_body_describe(a).size, nsvcd_body_describe(b).size);
-    CHECK(memcmp(a, b, nsvcd_body_describe(a).size) == 0);
-    query_release(&memory[0]);
-    query_release(&memory[1]);
-    nsvcd_mesh_free(&mesh, NULL);
-  }
-}
-
 static void query_bodies_are_small(void) {
   nsvcd_mesh mesh = query_solid(3, 0.3);
   query_memory memory;
@@ -146,45 +131,12 @@ static void query_encode_refuses_bad_input(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-static void query_encode_survives_every_failed_allocation(void) {
-  nsvcd_mesh mesh = query_solid(5, 0.3);
-  nsvcd_encode_options options = {.patches = 32, .no_triangles = 1};
-  size_t size = nsvcd_body_size(32);
-  query_memory memory = query_reserve(size);
-  query_memory undisturbed = query_reserve(size);
-  const nsvcd_body *expected = NULL;
-  CHECK_EQ(nsvcd_encode(&mesh, &options, NULL, undisturbed.at, size, &expected), NSVCD_OK);
-  int failures = 0;
-  for (;; failures++) {
-    failing_heap heap = {0, 0, failures};
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
-    const nsvcd_body *body = NULL;
-    allocator.user = &heap;
-    nsvcd_result result = nsvcd_encode(&mesh, &options, &allocator, memory.at, size, &body);
-    CHECK_EQ(heap.live, 0);
-    if (result == NSVCD_OK) {
-      CHECK_LE(heap.calls, failures);
-      CHECK(body && memcmp(body, expected, nsvcd_body_describe(expected).size) == 0);
-      break;
-    }
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-    CHECK(body == NULL);
-    if (failures > 1000) break;
-  }
-  CHECK(failures >= 1 && failures < 1000);
-  query_release(&memory);
-  query_release(&undisturbed);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
 void test_encoding(void) {
-  RUN(query_bodies_are_the_same_to_the_bit);
   RUN(query_bodies_are_small);
   RUN(query_patch_radius_is_honoured);
   RUN(query_finer_meshes_have_more_patches);
   RUN(query_encode_allocates);
   RUN(query_encode_refuses_bad_input);
-  RUN(query_encode_survives_every_failed_allocation);
 }
 
 CHECK_ALONE(test_encoding)

@@ -839,17 +839,6 @@ static void level_encoding_is_frugal(void) {
   }
 }
 
-// The same mesh, the same bytes.
-static void level_is_deterministic(void) {
-  const level_world *w = level_shared();
-  const nsvcd_encode_options options = level_options(5000);
-  const nsvcd_body *again;
-  CHECK_EQ(nsvcd_encode(&w->level.mesh, &options, NULL, NULL, 0, &again), NSVCD_OK);
-  CHECK_EQ(again->size, w->level.body->size);
-  CHECK(memcmp(again, w->level.body, again->size) == 0);
-  nsvcd_body_free(again, NULL);
-}
-
 void test_level(void) {
   RUN(level_walks_find_all);
   RUN(level_blobs_are_checked);
@@ -869,7 +858,6 @@ void test_level(void) {
   RUN(level_of_bad_triangles);
   RUN(level_encoding_ends_well);
   RUN(level_encoding_is_frugal);
-  RUN(level_is_deterministic);
 }
 
 CHECK_ALONE(test_level)

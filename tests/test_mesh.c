@@ -206,31 +206,6 @@ static void mesh_obj_refused(void) {
            NSVCD_ERROR_SYNTAX);
 }
 
-static void mesh_obj_allocation_fails(void) {
-  static const char text[] = TETRAHEDRON "f 1 2 3 4\n";
-  int failures = 0;
-  for (int fail_at = 0;; ++fail_at) {
-    failing_heap heap = {0, 0, 0};
-    heap.fail_at = fail_at;
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
-    allocator.user = &heap;
-    nsvcd_mesh mesh;
-    size_t line = 99;
-    nsvcd_result result = nsvcd_obj_parse(text, sizeof text - 1, &allocator, &mesh, &line);
-    CHECK_EQ(line, 0);
-    if (result == NSVCD_OK) {
-      CHECK_EQ(heap.live, 2);
-      nsvcd_mesh_free(&mesh, &allocator);
-      CHECK_EQ(heap.live, 0);
-      break;
-    }
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-    CHECK_EQ(heap.live, 0);
-    failures++;
-  }
-  CHECK_EQ(failures, 6);
-}
-
 // Counters close to their caps: nobody has 16 GB of text for a test.
 static void mesh_obj_counts_are_capped(void) {
   nsvcd__obj obj;
@@ -1059,7 +1034,6 @@ static void mesh_cut_to_a_box(void) {
 void test_mesh(void) {
   RUN(mesh_obj_accepted);
   RUN(mesh_obj_refused);
-  RUN(mesh_obj_allocation_fails);
   RUN(mesh_obj_counts_are_capped);
   RUN(mesh_obj_numbers);
   RUN(mesh_obj_in_any_locale);

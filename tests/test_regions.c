@@ -309,38 +309,11 @@ static void regions_are_alike(void) {
   CHECK_LE(worst, 1.5);
 }
 
-// Whichever allocation fails: a code, and nothing stays behind.
-static void regions_allocation_fails(void) {
-  nsvcd_mesh mesh = surface_kind(3);
-  int failures = 0;
-  for (int fail_at = 0; fail_at < 100; fail_at++) {
-    failing_heap heap = {0, 0, fail_at};
-    const nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, &heap};
-    nsvcd__arena arena = nsvcd__arena_of(&allocator);
-    nsvcd__regions r;
-    nsvcd__region region;
-    int ok = nsvcd__regions_build(&mesh, 1000, &arena, &r);
-    if (ok) {
-      const nsvcd_result result = nsvcd__region_begin(&r, 0, &arena, &region);
-      ok = result == NSVCD_OK;
-      CHECK(ok || result == NSVCD_ERROR_MEMORY);
-      if (ok) nsvcd__region_end(&r, &region);
-    }
-    nsvcd__arena_free(&arena);
-    CHECK_EQ(heap.live, 0);
-    if (ok) break;
-    failures++;
-  }
-  CHECK(failures > 10 && failures < 60);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
 void test_regions(void) {
   RUN(regions_components_are_found);
   RUN(regions_open_and_closed);
   RUN(regions_hold_the_mesh);
   RUN(regions_are_alike);
-  RUN(regions_allocation_fails);
 }
 
 CHECK_ALONE(test_regions)

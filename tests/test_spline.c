@@ -17,29 +17,6 @@ static double plan_spline(const float *control, size_t via, double t, size_t der
   return sum;
 }
 
-static void plan_spline_passes_through_its_points_and_rests_at_both_ends(void) {
-  shapes_rng rng = {1};
-  for (size_t via = 0; via <= NSVCD_MAX_VIA_POINTS; via++) {
-    float control[3 * PLAN_VIA], x[3];
-    const double last = (double)(via + 1);
-    plan_random_numbers(&rng, 3 * (via + 2), 2, control);
-    for (size_t k = 0; k < via + 2; k++) {
-      nsvcd_spline(control, via, 3, (float)((double)k / last), 0, x);
-      for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], control[3 * k + j], 1e-4);
-    }
-    for (size_t derivative = 1; derivative <= 2; derivative++) {
-      for (int end = 0; end < 2; end++) {
-        nsvcd_spline(control, via, 3, (float)end, derivative, x);
-        for (size_t j = 0; j < 3; j++) CHECK_NEAR(x[j], 0, 1e-9 * pow(last, (double)derivative));
-      }
-    }
-    for (int end = 0; end < 2; end++) {  // t is taken into [0,1]
-      nsvcd_spline(control, via, 3, end ? 7.0f : -3.0f, 0, x);
-      for (size_t j = 0; j < 3; j++) CHECK_EQ(x[j], control[3 * (end ? via + 1 : 0) + j]);
-    }
-  }
-}
-
 // Each order is the derivative of the one below, within every piece; position, velocity and
 // acceleration agree on both sides of a via point.
 static void plan_spline_derivatives(void) {
@@ -174,7 +151,6 @@ static void plan_spline_refuses(void) {
 }
 
 void test_spline(void) {
-  RUN(plan_spline_passes_through_its_points_and_rests_at_both_ends);
   RUN(plan_spline_derivatives);
   RUN(plan_spline_weights_are_a_partition_of_unity);
   RUN(plan_mean_squares_are_integrals);

@@ -610,57 +610,6 @@ static void surface_balls_are_minimal(void) {
   }
 }
 
-static int same_surface(const nsvcd__surface *a, const nsvcd__surface *b) {
-  const size_t n = a->count;
-  if (n != b->count || a->listed != b->listed || a->vertex_count != b->vertex_count) return 0;
-  return !memcmp(a->balls, b->balls, 16 * n) && !memcmp(a->discs, b->discs, 24 * n) &&
-         !memcmp(a->steps, b->steps, 4 * n) && !memcmp(a->slacks, b->slacks, 4 * n) &&
-         !memcmp(a->quanta, b->quanta, 4 * n) && !memcmp(a->hull_counts, b->hull_counts, n) &&
-         !memcmp(a->vertices, b->vertices, 6 * a->vertex_count) &&
-         !memcmp(a->corners, b->corners, 6 * a->listed) && !memcmp(a->ids, b->ids, 4 * a->listed) &&
-         !memcmp(a->seeds, b->seeds, 12 * a->component_count);
-}
-
-static void surface_is_deterministic(void) {
-  nsvcd_mesh mesh = surface_solid(12, 1);
-  reader a;
-  reader b;
-  CHECK(reader_open(&a, &mesh, 64));
-  CHECK(reader_open(&b, &mesh, 64));
-  CHECK(same_surface(&a.surface, &b.surface));
-  reader_close(&a);
-  reader_close(&b);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
-static void surface_allocation_fails(void) {
-  nsvcd_mesh mesh = surface_box(1, 0.5, 0.3, 4);
-  nsvcd__surface untouched;
-  int failures = 0;
-  memset(&untouched, 0xab, sizeof untouched);
-  for (int fail_at = 0; fail_at < 1000; fail_at++) {
-    failing_heap heap = {0, 0, 0};
-    nsvcd_allocator allocator = {failing_heap_alloc, failing_heap_free, NULL};
-    nsvcd__surface surface = untouched;
-    nsvcd__arena arena;
-    heap.fail_at = fail_at;
-    allocator.user = &heap;
-    const nsvcd_result result = surface_of(&mesh, 64, &allocator, &arena, &surface);
-    if (result == NSVCD_OK) {
-      nsvcd__arena_free(&arena);
-      CHECK_EQ(heap.live, 0);
-      break;
-    }
-    failures++;
-    CHECK_EQ(result, NSVCD_ERROR_MEMORY);
-    CHECK_EQ(heap.live, 0);
-    CHECK_EQ(memcmp(&surface, &untouched, sizeof surface), 0);
-  }
-  CHECK_LE(30, failures);
-  CHECK_LE(failures, 100);
-  nsvcd_mesh_free(&mesh, NULL);
-}
-
 // More vertices in a patch than 16 bits can name: refused, with nothing left behind.
 static void surface_too_large(void) {
   nsvcd_mesh mesh = surface_sheet(260, 1, 0);
@@ -679,8 +628,6 @@ void test_surface(void) {
   RUN(surface_of_a_fine_mesh);
   RUN(surface_of_large_faces);
   RUN(surface_balls_are_minimal);
-  RUN(surface_is_deterministic);
-  RUN(surface_allocation_fails);
   RUN(surface_too_large);
 }
 

@@ -4,14 +4,36 @@
 
 void promises_bodies(void);
 
+// Memory that holds junk, another each time.
+static void *take_junk(size_t size, void *user) {
+  void *memory = malloc(size);
+  if (memory) memset(memory, *(const int *)user, size);
+  return memory;
+}
+static void give_junk(void *memory, void *user) {
+  (void)user;
+  free(memory);
+}
+
+// As a small body, for both methods, for the network alone, coarse, and of many patches.
 static void a_mesh_is_always_the_same_bytes(void) {
-  const nsvcd_body *first = box(0.3f, 0.2f, 0.1f);
-  const nsvcd_body *second = box(0.3f, 0.2f, 0.1f);
-  const size_t size = nsvcd_body_describe(first).size;
-  CHECK_EQ(nsvcd_body_describe(second).size, size);
-  CHECK(!memcmp(first, second, size));
-  nsvcd_body_free(first, NULL);
-  nsvcd_body_free(second, NULL);
+  static const nsvcd_encode_options kinds[5] = {
+      {.patches = 100}, {.latents = 1}, {.no_triangles = 1}, {.coarse = 1}, {.patches = 600}};
+  nsvcd_mesh mug = mug_mesh();
+  for (int i = 0; i < 5; i++) {
+    const nsvcd_body *bodies[2] = {NULL, NULL};
+    int junk[2] = {0, 0xa5};
+    nsvcd_allocator allocators[2];
+    for (int k = 0; k < 2; k++) {
+      allocators[k] = (nsvcd_allocator){take_junk, give_junk, &junk[k]};
+      CHECK_EQ(nsvcd_encode(&mug, &kinds[i], &allocators[k], NULL, 0, &bodies[k]), NSVCD_OK);
+    }
+    const size_t size = nsvcd_body_describe(bodies[0]).size;
+    CHECK_EQ(nsvcd_body_describe(bodies[1]).size, size);
+    CHECK(!memcmp(bodies[0], bodies[1], size));
+    for (int k = 0; k < 2; k++) nsvcd_body_free(bodies[k], &allocators[k]);
+  }
+  nsvcd_mesh_free(&mug, NULL);
 }
 
 static void a_body_is_encoded_into_the_callers_memory(void) {
@@ -28,17 +50,47 @@ static void a_body_is_encoded_into_the_callers_memory(void) {
   nsvcd_mesh_free(&mesh, NULL);
 }
 
-static void a_body_survives_a_copy(void) {
-  const nsvcd_body *mug = box(0.1f, 0.1f, 0.12f);
+static void a_body_survives_a_file(void) {
+  const nsvcd_encode_options options = {.latents = 1};
+  const nsvcd_body *mug = body_of(mug_mesh(), &options), *rack = body_of(mug_mesh(), &options);
+  const nsvcd_pose poses[2] = {at(-0.3f, 0.02f, 0.01f), at(0.3f, 0.02f, 0.01f)};
   const size_t size = nsvcd_body_describe(mug).size;
-  void *copy = malloc(size);
   const nsvcd_body *loaded = NULL, *trusted = NULL;
-  memcpy(copy, mug, size);
+  void *copy = malloc(size);
+  FILE *file = tmpfile();
+  CHECK(file && fwrite(mug, 1, size, file) == size);
+  rewind(file);
+  CHECK_EQ(fread(copy, 1, size, file), size);
+  fclose(file);
   CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_OK);
   CHECK_EQ(nsvcd_body_trust(copy, size, &trusted), NSVCD_OK);
   CHECK(loaded == copy && trusted == copy);
+  for (int network = 0; network < 2; network++) {
+    nsvcd_question question = question_about(mug, poses, 2, rack);
+    question.method = network ? NSVCD_METHOD_NETWORK : NSVCD_METHOD_PROOF;
+    const nsvcd_answer before = answer_to(&question);
+    question.a.body = loaded;
+    const nsvcd_answer after = answer_to(&question);
+    CHECK(after.verdict == before.verdict && after.work == before.work);
+    CHECK(!memcmp(&after.opinion.logit, &before.opinion.logit, sizeof before.opinion.logit));
+  }
   CHECK_EQ(nsvcd_body_load(copy, size - 1, &loaded), NSVCD_ERROR_BODY);
   CHECK_EQ(nsvcd_body_trust(copy, size - 1, &trusted), NSVCD_ERROR_BODY);
+  free(copy);
+  nsvcd_body_free(mug, NULL);
+  nsvcd_body_free(rack, NULL);
+}
+
+// What a machine of the other byte order has written, word for word.
+static void a_body_of_the_other_byte_order_is_refused(void) {
+  const nsvcd_body *mug = box(0.1f, 0.1f, 0.12f), *loaded = NULL;
+  const size_t size = nsvcd_body_describe(mug).size;
+  unsigned char *copy = (unsigned char *)malloc(size);
+  for (size_t i = 0; i < size; i++) copy[i / 4 * 4 + 3 - i % 4] = ((const unsigned char *)mug)[i];
+  CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_VERSION);
+  CHECK_EQ(nsvcd_body_trust(copy, size, &loaded), NSVCD_ERROR_VERSION);
+  CHECK(strstr(nsvcd_result_string(NSVCD_ERROR_VERSION), "byte order") != NULL);
+  CHECK(loaded == NULL);
   free(copy);
   nsvcd_body_free(mug, NULL);
 }
@@ -56,18 +108,16 @@ static void a_body_with_any_byte_changed_is_refused(void) {
     CHECK(loaded == NULL);
     copy[i] ^= 0x10;
   }
-  memcpy(copy, memcmp(copy, "NSVB", 4) ? "NSVB" : "BVSN", 4);  // of the other byte order
-  const nsvcd_body *loaded = NULL;
-  CHECK_EQ(nsvcd_body_load(copy, size, &loaded), NSVCD_ERROR_VERSION);
   free(copy);
   nsvcd_body_free(mug, NULL);
 }
 
 static void what_a_body_says_of_itself_is_so(void) {
-  nsvcd_mesh mesh = box_mesh(0.3f, 0.2f, 0.1f);
-  const nsvcd_body *body = body_of(box_mesh(0.3f, 0.2f, 0.1f), NULL);
+  nsvcd_mesh mesh = mug_mesh();
+  const nsvcd_body *body = body_of(mug_mesh(), NULL);
   const nsvcd_body_facts facts = nsvcd_body_describe(body);
-  CHECK(facts.triangles == 12 && facts.components == 1 && facts.open_components == 0);
+  CHECK(facts.triangles == mesh.triangle_count && facts.components > 0);
+  CHECK_EQ(facts.open_components, 0);
   CHECK(facts.quantum == 0 && !facts.latents && !facts.open);
   for (size_t i = 0; i < mesh.vertex_count; i++) {
     const float *p = mesh.positions + 3 * i;
@@ -207,7 +257,8 @@ static void a_mesh_that_cannot_be_is_refused(void) {
 void promises_bodies(void) {
   RUN(a_mesh_is_always_the_same_bytes);
   RUN(a_body_is_encoded_into_the_callers_memory);
-  RUN(a_body_survives_a_copy);
+  RUN(a_body_survives_a_file);
+  RUN(a_body_of_the_other_byte_order_is_refused);
   RUN(a_body_with_any_byte_changed_is_refused);
   RUN(what_a_body_says_of_itself_is_so);
   RUN(patches_are_as_many_as_asked_for);

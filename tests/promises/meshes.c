@@ -175,18 +175,27 @@ static void give(void *memory, void *user) {
 }
 
 static void memory_that_runs_out_is_told_and_nothing_leaks(void) {
-  nsvcd_result result = NSVCD_ERROR_MEMORY;
-  for (int many = 0; result; many++) {
-    little_memory memory = {many, 0};
-    const nsvcd_allocator allocator = {take, give, &memory};
-    nsvcd_mesh mesh = {NULL, NULL, 0, 0};
-    const nsvcd_body *body = NULL;
-    result = nsvcd_obj_parse(cube, strlen(cube), &allocator, &mesh, NULL);
-    if (!result) result = nsvcd_encode(&mesh, NULL, &allocator, NULL, 0, &body);
-    CHECK(result == (body ? NSVCD_OK : NSVCD_ERROR_MEMORY));
-    nsvcd_body_free(body, &allocator);
-    nsvcd_mesh_free(&mesh, &allocator);
-    CHECK_EQ(memory.given, 0);
+  static const char arrow[] = "v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n";
+  static const nsvcd_encode_options kinds[2] = {{.latents = 1}, {.no_triangles = 1}};
+  for (int kind = 0; kind < 4; kind++) {
+    nsvcd_result result = NSVCD_ERROR_MEMORY;
+    const char *text = kind % 2 ? arrow : cube;
+    int many = 0;
+    for (; result; many++) {
+      little_memory memory = {many, 0};
+      const nsvcd_allocator allocator = {take, give, &memory};
+      nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+      const nsvcd_body *body = NULL;
+      size_t line = 99;
+      result = nsvcd_obj_parse(text, strlen(text), &allocator, &mesh, &line);
+      CHECK_EQ(line, 0);
+      if (!result) result = nsvcd_encode(&mesh, &kinds[kind / 2], &allocator, NULL, 0, &body);
+      CHECK(result == (body ? NSVCD_OK : NSVCD_ERROR_MEMORY));
+      nsvcd_body_free(body, &allocator);
+      nsvcd_mesh_free(&mesh, &allocator);
+      CHECK_EQ(memory.given, 0);
+    }
+    CHECK(many > 20);  // that many allocations failed, one after another
   }
 }
 

@@ -386,27 +386,34 @@ static void a_lift_by_the_depth_ends_a_contact(void) {
 
 // ---- every question
 
+// By proof and by the network, alone and in a batch, whatever the workspace held.
 static void the_same_question_has_the_same_answer(void) {
-  const nsvcd_body *cube = box(1, 1, 1), *wall = box(1, 10, 10);
-  const nsvcd_pose poses[2] = {at(-7, 0, 0), turned(3, 0, 0, 1)};
-  nsvcd_question question = question_about(cube, poses, 2, wall);
-  question.ask = NSVCD_ASK_FIRST;
-  const nsvcd_question both[2] = {question, question};
+  const nsvcd_encode_options options = {.latents = 1};
+  const nsvcd_body *mug = body_of(mug_mesh(), &options),
+                   *post = body_of(box_mesh(0.1f, 0.1f, 2), &options);
   const size_t size = nsvcd_sweep_workspace_size(NULL);
   unsigned char *workspace = (unsigned char *)malloc(size);
-  nsvcd_answer answers[2], once = answer_to(&question);
-  memset(workspace, 0xa5, size);  // whatever it holds
-  memset(answers, 0, sizeof answers);
-  CHECK_EQ(nsvcd_sweep_batch(both, 2, workspace, size, answers), NSVCD_OK);
-  for (int i = 0; i < 2; i++) {
-    CHECK_EQ(answers[i].verdict, once.verdict);
-    CHECK(!memcmp(&answers[i].time, &once.time, sizeof once.time));
-    CHECK(!memcmp(&answers[i].safe, &once.safe, sizeof once.safe));
-    CHECK_EQ(answers[i].work, once.work);
+  for (int i = 0; i < 20; i++) {
+    const nsvcd_pose poses[2] = {at(-0.3f, 0.01f * (float)i, 0),
+                                 turned(0.3f, 0.01f * (float)i, 0, 1)};
+    nsvcd_question question = question_about(mug, poses, 2, post);
+    question.method = i % 2 ? NSVCD_METHOD_NETWORK : NSVCD_METHOD_PROOF;
+    question.ask = i % 4 ? NSVCD_ASK_HIT : NSVCD_ASK_FIRST;
+    nsvcd_answer answers[2];
+    for (int k = 0; k < 2; k++) {
+      memset(workspace, k ? 0xff : 0, size);
+      memset(&answers[k], 0, sizeof answers[k]);
+      if (k) CHECK_EQ(nsvcd_sweep_batch(&question, 1, workspace, size, &answers[k]), NSVCD_OK);
+      if (!k) CHECK_EQ(nsvcd_sweep(&question, workspace, size, &answers[k]), NSVCD_OK);
+    }
+    CHECK(answers[0].verdict == answers[1].verdict && answers[0].work == answers[1].work);
+    CHECK(!memcmp(&answers[0].time, &answers[1].time, sizeof answers[0].time));
+    CHECK(!memcmp(&answers[0].safe, &answers[1].safe, sizeof answers[0].safe));
+    CHECK(!memcmp(&answers[0].opinion.logit, &answers[1].opinion.logit, sizeof(float)));
   }
   free(workspace);
-  nsvcd_body_free(cube, NULL);
-  nsvcd_body_free(wall, NULL);
+  nsvcd_body_free(mug, NULL);
+  nsvcd_body_free(post, NULL);
 }
 
 static void the_workspace_that_is_asked_for_suffices(void) {
@@ -622,12 +629,19 @@ static void the_network_knows_what_is_inside(void) {
   const nsvcd_encode_options options = {.latents = 1};
   const nsvcd_body *ball = body_of(box_mesh(0.1f, 0.1f, 0.1f), &options);
   const nsvcd_body *crate = body_of(box_mesh(2, 2, 2), &options);
-  for (int k = 0; k < 2; k++) {
-    const nsvcd_pose pose = at(k ? 3 : 0.1f, 0.2f, 0);
-    nsvcd_question question = question_about(ball, &pose, 1, crate);
+  const nsvcd_pose within[2] = {at(0.05f, 0, 0), at(0, 0.1f, 0)};
+  const nsvcd_pose beside[2] = {at(3, 0, 0), at(3, 0.1f, 0)};
+  for (size_t count = 1; count <= 2; count++) {
+    nsvcd_question question = question_about(ball, within, count, crate);
     question.method = NSVCD_METHOD_NETWORK;
     const nsvcd_answer answer = answer_to(&question);
-    CHECK(answer.verdict == (k ? NSVCD_FREE : NSVCD_HIT) && answer.inside == !k);
+    CHECK(answer.verdict == NSVCD_HIT && answer.inside);
+    CHECK(answer.time.high == 0 && answer.opinion.logit == NSVCD_LOGIT_CERTAIN);
+    question.a.body = crate;  // and the other way round
+    question.b.body = ball;
+    CHECK(answer_to(&question).inside);
+    question.a.poses = beside;
+    CHECK_EQ(verdict_of(&question), NSVCD_FREE);
   }
   nsvcd_body_free(ball, NULL);
   nsvcd_body_free(crate, NULL);

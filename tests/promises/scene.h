@@ -30,6 +30,13 @@ static inline nsvcd_mesh box_mesh(float x, float y, float z) {
   return box_mesh_of(x, y, z, BOX_FACES);
 }
 
+// Of the quickstart; tests run in the repository's root.
+static inline nsvcd_mesh mug_mesh(void) {
+  nsvcd_mesh mesh = {NULL, NULL, 0, 0};
+  CHECK_EQ(nsvcd_obj_load("examples/assets/mug.obj", NULL, &mesh, NULL), NSVCD_OK);
+  return mesh;
+}
+
 static inline const nsvcd_body *body_of(nsvcd_mesh mesh, const nsvcd_encode_options *options) {
   const nsvcd_body *body = NULL;
   CHECK_EQ(nsvcd_encode(&mesh, options, NULL, NULL, 0, &body), NSVCD_OK);
