@@ -228,64 +228,6 @@ static void plan_gradient_of_the_network(void) {
   }
 }
 
-// What turns a logit's derivative by a's pose as b sees it into wrenches on both, against the
-// change of that pose when both move a little in the world.
-static void plan_wrenches_are_derivatives(void) {
-  shapes_rng rng = {21};
-  double worst = 0;
-  for (int n = 0; n < 200; n++) {
-    nsvcd_pose poses[2];
-    float wrench[6];
-    float wrenches[12] = {0};
-    double moved[2][6];
-    double before[3];
-    double after[3];
-    double q[2][4];
-    double inverse[4];
-    double turned[4];
-    double change = 0;
-    double expected = 0;
-    const nsvcd_body_pair pair = {(uint32_t)(n % 2), (uint32_t)(1 - n % 2)};
-    for (int b = 0; b < 2; b++) query_random_pose(&rng, 1, &poses[b]);
-    plan_random_numbers(&rng, 6, 1, wrench);
-    nsvcd__add_wrench(&pair, poses, 0.5f, wrench, wrenches);
-    oracle_pose exact[2];
-    for (int b = 0; b < 2; b++) {
-      exact[b] = plan_exact_pose(&poses[b]);
-      oracle_quat_normalize(exact[b].rotation);
-      for (int k = 0; k < 6; k++) {
-        moved[b][k] = shapes_uniform(&rng, -1e-5, 1e-5);
-        expected += moved[b][k] * (double)wrenches[6 * b + k];
-      }
-    }
-    for (int step = 0; step < 2; step++) {  // a as b sees it, before and after
-      double m[9], d[3];
-      for (int b = 0; b < 2 && step; b++) {
-        const double angle = oracle_length(moved[b] + 3);
-        double by[4], product[4];
-        plan_turn(moved[b][3] / angle, moved[b][4] / angle, moved[b][5] / angle, angle, by);
-        oracle_quat_mul(by, exact[b].rotation, product);
-        memcpy(exact[b].rotation, product, sizeof product);
-        for (int k = 0; k < 3; k++) exact[b].position[k] += moved[b][k];
-      }
-      oracle_matrix(exact[pair.b].rotation, m);
-      oracle_sub(exact[pair.a].position, exact[pair.b].position, d);
-      oracle_rotate_back(m, d, step ? after : before);
-      for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * exact[pair.b].rotation[k];
-      oracle_quat_mul(inverse, exact[pair.a].rotation, q[step]);
-    }
-    for (int k = 0; k < 4; k++) inverse[k] = (k < 3 ? -1 : 1) * q[0][k];
-    oracle_quat_mul(q[1], inverse, turned);
-    for (int k = 0; k < 3; k++) {
-      change += 0.5 * ((double)wrench[k] * (after[k] - before[k]) +
-                       (double)wrench[3 + k] * 2 * turned[k]);
-    }
-    CHECK_NEAR(change, expected, 1e-9);  // of about 1e-5: what is left is of second order
-    worst = fmax(worst, fabs(change - expected));
-  }
-  printf("  changes of about 1e-5 are right to %.1e\n", worst);
-}
-
 // The bundle's gradient is the mean over its offsets.
 static void plan_bundled_gradient_is_a_mean(void) {
   static plan_scene s;
@@ -1638,7 +1580,6 @@ static void plan_differences_work_far_from_zero(void) {
 void test_optimizer(void) {
   RUN(plan_gradient_of_the_cost);
   RUN(plan_gradient_of_the_network);
-  RUN(plan_wrenches_are_derivatives);
   RUN(plan_bundled_gradient_is_a_mean);
   RUN(plan_refining_converges);
   RUN(plan_culling_misses_nothing);
