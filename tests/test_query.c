@@ -228,23 +228,6 @@ static void query_a_cavity_is_not_inside(void) {
   shapes_free(&shape);
 }
 
-// One pose, the same pose twice and a motion that stands still are the same question.
-static void query_standing_still_is_one_pose(void) {
-  for (uint64_t seed = 1; seed <= 10; seed++) {
-    query_scene s;
-    query_scene_open(&s, seed);
-    nsvcd_pose still[3] = {s.motion[4], s.motion[4], s.motion[4]};
-    nsvcd_answer one = query_ask(s.moving, still, 1, s.fixed, &s.fixed_pose, NULL);
-    nsvcd_answer three = query_ask(s.moving, still, 3, s.fixed, &s.fixed_pose, NULL);
-    // which of several clear collisions is seen first is not the same
-    const int clear = logit_of(&one) > NSVCD__CLEAR_LOGIT && logit_of(&three) > NSVCD__CLEAR_LOGIT;
-    const double most = clear ? HUGE_VAL : 1e-3 * (1 + fabs((double)logit_of(&one)));
-    CHECK_NEAR(logit_of(&one), logit_of(&three), most);
-    CHECK_EQ(status_of(&one), status_of(&three));
-    query_scene_close(&s);
-  }
-}
-
 // A scene in which both move: what it was, carried along by a common motion.
 static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double angle,
                                     nsvcd_pose *poses, nsvcd_pose *others) {
@@ -265,33 +248,6 @@ static nsvcd_question query_carried(const query_scene *s, uint64_t seed, double 
     others[i] = query_moved(&common, &s->fixed_pose);
   }
   return question;
-}
-
-// Carried along without a turn, two bodies are to each other what they were; with one, at their
-// poses, and hardly otherwise between these.
-static void query_both_may_move(void) {
-  size_t same = 0;
-  size_t compared = 0;
-  for (uint64_t seed = 1; seed <= 60; seed++) {
-    query_scene s;
-    nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
-    query_scene_open(&s, seed);
-    const nsvcd_answer before = query_scene_ask(&s);
-    const double angle = seed % 2 ? 1.6 : 0;
-    const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
-    const nsvcd_answer answer = query_answer(&question);
-    // seen from the same body
-    if (before.opinion.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
-      compared++;
-      same += collides_of(&answer) == collides_of(&before);
-      if (seed % 2 == 0)
-        CHECK_NEAR(logit_of(&answer), logit_of(&before),
-                   1e-3 * (1 + fabs((double)logit_of(&before))));
-    }
-    query_scene_close(&s);
-  }
-  CHECK_GE(compared, 20);
-  CHECK_GE(same + 1, compared);
 }
 
 // Which body is a and which b does not matter: the answer is the same, said the other way round.
@@ -400,37 +356,6 @@ static void query_more_pairs_never_lose_a_collision(void) {
   CHECK_GE(collisions, 10);
 }
 
-// Asked for the distance, the network tells the least of the pairs it looks at, so that more pairs
-// only lessen it.
-static void query_the_distance_is_the_least(void) {
-  size_t told = 0;
-  size_t nearer = 0;
-  for (uint64_t seed = 1; seed <= 40; seed++) {
-    query_scene s;
-    query_scene_open(&s, seed);
-    float before = HUGE_VALF;
-    for (size_t pairs = 1; pairs <= NSVCD_MAX_PAIRS; pairs *= 4) {
-      nsvcd_question options = query_options(pairs, NSVCD_MODEL_TINY, 0);
-      options.method = NSVCD_METHOD_NETWORK;
-      options.ask = NSVCD_ASK_DISTANCE;
-      nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-      CHECK_LE(a.opinion.distance, before);
-      CHECK_EQ(a.distance.high, HUGE_VALF);  // an opinion is no bound
-      before = a.opinion.distance;
-      told += before < HUGE_VALF;
-      options.ask = NSVCD_ASK_HIT;
-      options.network.swell = 1;  // the same pairs
-      a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-      nearer += before < a.opinion.distance;
-      // one that is clear has not looked at all of them
-      if (logit_of(&a) < NSVCD__CLEAR_LOGIT) CHECK_LE(before, a.opinion.distance);
-    }
-    query_scene_close(&s);
-  }
-  CHECK_GE(told, 40);
-  CHECK_GE(nearer, 5);  // than what was most suspicious
-}
-
 // The least distance of all pairs whose spheres meet, by the largest decoder, and how many there are.
 static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   static nsvcd__candidate items[NSVCD_MAX_PAIRS];
@@ -457,42 +382,6 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
     least = metres < least ? metres : least;
   }
   return least;
-}
-
-// Where all pairs are looked at, it is their least, clear or not; and of a batch too, which looks
-// first where the last of it collided if no more than yes or no is asked.
-static void query_the_distance_has_no_shortcut(void) {
-  size_t compared = 0;
-  size_t clear = 0;
-  for (uint64_t seed = 1; seed <= 60; seed++) {
-    query_scene s;
-    nsvcd_pose again[QUERY_POSES];
-    nsvcd_question two[2];
-    nsvcd_answer batch[2];
-    query_scene_open(&s, seed);
-    nsvcd_question options = query_options(NSVCD_MAX_PAIRS, NSVCD_MODEL_BASE, 0);
-    options.method = NSVCD_METHOD_NETWORK;
-    options.ask = NSVCD_ASK_DISTANCE;
-    memcpy(again, s.motion, sizeof again);
-    for (size_t k = 0; k < QUERY_POSES; k++) again[k].position[0] += 1e-3f;
-    two[0] = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-    two[1] = question_of(s.moving, again, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
-    CHECK_EQ(nsvcd_sweep_batch(two, 2, query_workspace(), nsvcd_sweep_workspace_size(NULL), batch),
-             NSVCD_OK);
-    for (size_t n = 0; n < 2; n++) {
-      size_t count;
-      const nsvcd_answer one = query_answer(&two[n]);
-      CHECK(query_same_answer(&one, &batch[n]));
-      const float least = query_least_of_all(&two[n], &count);
-      if (one.inside || count == 0 || count > NSVCD_MAX_PAIRS) continue;
-      CHECK_NEAR((double)one.opinion.distance, (double)least, 1e-4 * fabs((double)least) + 1e-7);
-      clear += logit_of(&one) > NSVCD__CLEAR_LOGIT;
-      compared++;
-    }
-    query_scene_close(&s);
-  }
-  CHECK_GE(compared, 30);
-  CHECK_GE(clear, 10);
 }
 
 // Two boxes, one sliding over the other at a gap, or pressed in: within a quarter of a patch's
@@ -532,42 +421,6 @@ static double query_threshold(size_t model, size_t column, size_t a, size_t b) {
   options.network.model = (nsvcd_model)(NSVCD_MODEL_TINY + model);
   CHECK_EQ(nsvcd__settings_of(&options.network, a, b, &settings), NSVCD_OK);
   return (double)settings.threshold;
-}
-
-// Thresholds are those of weights.h where bodies have a calibrated number of patches, N = 32 to 512.
-// Between, they follow log2 N, of two bodies its mean; beyond, they stay.
-static void query_thresholds_are_interpolated(void) {
-  for (size_t n = 0; n < 3 * NSVCD_W_RECALLS; n++) {
-    const size_t model = n / NSVCD_W_RECALLS;
-    const size_t k = n % NSVCD_W_RECALLS;
-    const float(*rows)[NSVCD_W_RECALLS] = nsvcd_w_threshold[model];
-    for (size_t row = 0; row < NSVCD_W_SIZES; row++) {
-      const size_t size = (size_t)32 << row;
-      const double at = (double)rows[row][k];
-      CHECK_NEAR(query_threshold(model, k, size, size), at, 1e-6);
-      CHECK_NEAR(query_threshold(model, k, size / 2, 2 * size), at, 1e-6);
-      if (row + 1 == NSVCD_W_SIZES) continue;
-      const double next = (double)rows[row + 1][k];
-      double before = at;
-      for (size_t between = size + 1; between < 2 * size; between++) {
-        const double share = log2((double)between / (double)size);
-        const double found = query_threshold(model, k, between, between);
-        CHECK_NEAR(found, at + share * (next - at), 1e-5);
-        CHECK_GE((found - before) * (next - at), 0);
-        before = found;
-      }
-      // of two bodies
-      CHECK_NEAR(query_threshold(model, k, size, 2 * size), 0.5 * (at + next), 1e-6);
-      CHECK_NEAR(query_threshold(model, k, 2 * size, size), 0.5 * (at + next), 1e-6);
-    }
-    const double least = (double)rows[0][k];
-    const double most = (double)rows[NSVCD_W_SIZES - 1][k];
-    CHECK_NEAR(query_threshold(model, k, 1, 1), least, 1e-6);
-    CHECK_NEAR(query_threshold(model, k, 31, 32), least, 1e-6);
-    CHECK_NEAR(query_threshold(model, k, 1, 512), least, 0);
-    CHECK_NEAR(query_threshold(model, k, 512, 513), most, 1e-6);
-    CHECK_NEAR(query_threshold(model, k, NSVCD_MAX_PATCHES, NSVCD_MAX_PATCHES), most, 1e-6);
-  }
 }
 
 // Triangles are named as the file has them: two of each quad, also behind a quad that is a sliver, has
@@ -1273,6 +1126,156 @@ static void query_opinions_leave_what_is_known(void) {
   for (size_t k = 0; k < 2; k++) nsvcd_body_free(bodies[k], NULL);
 }
 
+// ------------------------------------------------------------------------------------- from within
+// What follows reads or changes what no program sees.
+
+// One pose, the same pose twice and a motion that stands still are the same question.
+static void query_standing_still_is_one_pose(void) {
+  for (uint64_t seed = 1; seed <= 10; seed++) {
+    query_scene s;
+    query_scene_open(&s, seed);
+    nsvcd_pose still[3] = {s.motion[4], s.motion[4], s.motion[4]};
+    nsvcd_answer one = query_ask(s.moving, still, 1, s.fixed, &s.fixed_pose, NULL);
+    nsvcd_answer three = query_ask(s.moving, still, 3, s.fixed, &s.fixed_pose, NULL);
+    // which of several clear collisions is seen first is not the same
+    const int clear = logit_of(&one) > NSVCD__CLEAR_LOGIT && logit_of(&three) > NSVCD__CLEAR_LOGIT;
+    const double most = clear ? HUGE_VAL : 1e-3 * (1 + fabs((double)logit_of(&one)));
+    CHECK_NEAR(logit_of(&one), logit_of(&three), most);
+    CHECK_EQ(status_of(&one), status_of(&three));
+    query_scene_close(&s);
+  }
+}
+
+// Carried along without a turn, two bodies are to each other what they were; with one, at their
+// poses, and hardly otherwise between these.
+static void query_both_may_move(void) {
+  size_t same = 0;
+  size_t compared = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    query_scene s;
+    nsvcd_pose poses[QUERY_POSES], others[QUERY_POSES];
+    query_scene_open(&s, seed);
+    const nsvcd_answer before = query_scene_ask(&s);
+    const double angle = seed % 2 ? 1.6 : 0;
+    const nsvcd_question question = query_carried(&s, seed, angle, poses, others);
+    const nsvcd_answer answer = query_answer(&question);
+    // seen from the same body
+    if (before.opinion.candidates > 0 && !nsvcd__is_swapped(&question.a, &question.b)) {
+      compared++;
+      same += collides_of(&answer) == collides_of(&before);
+      if (seed % 2 == 0)
+        CHECK_NEAR(logit_of(&answer), logit_of(&before),
+                   1e-3 * (1 + fabs((double)logit_of(&before))));
+    }
+    query_scene_close(&s);
+  }
+  CHECK_GE(compared, 20);
+  CHECK_GE(same + 1, compared);
+}
+
+// Asked for the distance, the network tells the least of the pairs it looks at, so that more pairs
+// only lessen it.
+static void query_the_distance_is_the_least(void) {
+  size_t told = 0;
+  size_t nearer = 0;
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    query_scene s;
+    query_scene_open(&s, seed);
+    float before = HUGE_VALF;
+    for (size_t pairs = 1; pairs <= NSVCD_MAX_PAIRS; pairs *= 4) {
+      nsvcd_question options = query_options(pairs, NSVCD_MODEL_TINY, 0);
+      options.method = NSVCD_METHOD_NETWORK;
+      options.ask = NSVCD_ASK_DISTANCE;
+      nsvcd_answer a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+      CHECK_LE(a.opinion.distance, before);
+      CHECK_EQ(a.distance.high, HUGE_VALF);  // an opinion is no bound
+      before = a.opinion.distance;
+      told += before < HUGE_VALF;
+      options.ask = NSVCD_ASK_HIT;
+      options.network.swell = 1;  // the same pairs
+      a = query_ask(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+      nearer += before < a.opinion.distance;
+      // one that is clear has not looked at all of them
+      if (logit_of(&a) < NSVCD__CLEAR_LOGIT) CHECK_LE(before, a.opinion.distance);
+    }
+    query_scene_close(&s);
+  }
+  CHECK_GE(told, 40);
+  CHECK_GE(nearer, 5);  // than what was most suspicious
+}
+
+// Where all pairs are looked at, it is their least, clear or not; and of a batch too, which looks
+// first where the last of it collided if no more than yes or no is asked.
+static void query_the_distance_has_no_shortcut(void) {
+  size_t compared = 0;
+  size_t clear = 0;
+  for (uint64_t seed = 1; seed <= 60; seed++) {
+    query_scene s;
+    nsvcd_pose again[QUERY_POSES];
+    nsvcd_question two[2];
+    nsvcd_answer batch[2];
+    query_scene_open(&s, seed);
+    nsvcd_question options = query_options(NSVCD_MAX_PAIRS, NSVCD_MODEL_BASE, 0);
+    options.method = NSVCD_METHOD_NETWORK;
+    options.ask = NSVCD_ASK_DISTANCE;
+    memcpy(again, s.motion, sizeof again);
+    for (size_t k = 0; k < QUERY_POSES; k++) again[k].position[0] += 1e-3f;
+    two[0] = question_of(s.moving, s.motion, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+    two[1] = question_of(s.moving, again, QUERY_POSES, s.fixed, &s.fixed_pose, &options);
+    CHECK_EQ(nsvcd_sweep_batch(two, 2, query_workspace(), nsvcd_sweep_workspace_size(NULL), batch),
+             NSVCD_OK);
+    for (size_t n = 0; n < 2; n++) {
+      size_t count;
+      const nsvcd_answer one = query_answer(&two[n]);
+      CHECK(query_same_answer(&one, &batch[n]));
+      const float least = query_least_of_all(&two[n], &count);
+      if (one.inside || count == 0 || count > NSVCD_MAX_PAIRS) continue;
+      CHECK_NEAR((double)one.opinion.distance, (double)least, 1e-4 * fabs((double)least) + 1e-7);
+      clear += logit_of(&one) > NSVCD__CLEAR_LOGIT;
+      compared++;
+    }
+    query_scene_close(&s);
+  }
+  CHECK_GE(compared, 30);
+  CHECK_GE(clear, 10);
+}
+
+// Thresholds are those of weights.h where bodies have a calibrated number of patches, N = 32 to 512.
+// Between, they follow log2 N, of two bodies its mean; beyond, they stay.
+static void query_thresholds_are_interpolated(void) {
+  for (size_t n = 0; n < 3 * NSVCD_W_RECALLS; n++) {
+    const size_t model = n / NSVCD_W_RECALLS;
+    const size_t k = n % NSVCD_W_RECALLS;
+    const float(*rows)[NSVCD_W_RECALLS] = nsvcd_w_threshold[model];
+    for (size_t row = 0; row < NSVCD_W_SIZES; row++) {
+      const size_t size = (size_t)32 << row;
+      const double at = (double)rows[row][k];
+      CHECK_NEAR(query_threshold(model, k, size, size), at, 1e-6);
+      CHECK_NEAR(query_threshold(model, k, size / 2, 2 * size), at, 1e-6);
+      if (row + 1 == NSVCD_W_SIZES) continue;
+      const double next = (double)rows[row + 1][k];
+      double before = at;
+      for (size_t between = size + 1; between < 2 * size; between++) {
+        const double share = log2((double)between / (double)size);
+        const double found = query_threshold(model, k, between, between);
+        CHECK_NEAR(found, at + share * (next - at), 1e-5);
+        CHECK_GE((found - before) * (next - at), 0);
+        before = found;
+      }
+      // of two bodies
+      CHECK_NEAR(query_threshold(model, k, size, 2 * size), 0.5 * (at + next), 1e-6);
+      CHECK_NEAR(query_threshold(model, k, 2 * size, size), 0.5 * (at + next), 1e-6);
+    }
+    const double least = (double)rows[0][k];
+    const double most = (double)rows[NSVCD_W_SIZES - 1][k];
+    CHECK_NEAR(query_threshold(model, k, 1, 1), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 31, 32), least, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, 1, 512), least, 0);
+    CHECK_NEAR(query_threshold(model, k, 512, 513), most, 1e-6);
+    CHECK_NEAR(query_threshold(model, k, NSVCD_MAX_PATCHES, NSVCD_MAX_PATCHES), most, 1e-6);
+  }
+}
+
 void test_query(void) {
   RUN(query_sizes_are_what_is_asked);
   RUN(query_proofs_stay_within_their_workspace);
@@ -1286,16 +1289,11 @@ void test_query(void) {
   RUN(query_inside_an_inside_out_body);
   RUN(query_sizes_at_the_limits);
   RUN(query_a_cavity_is_not_inside);
-  RUN(query_standing_still_is_one_pose);
-  RUN(query_both_may_move);
   RUN(query_sides_do_not_matter);
   RUN(query_scales_in_the_question);
   RUN(query_all_pairs_are_enough);
   RUN(query_more_pairs_never_lose_a_collision);
-  RUN(query_the_distance_is_the_least);
-  RUN(query_the_distance_has_no_shortcut);
   RUN(query_the_distance_follows_the_gap);
-  RUN(query_thresholds_are_interpolated);
   RUN(query_names_triangles_behind_slivers);
   RUN(query_refuses_bad_arguments);
   RUN(query_refuses_bad_questions);
@@ -1304,6 +1302,12 @@ void test_query(void) {
   RUN(query_refuses_bad_poses);
   RUN(query_refuses_a_bad_workspace);
   RUN(accuracy_on_a_labelled_file);
+  // from within
+  RUN(query_standing_still_is_one_pose);
+  RUN(query_both_may_move);
+  RUN(query_the_distance_is_the_least);
+  RUN(query_the_distance_has_no_shortcut);
+  RUN(query_thresholds_are_interpolated);
 }
 
 CHECK_ALONE(test_query)

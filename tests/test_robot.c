@@ -52,154 +52,6 @@ static void joints_at_time(const nsvcd_joint_motion *motion, size_t joints, doub
   joints_of_piece(motion->points + p * motion->degree * joints, motion->degree, joints, share, out);
 }
 
-// No part strays farther than is said, in steps long and short, of one piece and of several, of all
-// degrees, whose speeds fit each other or jump; and where joints are many some stray by half of it.
-static void robot_strays_no_farther(void) {
-  enum { PIECES = 4 };
-  static robot r;
-  shapes_rng rng = {71};
-  double most[NSVCD_MAX_DEGREE + 1] = {0};
-  double most_across[3] = {0};
-  double often = 0;
-  size_t looks = 0;
-  for (int trial = 0; trial < (int)check_many(200); trial++) {
-    double flat[(PIECES * NSVCD_MAX_DEGREE + 1) * NSVCD_MAX_JOINTS];
-    double times[PIECES + 1] = {0};
-    robot_random(&r, &rng);
-    robot_open(&r);
-    const size_t joints = r.scene.joint_count;
-    const size_t degree = 1 + (size_t)shapes_pick(&rng, NSVCD_MAX_DEGREE);
-    const size_t pieces = trial % 3 ? 1 : 1 + (size_t)shapes_pick(&rng, PIECES);
-    const int jumps = shapes_pick(&rng, 3);  // 0: none; 1: small ones; 2: any
-    const nsvcd_joint_motion motion = {pieces, degree, flat, times};
-    const size_t steps = (size_t)1 << shapes_pick(&rng, pieces > 1 ? 3 : 5);
-    const double size = pow(10, shapes_uniform(&rng, -2, 0.3));
-    const double bends = pow(10, shapes_uniform(&rng, -2, 0));
-    for (size_t p = 0; p < pieces; p++) times[p + 1] = times[p] + pow(10, shapes_normal(&rng) / 3);
-    for (size_t j = 0; j < joints; j++) {
-      const double from = shapes_uniform(&rng, -2, 2);
-      const double to = shapes_pick(&rng, 4) ? from + size * shapes_normal(&rng) : from;
-      for (size_t i = 0; i <= pieces * degree; i++) {
-        const double share = (double)i / (double)(pieces * degree);
-        double *at = &flat[i * joints + j];
-        *at = from + share * (to - from) + size * bends * shapes_normal(&rng);
-        if (i < 2 || i % degree != 1 % degree || jumps == 2) continue;
-        const size_t p = (i - 1) / degree;
-        const double way = *(at - joints) - *(at - 2 * joints);
-        *at = *(at - joints) + way * (times[p + 1] - times[p]) / (times[p] - times[p - 1]);
-        if (jumps) *at += 0.1 * size * bends * shapes_normal(&rng);
-      }
-    }
-    for (size_t k = 0; k <= steps; k++) {
-      const double by = k == 0 || k == steps ? 0 : shapes_uniform(&rng, -0.3, 0.3);
-      r.checker->times[k] = times[pieces] * ((double)k + by) / (double)steps;
-    }
-    nsvcd__sample(r.checker, &motion, steps);
-    for (size_t part = 0; part < r.scene.part_count; part++) {
-      const nsvcd__member *m = &r.checker->members[part];
-      double farthest = 0;
-      for (size_t k = 0; k < steps; k++) {
-        const oracle_pose a = pose_of_frame(&r.checker->frames[m->row + k]);
-        const oracle_pose b = pose_of_frame(&r.checker->frames[m->row + k + 1]);
-        for (int look = 1; look < 8; look++) {
-          double q[NSVCD_MAX_JOINTS];
-          const double x = look / 8.0;
-          const double *t = &r.checker->times[k];
-          joints_at_time(&motion, joints, t[0] + x * (t[1] - t[0]), q);
-          const placed at = placed_part(&r.scene, part, q);
-          double off = robot_off(&r, part, &at, &a, &b, x);
-          // the share of the step that suits best: the nearest place of its way
-          double low = 0;
-          double high = 1;
-          for (int n = 0; n < 60 && (degree > 1 || pieces > 1); n++) {
-            const double u = low + (high - low) / 3;
-            const double v = high - (high - low) / 3;
-            const double at_u = robot_off(&r, part, &at, &a, &b, u);
-            const double at_v = robot_off(&r, part, &at, &a, &b, v);
-            low = at_u < at_v ? low : u;
-            high = at_u < at_v ? v : high;
-            off = fmin(off, fmin(at_u, at_v));
-          }
-          // the search for the nearest place ends there
-          CHECK_LE(off, nsvcd__off(r.checker, part) + 1e-11);
-          farthest = fmax(farthest, off);
-        }
-      }
-      if (m->stray < 1e-5) continue;
-      if (pieces == 1)
-        most[degree] = fmax(most[degree], farthest / m->stray);
-      else
-        most_across[jumps] = fmax(most_across[jumps], farthest / m->stray);
-      often += farthest / m->stray;
-      looks++;
-    }
-    free(r.memory);
-  }
-  printf(
-      "  %zu parts, used in the mean %.2f; at most, by degree: %.2f %.2f %.2f %.2f %.2f; across "
-      "pieces, by jumps: %.2f %.2f %.2f\n",
-      looks, often / (double)looks, most[1], most[2], most[3], most[4], most[5], most_across[0],
-      most_across[1], most_across[2]);
-  CHECK_GE(most[1], 0.5);
-  for (int d = 2; d <= NSVCD_MAX_DEGREE; d++) CHECK_GE(most[d], 0.3);
-  for (int d = 0; d < 3; d++) CHECK_GE(most_across[d], 0.3);
-}
-
-// During a step no vertex is farther from an axis than its lever, and some are nearly as far.
-static void robot_levers_reach(void) {
-  static robot r;
-  shapes_rng rng = {77};
-  double most = 0;
-  for (int trial = 0; trial < 400; trial++) {
-    nsvcd__step step;
-    nsvcd__configuration from;
-    double flat[2 * NSVCD_MAX_JOINTS];
-    double levers[NSVCD_MAX_JOINTS] = {0};
-    robot_random(&r, &rng);
-    robot_open(&r);
-    const size_t joints = r.scene.joint_count;
-    const double size = pow(10, shapes_uniform(&rng, -1, 0.3));
-    for (size_t j = 0; j < joints; j++) {
-      flat[j] = shapes_uniform(&rng, -2, 2);
-      flat[joints + j] = flat[j] + size * shapes_normal(&rng);
-    }
-    const nsvcd_joint_motion motion = {1, 1, flat, NULL};
-    nsvcd__step_of(&motion, joints, 0, 1, &step);
-    memcpy(from.joints, flat, joints * sizeof *flat);
-    nsvcd__place_links(r.checker, &from);
-    const size_t part = joints - 1;
-    nsvcd__levers_of(r.checker, part, &step, &from, levers);
-    for (int k = 0; k <= 20; k++) {
-      double q[NSVCD_MAX_JOINTS];
-      joints_of_piece(flat, 1, joints, k / 20.0, q);
-      const placed at = placed_part(&r.scene, part, q);
-      // joints on its path
-      for (size_t link = joints; link > 0; link = r.joints[link - 1].parent) {
-        const nsvcd_joint *joint = &r.joints[link - 1];
-        if (joint->kind == NSVCD_JOINT_PRISMATIC) continue;
-        const placed frame = placed_link(&r.scene, link, q);
-        double axis[3], turned[3];
-        for (int n = 0; n < 3; n++) axis[n] = (double)joint->axis[n];
-        oracle_rotate(frame.m, axis, turned);
-        const robot_shape *shape = &robot_shapes()[r.shape[part]];
-        for (size_t i = 0; i < shape->count; i++) {
-          double x[3], off[3], across[3];
-          placed_point(&at, scale_of_part(&r.parts[part]), &shape->points[3 * i], x);
-          oracle_sub(x, frame.p, off);
-          oracle_cross(turned, off, across);
-          const double far = oracle_length(across) / oracle_length(turned);
-          CHECK_LE(far, levers[link - 1]);
-          // where joints beyond have brought it there
-          if (k > 0 && size > 0.5 && link + 1 < joints) most = fmax(most, far / levers[link - 1]);
-        }
-      }
-    }
-    free(r.memory);
-  }
-  printf("  levers are used to %.2f\n", most);
-  CHECK_GE(most, 0.9);
-}
-
 // A ball on a random robot passes another one, that rests or is on another link, at a distance that
 // is the clearance to within 1 mm or 1 um, which is known from their centres at many times. What
 // comes nearer is never free, what does not is no hit.
@@ -577,62 +429,6 @@ static void robot_refuses_bad_input(void) {
 
 // -------------------------------------------------------------------------------------------------
 // routes
-
-// The nearest node is the nearest one, whatever was added in which order, more than once as well.
-static void robot_trees_find_the_nearest(void) {
-  enum { NODES = 3000 };
-  static double points[NODES][NSVCD_MAX_JOINTS];
-  static uint32_t parents[NODES], next[NODES];
-  static nsvcd__cell cells[2 * NODES];
-  shapes_rng rng = {81};
-  for (size_t joints = 1; joints <= 7; joints += 3) {
-    nsvcd__tree tree = {joints, 0, 0, &points[0][0], parents, next, cells};
-    for (size_t n = 0; n < NODES; n++) {
-      double at[NSVCD_MAX_JOINTS];
-      for (size_t j = 0; j < joints; j++) {
-        at[j] = n % 7 ? shapes_uniform(&rng, -3, 3) : floor(shapes_uniform(&rng, -2, 2));
-        if (n % 11 == 0) at[j] = 0.5;
-      }
-      if (n > 0) {
-        double best = HUGE_VAL;
-        for (size_t k = 0; k < n; k++)
-          best = fmin(best, nsvcd__way2(tree.points + k * joints, at, joints));
-        const size_t nearest = nsvcd__tree_nearest(&tree, at);
-        CHECK_EQ(nsvcd__way2(tree.points + nearest * joints, at, joints), best);
-      }
-      CHECK_EQ(nsvcd__tree_add(&tree, at, n), n);
-    }
-  }
-}
-
-// A ramp ends where it is to, within the limits, is as quick as its slowest joint can be, and goes
-// on without a jump.
-static void robot_ramps_are_quickest(void) {
-  shapes_rng rng = {82};
-  size_t ramps = 0;
-  for (int trial = 0; trial < 20000; trial++) {
-    const double speed = pow(10, shapes_uniform(&rng, -1, 1));
-    const double most = pow(10, shapes_uniform(&rng, -1, 1));
-    const double x1 = shapes_pick(&rng, 5) ? shapes_normal(&rng) : 0;
-    const double v0 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
-    const double v1 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
-    const double time = nsvcd__ramp_time(0, v0, x1, v1, speed, most);
-    nsvcd__ramp_joint r;
-    double x, v;
-    if (!(time > 1e-3)) continue;
-    CHECK(nsvcd__ramp_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
-    nsvcd__ramp_at(&r, 0, v0, time, &x, &v);
-    CHECK_NEAR(x, x1, 1e-9 * (1 + fabs(x1) + speed * time));
-    CHECK_NEAR(v, v1, 1e-9 * (speed + most * time));
-    // never faster than the limit, and not quicker with less time
-    nsvcd__ramp_at(&r, 0, v0, r.t1, &x, &v);
-    CHECK_LE(fabs(v), speed * (1 + 1e-8));
-    const int sooner = nsvcd__ramp_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
-    CHECK(!sooner);
-    ramps++;
-  }
-  CHECK_GE(ramps, 19000);
-}
 
 // A motion keeps the limits, has no jumps of speed, and is at rest at both ends; all by its points.
 static void robot_motion_is_smooth(const robot *r, const nsvcd_joint_motion *m, const double *start,
@@ -1074,22 +870,230 @@ static void robot_routes_refuse(void) {
   free(r.memory);
 }
 
+// ------------------------------------------------------------------------------------- from within
+// What follows reads or changes what no program sees.
+
+// No part strays farther than is said, in steps long and short, of one piece and of several, of all
+// degrees, whose speeds fit each other or jump; and where joints are many some stray by half of it.
+static void robot_strays_no_farther(void) {
+  enum { PIECES = 4 };
+  static robot r;
+  shapes_rng rng = {71};
+  double most[NSVCD_MAX_DEGREE + 1] = {0};
+  double most_across[3] = {0};
+  double often = 0;
+  size_t looks = 0;
+  for (int trial = 0; trial < (int)check_many(200); trial++) {
+    double flat[(PIECES * NSVCD_MAX_DEGREE + 1) * NSVCD_MAX_JOINTS];
+    double times[PIECES + 1] = {0};
+    robot_random(&r, &rng);
+    robot_open(&r);
+    const size_t joints = r.scene.joint_count;
+    const size_t degree = 1 + (size_t)shapes_pick(&rng, NSVCD_MAX_DEGREE);
+    const size_t pieces = trial % 3 ? 1 : 1 + (size_t)shapes_pick(&rng, PIECES);
+    const int jumps = shapes_pick(&rng, 3);  // 0: none; 1: small ones; 2: any
+    const nsvcd_joint_motion motion = {pieces, degree, flat, times};
+    const size_t steps = (size_t)1 << shapes_pick(&rng, pieces > 1 ? 3 : 5);
+    const double size = pow(10, shapes_uniform(&rng, -2, 0.3));
+    const double bends = pow(10, shapes_uniform(&rng, -2, 0));
+    for (size_t p = 0; p < pieces; p++) times[p + 1] = times[p] + pow(10, shapes_normal(&rng) / 3);
+    for (size_t j = 0; j < joints; j++) {
+      const double from = shapes_uniform(&rng, -2, 2);
+      const double to = shapes_pick(&rng, 4) ? from + size * shapes_normal(&rng) : from;
+      for (size_t i = 0; i <= pieces * degree; i++) {
+        const double share = (double)i / (double)(pieces * degree);
+        double *at = &flat[i * joints + j];
+        *at = from + share * (to - from) + size * bends * shapes_normal(&rng);
+        if (i < 2 || i % degree != 1 % degree || jumps == 2) continue;
+        const size_t p = (i - 1) / degree;
+        const double way = *(at - joints) - *(at - 2 * joints);
+        *at = *(at - joints) + way * (times[p + 1] - times[p]) / (times[p] - times[p - 1]);
+        if (jumps) *at += 0.1 * size * bends * shapes_normal(&rng);
+      }
+    }
+    for (size_t k = 0; k <= steps; k++) {
+      const double by = k == 0 || k == steps ? 0 : shapes_uniform(&rng, -0.3, 0.3);
+      r.checker->times[k] = times[pieces] * ((double)k + by) / (double)steps;
+    }
+    nsvcd__sample(r.checker, &motion, steps);
+    for (size_t part = 0; part < r.scene.part_count; part++) {
+      const nsvcd__member *m = &r.checker->members[part];
+      double farthest = 0;
+      for (size_t k = 0; k < steps; k++) {
+        const oracle_pose a = pose_of_frame(&r.checker->frames[m->row + k]);
+        const oracle_pose b = pose_of_frame(&r.checker->frames[m->row + k + 1]);
+        for (int look = 1; look < 8; look++) {
+          double q[NSVCD_MAX_JOINTS];
+          const double x = look / 8.0;
+          const double *t = &r.checker->times[k];
+          joints_at_time(&motion, joints, t[0] + x * (t[1] - t[0]), q);
+          const placed at = placed_part(&r.scene, part, q);
+          double off = robot_off(&r, part, &at, &a, &b, x);
+          // the share of the step that suits best: the nearest place of its way
+          double low = 0;
+          double high = 1;
+          for (int n = 0; n < 60 && (degree > 1 || pieces > 1); n++) {
+            const double u = low + (high - low) / 3;
+            const double v = high - (high - low) / 3;
+            const double at_u = robot_off(&r, part, &at, &a, &b, u);
+            const double at_v = robot_off(&r, part, &at, &a, &b, v);
+            low = at_u < at_v ? low : u;
+            high = at_u < at_v ? v : high;
+            off = fmin(off, fmin(at_u, at_v));
+          }
+          // the search for the nearest place ends there
+          CHECK_LE(off, nsvcd__off(r.checker, part) + 1e-11);
+          farthest = fmax(farthest, off);
+        }
+      }
+      if (m->stray < 1e-5) continue;
+      if (pieces == 1)
+        most[degree] = fmax(most[degree], farthest / m->stray);
+      else
+        most_across[jumps] = fmax(most_across[jumps], farthest / m->stray);
+      often += farthest / m->stray;
+      looks++;
+    }
+    free(r.memory);
+  }
+  printf(
+      "  %zu parts, used in the mean %.2f; at most, by degree: %.2f %.2f %.2f %.2f %.2f; across "
+      "pieces, by jumps: %.2f %.2f %.2f\n",
+      looks, often / (double)looks, most[1], most[2], most[3], most[4], most[5], most_across[0],
+      most_across[1], most_across[2]);
+  CHECK_GE(most[1], 0.5);
+  for (int d = 2; d <= NSVCD_MAX_DEGREE; d++) CHECK_GE(most[d], 0.3);
+  for (int d = 0; d < 3; d++) CHECK_GE(most_across[d], 0.3);
+}
+
+// During a step no vertex is farther from an axis than its lever, and some are nearly as far.
+static void robot_levers_reach(void) {
+  static robot r;
+  shapes_rng rng = {77};
+  double most = 0;
+  for (int trial = 0; trial < 400; trial++) {
+    nsvcd__step step;
+    nsvcd__configuration from;
+    double flat[2 * NSVCD_MAX_JOINTS];
+    double levers[NSVCD_MAX_JOINTS] = {0};
+    robot_random(&r, &rng);
+    robot_open(&r);
+    const size_t joints = r.scene.joint_count;
+    const double size = pow(10, shapes_uniform(&rng, -1, 0.3));
+    for (size_t j = 0; j < joints; j++) {
+      flat[j] = shapes_uniform(&rng, -2, 2);
+      flat[joints + j] = flat[j] + size * shapes_normal(&rng);
+    }
+    const nsvcd_joint_motion motion = {1, 1, flat, NULL};
+    nsvcd__step_of(&motion, joints, 0, 1, &step);
+    memcpy(from.joints, flat, joints * sizeof *flat);
+    nsvcd__place_links(r.checker, &from);
+    const size_t part = joints - 1;
+    nsvcd__levers_of(r.checker, part, &step, &from, levers);
+    for (int k = 0; k <= 20; k++) {
+      double q[NSVCD_MAX_JOINTS];
+      joints_of_piece(flat, 1, joints, k / 20.0, q);
+      const placed at = placed_part(&r.scene, part, q);
+      // joints on its path
+      for (size_t link = joints; link > 0; link = r.joints[link - 1].parent) {
+        const nsvcd_joint *joint = &r.joints[link - 1];
+        if (joint->kind == NSVCD_JOINT_PRISMATIC) continue;
+        const placed frame = placed_link(&r.scene, link, q);
+        double axis[3], turned[3];
+        for (int n = 0; n < 3; n++) axis[n] = (double)joint->axis[n];
+        oracle_rotate(frame.m, axis, turned);
+        const robot_shape *shape = &robot_shapes()[r.shape[part]];
+        for (size_t i = 0; i < shape->count; i++) {
+          double x[3], off[3], across[3];
+          placed_point(&at, scale_of_part(&r.parts[part]), &shape->points[3 * i], x);
+          oracle_sub(x, frame.p, off);
+          oracle_cross(turned, off, across);
+          const double far = oracle_length(across) / oracle_length(turned);
+          CHECK_LE(far, levers[link - 1]);
+          // where joints beyond have brought it there
+          if (k > 0 && size > 0.5 && link + 1 < joints) most = fmax(most, far / levers[link - 1]);
+        }
+      }
+    }
+    free(r.memory);
+  }
+  printf("  levers are used to %.2f\n", most);
+  CHECK_GE(most, 0.9);
+}
+
+// The nearest node is the nearest one, whatever was added in which order, more than once as well.
+static void robot_trees_find_the_nearest(void) {
+  enum { NODES = 3000 };
+  static double points[NODES][NSVCD_MAX_JOINTS];
+  static uint32_t parents[NODES], next[NODES];
+  static nsvcd__cell cells[2 * NODES];
+  shapes_rng rng = {81};
+  for (size_t joints = 1; joints <= 7; joints += 3) {
+    nsvcd__tree tree = {joints, 0, 0, &points[0][0], parents, next, cells};
+    for (size_t n = 0; n < NODES; n++) {
+      double at[NSVCD_MAX_JOINTS];
+      for (size_t j = 0; j < joints; j++) {
+        at[j] = n % 7 ? shapes_uniform(&rng, -3, 3) : floor(shapes_uniform(&rng, -2, 2));
+        if (n % 11 == 0) at[j] = 0.5;
+      }
+      if (n > 0) {
+        double best = HUGE_VAL;
+        for (size_t k = 0; k < n; k++)
+          best = fmin(best, nsvcd__way2(tree.points + k * joints, at, joints));
+        const size_t nearest = nsvcd__tree_nearest(&tree, at);
+        CHECK_EQ(nsvcd__way2(tree.points + nearest * joints, at, joints), best);
+      }
+      CHECK_EQ(nsvcd__tree_add(&tree, at, n), n);
+    }
+  }
+}
+
+// A ramp ends where it is to, within the limits, is as quick as its slowest joint can be, and goes
+// on without a jump.
+static void robot_ramps_are_quickest(void) {
+  shapes_rng rng = {82};
+  size_t ramps = 0;
+  for (int trial = 0; trial < 20000; trial++) {
+    const double speed = pow(10, shapes_uniform(&rng, -1, 1));
+    const double most = pow(10, shapes_uniform(&rng, -1, 1));
+    const double x1 = shapes_pick(&rng, 5) ? shapes_normal(&rng) : 0;
+    const double v0 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
+    const double v1 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
+    const double time = nsvcd__ramp_time(0, v0, x1, v1, speed, most);
+    nsvcd__ramp_joint r;
+    double x, v;
+    if (!(time > 1e-3)) continue;
+    CHECK(nsvcd__ramp_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
+    nsvcd__ramp_at(&r, 0, v0, time, &x, &v);
+    CHECK_NEAR(x, x1, 1e-9 * (1 + fabs(x1) + speed * time));
+    CHECK_NEAR(v, v1, 1e-9 * (speed + most * time));
+    // never faster than the limit, and not quicker with less time
+    nsvcd__ramp_at(&r, 0, v0, r.t1, &x, &v);
+    CHECK_LE(fabs(v), speed * (1 + 1e-8));
+    const int sooner = nsvcd__ramp_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
+    CHECK(!sooner);
+    ramps++;
+  }
+  CHECK_GE(ramps, 19000);
+}
+
 void test_robot(void) {
   RUN(robot_parts_are_where_joints_say);
   RUN(robot_limits_are_kept);
   RUN(robot_refuses_bad_input);
-  RUN(robot_strays_no_farther);
-  RUN(robot_levers_reach);
   RUN(robot_grazes);
   RUN(robot_swings_past_a_wall);
   RUN(robot_turns_for_long);
   RUN(robot_verdicts_are_right);
-  RUN(robot_trees_find_the_nearest);
-  RUN(robot_ramps_are_quickest);
   RUN(robot_routes_are_free);
   RUN(robot_routes_end);
   RUN(robot_routes_out_of_the_narrow);
   RUN(robot_routes_are_abandoned);
   RUN(robot_routes_refuse);
+  // from within
+  RUN(robot_strays_no_farther);
+  RUN(robot_levers_reach);
+  RUN(robot_trees_find_the_nearest);
+  RUN(robot_ramps_are_quickest);
 }
 CHECK_ALONE(test_robot)
