@@ -1,5 +1,6 @@
 // Which way a contact's normal points: against the motion of its point, as poses in double have it,
 // wherever a motion leads to a contact.
+#define NSVCD_STATIC
 #define NSVCD_NO_NETWORK
 #include "../src/ground/strings.h"
 #include "../src/body/trust.h"
