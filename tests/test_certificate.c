@@ -794,61 +794,6 @@ static void certificates_of_levels(void) {
   CHECK_LE(whole, 3 * local);
 }
 
-// A motion that no poses are: a mesh swings over another, and back, as sin(2 pi t). A chord of it is off
-// by no more than an eighth of its second derivative. Each time that is told is a corner.
-typedef struct cert_swing {
-  double height, way;
-  size_t keyframes;
-} cert_swing;
-
-static nsvcd_placement cert_swing_place(const void *motion, double t) {
-  const cert_swing *swing = (const cert_swing *)motion;
-  const nsvcd_placement out = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                               {swing->way * sin(2 * SHAPES_PI * t), 0, swing->height}};
-  return out;
-}
-static double cert_swing_next(const void *motion, double t) {
-  const double count = (double)((const cert_swing *)motion)->keyframes - 1;
-  return (floor(t * count + 1e-9) + 1) / count;
-}
-static nsvcd_deviation cert_swing_deviation(const void *motion, double t0, double t1) {
-  const double turn = 2 * SHAPES_PI * (t1 - t0);
-  const nsvcd_deviation out = {
-      ((const cert_swing *)motion)->way * turn * turn / 8, 0, 0, {0, 0, 0}};
-  return out;
-}
-
-// FREE over it, never through it, nor where there are more keyframes than there is room for.
-static void certificates_of_other_motions(void) {
-  static uint8_t bytes[CERT_ROOM];
-  static uint64_t workspace[1 << 14];
-  const cert_body *body = &cert_bodies()[0];
-  double reach = 0;
-  for (size_t k = 0; k < 3 * body->mesh.vertex_count; k++)
-    reach = fmax(reach, fabs((double)body->mesh.positions[k]));
-  for (int n = 0; n < 6; n++) {
-    const cert_swing still = {0, 0, 2};
-    const cert_swing swing = {n < 3 ? 2.2 * reach : 0.5 * reach, 3 * reach, n % 3 == 2 ? 60 : 9};
-    const nsvcd_motion_model models[2] = {
-        {1, cert_swing_place, cert_swing_next, cert_swing_deviation, &swing, 0, 1},
-        {1, cert_swing_place, cert_swing_next, cert_swing_deviation, &still, 0, 2}};
-    nsvcd_certificate made;
-    const size_t size = nsvcd_certify_models_workspace_size(11, body->tree, body->tree);
-    CHECK_LE(size, sizeof workspace);
-    CHECK_EQ(nsvcd_certify_models(models, 11, 0, body->tree, body->tree, NULL, workspace, size,
-                                  bytes, sizeof bytes, &made),
-             NSVCD_OK);
-    CHECK_EQ(made.verdict == NSVCD_FREE, n < 2);
-    if (n % 3 == 2) CHECK_EQ(made.visits, 1);
-    CHECK_EQ(nsvcd_certify_models(models, 11, 0, body->tree, body->tree, NULL, workspace, size - 8,
-                                  bytes, sizeof bytes, &made),
-             NSVCD_ERROR_WORKSPACE);
-    CHECK_EQ(nsvcd_certify_models(NULL, 11, 0, body->tree, body->tree, NULL, workspace, size, bytes,
-                                  sizeof bytes, &made),
-             NSVCD_ERROR_ARGUMENT);
-  }
-}
-
 // ------------------------------------------------------------------------------------- from within
 // What follows reads or changes what no program sees.
 
@@ -1192,7 +1137,6 @@ void test_certificate(void) {
   RUN(certificates_know_joints);
   RUN(certificates_of_robots);
   RUN(certificates_of_levels);
-  RUN(certificates_of_other_motions);
   // from within
   RUN(certificates_at_a_hair);
   RUN(certificates_see_a_swing);

@@ -5,6 +5,7 @@
 
 void promises_certificates(void);
 
+#define FULL_TURN 6.283185307179586
 #define ROOM 8192  // bytes of a certificate
 
 // A body's mesh as the one who proves has it, and the one who checks.
@@ -141,11 +142,65 @@ static void a_certificate_is_refused_by_the_field_at_fault(void) {
   certified_free(&cart);
 }
 
+// A motion that no poses are: a mesh swings over another, and back, as sin(2 pi t). A chord of it is off
+// by no more than an eighth of its second derivative. Each time that is told is a corner.
+typedef struct swing {
+  double height, way;
+  size_t keyframes;
+} swing;
+
+static nsvcd_placement swing_place(const void *motion, double t) {
+  const swing *s = (const swing *)motion;
+  const nsvcd_placement out = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                               {s->way * sin(FULL_TURN * t), 0, s->height}};
+  return out;
+}
+static double swing_next(const void *motion, double t) {
+  const double count = (double)((const swing *)motion)->keyframes - 1;
+  return (floor(t * count + 1e-9) + 1) / count;
+}
+static nsvcd_deviation swing_deviation(const void *motion, double t0, double t1) {
+  const double turn = FULL_TURN * (t1 - t0);
+  const nsvcd_deviation out = {((const swing *)motion)->way * turn * turn / 8, 0, 0, {0, 0, 0}};
+  return out;
+}
+
+// FREE over it, never through it, nor where there are more keyframes than there is room for.
+static void any_motion_that_says_where_it_is_can_be_certified(void) {
+  certified cart = certified_box(1, 1, 1), post = certified_box(1, 1, 1);
+  uint8_t bytes[ROOM];
+  for (int n = 0; n < 6; n++) {
+    const swing still = {0, 0, 2};
+    const swing past = {n < 3 ? 1.1 : 0.25, 1.5, n % 3 == 2 ? 60 : 9};
+    const nsvcd_motion_model models[2] = {
+        {1, swing_place, swing_next, swing_deviation, &past, 0, 1},
+        {1, swing_place, swing_next, swing_deviation, &still, 0, 2}};
+    nsvcd_certificate made;
+    const size_t size = nsvcd_certify_models_workspace_size(11, cart.tree, post.tree);
+    void *workspace = malloc(size);
+    CHECK_EQ(nsvcd_certify_models(models, 11, 0, cart.tree, post.tree, NULL, workspace, size, bytes,
+                                  sizeof bytes, &made),
+             NSVCD_OK);
+    CHECK_EQ(made.verdict == NSVCD_FREE, n < 2);
+    if (n % 3 == 2) CHECK_EQ(made.visits, 1);  // more keyframes than there is room for
+    CHECK_EQ(nsvcd_certify_models(models, 11, 0, cart.tree, post.tree, NULL, workspace, size - 8,
+                                  bytes, sizeof bytes, &made),
+             NSVCD_ERROR_WORKSPACE);
+    CHECK_EQ(nsvcd_certify_models(NULL, 11, 0, cart.tree, post.tree, NULL, workspace, size, bytes,
+                                  sizeof bytes, &made),
+             NSVCD_ERROR_ARGUMENT);
+    free(workspace);
+  }
+  certified_free(&cart);
+  certified_free(&post);
+}
+
 void promises_certificates(void) {
   RUN(a_certificate_is_accepted_by_a_checker_that_shares_nothing);
   RUN(a_certificate_of_something_else_is_refused);
   RUN(no_bytes_prove_what_is_not_so);
   RUN(a_certificate_is_refused_by_the_field_at_fault);
+  RUN(any_motion_that_says_where_it_is_can_be_certified);
 }
 
 CHECK_ALONE(promises_certificates)

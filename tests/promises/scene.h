@@ -4,6 +4,8 @@
 #define NSVCD_TESTS_PROMISES_SCENE_H
 
 #include "../../neuralsvcd.h"
+#include "../../extras/neuralsvcd_certify.h"
+#include "../../extras/neuralsvcd_robot.h"
 #include "../check.h"
 
 // The corners and the faces of a box about the origin; `faces` of them, the lid (z up) last.
