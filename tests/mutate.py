@@ -209,6 +209,8 @@ class Bench:
         self.weights = self.weights_of_kinds()
         self.tests = sorted(path.stem.removeprefix("test_") for path in (ROOT / "tests").glob("test_*.c"))
         self.tests = [test for test in self.tests if test not in LEFT_OUT and self.needs_header(test)]
+        # linked to the library, as a program is
+        self.tests += sorted(f"promises_{path.stem}" for path in (ROOT / "tests" / "promises").glob("*.c"))
         if options.tests:
             self.tests = [test for test in self.tests if test in options.tests.split(",")]
         self.usual: dict[str, float] = {}
@@ -230,12 +232,12 @@ class Bench:
         """A copy of what the tests need, with this header."""
         folder = self.out / name
         shutil.rmtree(folder, ignore_errors=True)
-        for part in ("tests", "tests/bench", "examples", "examples/scenery"):
+        for part in ("tests", "tests/bench", "tests/promises", "packages", "examples", "examples/scenery"):
             (folder / part).mkdir(parents=True)
             for path in (ROOT / part).iterdir():
                 if path.is_file() and path.suffix in (".c", ".h"):
                     (folder / part / path.name).symlink_to(path)
-        for part in ("tests/data", "examples/assets", "examples/scenery/meshes"):
+        for part in ("tests/data", "examples/assets", "examples/scenery/meshes", "examples/verify"):
             (folder / part).symlink_to(ROOT / part)
         (folder / "build").mkdir()
         (folder / "weights.h").symlink_to(ROOT / "weights.h")
@@ -257,10 +259,16 @@ class Bench:
                               capture_output=True, text=True)
         return made.stdout if made.returncode == 0 else ""
 
+    @staticmethod
+    def sources(test: str) -> list[str]:
+        if test.startswith("promises_"):
+            return [f"tests/promises/{test.removeprefix('promises_')}.c", "packages/neuralsvcd.c"]
+        return [f"tests/test_{test}.c"]
+
     def run_test(self, folder: Path, test: str, limit: float) -> tuple[str, float]:
         """What went wrong, or nothing, and the seconds that it took."""
-        command = [self.options.cc, *self.flags, "-std=c99", "-w", "-pthread", "-DTEST_ALONE", "-DCHECK_ENDS_EARLY", "-o",
-                   f"test_{test}", f"tests/test_{test}.c", "-lm"]
+        command = [self.options.cc, *self.flags, "-std=c99", "-w", "-pthread", "-I.", "-DTEST_ALONE", "-DCHECK_ENDS_EARLY", "-o",
+                   f"test_{test}", *self.sources(test), "-lm"]
         made = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         if made.returncode:
             return "does not compile", 0
