@@ -2,6 +2,7 @@
 #define NSVCD_STATIC
 #define NEURALSVCD_IMPLEMENTATION
 #include "../src/ground/strings.h"
+#include "../src/interface/robots.h"
 
 #include "check.h"
 

@@ -12,6 +12,7 @@
 //   build/bench_distance FILE ...
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
+#define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #include "grid.h"
 #define PROGRAM "bench_distance"
 #include "../../examples/scenery/problem_file.h"
