@@ -15,6 +15,7 @@
 #define NEURALSVCD_CERTIFY_IMPLEMENTATION
 #include "grid.h"
 #define PROGRAM "bench_distance"
+#include "../../extras/neuralsvcd_certify.h"
 #include "../../examples/scenery/problem_file.h"
 #include "../../examples/scenery/load.h"
 
