@@ -103,7 +103,7 @@
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   A query reckons in float32, but with couples of triangles and with what is inside of what in
+//   A query computes in float32, but with triangle pairs and with what is inside of what in
 //   double.
 //   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
 //                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
@@ -112,7 +112,7 @@
 //                 involved: 2 um for bodies of 0.3 m, 80 um where one measures 20 m. So much room,
 //                 and little more, must be between surfaces that are to be certified free.
 //   Far away      positions are taken relative to the fixed body first: a scene 10 km from the
-//                 origin loses what its own coordinates lose, about 1 mm. All is reckoned in the
+//                 origin loses what its own coordinates lose, about 1 mm. All is computed in the
 //                 frame of one body, the one that rests or is the larger, in units of its scale.
 //   Resolution    the network's limit: a patch must not be much larger than the clearance in
 //                 question. A body of 5 cm against one of 20 m, with 256 patches each, is judged
@@ -152,7 +152,7 @@
 //   ground: numbers and memory
 //     compiler        what is asked of the compiler; libc and libm
 //     strings         what codes and statuses say
-//     angles          sines and angles, by libm or reckoned here
+//     angles          sines and angles, by libm or computed here
 //     bits            bits and sizes
 //     valid           is what a caller hands over in order?
 //     points          vectors of three, of floats and of doubles
@@ -203,7 +203,7 @@
 //     segments        how far a point strays from a straight line
 //     choice          which segments a motion is cut into, and a long one which intervals
 //   search: which patches may meet
-//     apart           pairs of patches that a plane parts, by their tips
+//     apart           pairs of patches that a plane separates, by their tips
 //     intervals       when the balls of two patches meet, for the network
 //     search          which groups and patches meet, and in which segments
 //   proof: whether surfaces meet
@@ -212,13 +212,13 @@
 //     spans           a stretch of time, and how far points stray in it
 //     discs           planes across discs, of patches and of groups
 //     hulls           planes between hulls
-//     couples         a triangle of each body, in double
+//     triangle_pairs  a triangle of each body, in double
 //     blocks          16 triangles at a time
 //     manifold        contact points that hold a body
 //     witnesses       two triangles that meet at one time
-//     items           an item: parted by planes, or by its triangles, or in contact
+//     patch_pairs     two patches: separated by planes or by triangles, or in contact
 //     containment     what is inside of what, exactly
-//     loop            the loop: all that a search finds is settled
+//     loop            the loop: all that a search finds is resolved
 //     verdict         what one search says: do they meet, when first, how near
 //     long            the verdict, whatever the length of the motion
 //     leave           leaving a contact, and how deep it is
@@ -260,7 +260,7 @@
 //   lane, slice       one of 16 numbers that are worked on together; those that fill a register
 //   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
+//   moving, fixed     the bodies of a query: all is computed in the frame of the fixed one, which
 //                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
 //                     its own: see plan/problem
@@ -272,16 +272,16 @@
 //   candidate         two patches and a contact interval, in which their balls meet
 //   pair              two patches, as the decoder sees them
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
-//   item              two patches that the proof has yet to part in a segment
-//   couple            two listed triangles, one of each body
+//   patch pair        two patches that the proof has yet to separate in a segment
+//   triangle pair     two listed triangles, one of each body
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
 //   facets            what a body stores for the proof: discs, hulls, listings
 //   quantum           how far a coarse triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
-//   knot, arc         when one of the poses given is reached; the motion from a knot to the next
-//   tick              the unit of a motion's time: every knot is at a whole number of ticks
+//   keyframe, arc     when one of the poses given is reached; the motion from one to the next
+//   tick              the unit of a motion's time: every keyframe is at a whole number of ticks
 //   work              units that a proof takes
 //   twist             how the moving body goes at a time: a velocity and an angular velocity
 #ifndef NEURALSVCD_H
@@ -461,7 +461,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PLAN,
 
   // ---- this build
-  // the compiler, or its flags, made a program that reckons wrongly
+  // the compiler, or its flags, made a program that computes wrongly
   NSVCD_ERROR_BUILD
 } nsvcd_result;
 
@@ -469,7 +469,7 @@ typedef enum nsvcd_result {
 // at fault, as it is called here.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
-// Does this build reckon rightly, on this processor? Certificates of one that does not are false.
+// Does this build compute rightly, on this processor? Certificates of one that does not are false.
 // To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
 // are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
 // certificates rest on, and two triangles. What it does not look at may be wrong still.
@@ -890,9 +890,10 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  // Patches swell by this share of their radii before planes part them, so that patches which only
-  // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
-  // more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked for, 1
+  // Patches swell by this share of their radii before planes separate them, so that patches which
+  // only come near are looked at too: the logit rises before contact, and has a gradient there. It
+  // calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked
+  // for, 1
   float swell;
 } nsvcd_network_options;
 
@@ -1228,14 +1229,14 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
-// the gradient of the pair and the stretch of time that decided: its logit is the greatest of
-// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and
-// where a flat patch does not turn. At rest it is the mean of both sides. The ends of the
-// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
-// begins or ends. The unit of length, and the spheres' allowance for what the motion does
-// between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float
-// decoder, or, without that, of the function that the int8 one rounds.
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the
+// gradient of the pair and the stretch of time that decided: its logit is the greatest of several,
+// and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and where a
+// flat patch does not turn. At rest it is the mean of both sides. The ends of the stretch move with
+// the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The unit
+// of length, and the spheres' allowance for what the motion does between its keyframes, are taken
+// as constant. In int8 arithmetic it is the derivative of the float decoder, or, without that, of
+// the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);
@@ -1484,7 +1485,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
-// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+// NSVCD_ONE_PATH: nothing may be fused or computed more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
@@ -1508,26 +1509,26 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__MERGED static inline __attribute__((always_inline))
+#define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
-#define NSVCD__MERGED static __forceinline
+#define NSVCD__FORCE_INLINE static __forceinline
 #else
-#define NSVCD__MERGED static inline
+#define NSVCD__FORCE_INLINE static inline
 #endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
-#define NSVCD__INLINE NSVCD__MERGED
+#define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__APART __attribute__((noinline))
+#define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
-#define NSVCD__APART __declspec(noinline)
+#define NSVCD__NOINLINE __declspec(noinline)
 #else
-#define NSVCD__APART
+#define NSVCD__NOINLINE
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
@@ -1653,7 +1654,7 @@ NSVCDDEF const char *nsvcd_plan_status_string(nsvcd_plan_status status) {
 #ifndef NSVCD__HAS_GROUND_ANGLES
 #define NSVCD__HAS_GROUND_ANGLES
 // In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+// are computed here, for libm's last digit is not the same everywhere; else by libm.
 
 #ifdef NSVCD_ONE_PATH
 // sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
@@ -2012,7 +2013,7 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
-  NSVCD__MERGED quat quat##_unit(quat q) { \
+  NSVCD__FORCE_INLINE quat quat##_unit(quat q) { \
     return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
   } \
   static inline vec quat##_axis(quat q) { \
@@ -2193,7 +2194,7 @@ typedef struct nsvcd__nearest {
   nsvcd__d3 on_a, on_b;
 } nsvcd__nearest;
 
-static double nsvcd__clamp_share(double x) {
+static double nsvcd__clamp_fraction(double x) {
   return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
@@ -2219,9 +2220,10 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
   double s = 0;
-  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
-  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
-  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  if (determinant > 1e-14 * uu * vv)
+    s = nsvcd__clamp_fraction((uv * vw - uw * vv) / determinant);
+  const double t = vv > 0 ? nsvcd__clamp_fraction((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_fraction((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
 }
 
@@ -2486,7 +2488,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 
 #define NSVCD__LANES 16
 // Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
-// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+// it is looked for in blobs, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
 // What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one
@@ -3290,10 +3292,10 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
 }
 
 // As nsvcd_obj_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
-                                     const nsvcd_mesh_options *options,
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line) {
+static nsvcd_result nsvcd__obj_read(const char *text, size_t size,
+                                    const nsvcd_mesh_options *options,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                    size_t *error_line) {
   if (error_line) *error_line = 0;
   if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
   nsvcd_mesh parsed;
@@ -3340,7 +3342,7 @@ static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
+  return nsvcd__obj_read(text, size, NULL, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_OBJ
 
@@ -3482,10 +3484,10 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
 }
 
 // As nsvcd_stl_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
-                                     const nsvcd_mesh_options *options,
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line) {
+static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
+                                    const nsvcd_mesh_options *options,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                    size_t *error_line) {
   const unsigned char *bytes = (const unsigned char *)data;
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
@@ -3546,7 +3548,7 @@ static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
+  return nsvcd__stl_read(data, size, NULL, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_OBJ
 
@@ -3571,8 +3573,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
   const nsvcd_mesh_format format = options ? options->format : NSVCD_MESH_ANY;
   const int stl = format == NSVCD_MESH_ANY && data && nsvcd__is_stl(data, size);
   if (stl || format == NSVCD_MESH_STL)
-    return nsvcd__stl_parse(data, size, options, allocator, mesh, error_line);
-  return nsvcd__obj_parse((const char *)data, size, options, allocator, mesh, error_line);
+    return nsvcd__stl_read(data, size, options, allocator, mesh, error_line);
+  return nsvcd__obj_read((const char *)data, size, options, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO
@@ -4573,7 +4575,7 @@ static void nsvcd__peel(nsvcd__mending *m) {
 }
 
 // What is known of a part, of a whole, or of a wall.
-typedef struct nsvcd__part {
+typedef struct nsvcd__component {
   double area;
   // of its parts that enclose; and one of its parts does not
   double closed;
@@ -4584,11 +4586,11 @@ typedef struct nsvcd__part {
   int is_sheet;
   double holes, volume;
   nsvcd__d3 centre;  // times the area
-} nsvcd__part;
+} nsvcd__component;
 
 // Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
 static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
-                               nsvcd__part *parts) {
+                               nsvcd__component *parts) {
   for (size_t i = 0, end; i < 3 * m->count; i = end) {
     const size_t group = m->groups[m->order[i]];
     size_t any = m->count;
@@ -4607,7 +4609,7 @@ static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
 
 // Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
 // area. Returns how many triangles. walls: (T) zeros, and so they are again.
-static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
   size_t dropped = 0;
   nsvcd__join_triangles(m, 2, m->parts);
   for (size_t n = 0; n < m->count; n++) {
@@ -4627,7 +4629,7 @@ static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
     if (least < m->count) walls[least].turned += m->degrees[group] % 2;
   }
   for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__part *wall = &walls[m->parts[n]];
+    const nsvcd__component *wall = &walls[m->parts[n]];
     if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
     m->alive[n] = 0;
     dropped++;
@@ -4689,7 +4691,7 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
 // across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
 // makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
 // that is wound outwards is nearly a solid's, for else it is a room that has a door.
-static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
                               const nsvcd_allocator *allocator) {
   const size_t vertices = m->topology->mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
@@ -4716,7 +4718,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
     nsvcd__measure_holes(m, numbers, holes, pass);
   for (size_t h = 0; !arena.failed && h < count; h++) {
     const nsvcd__hole *hole = &holes[h];
-    nsvcd__part *whole = &wholes[hole->whole];
+    nsvcd__component *whole = &wholes[hole->whole];
     const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
     const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
     const int is_three = hole->edges == 3;
@@ -4731,11 +4733,11 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
 // ---- all of it
 
 // Areas of wholes, and what they hold as seen from their middle.
-static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__component *wholes) {
   for (size_t i = 0; i < 2 * m->count; i++) {
     const size_t n = i % m->count;
     if (!m->alive[n]) continue;
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    nsvcd__component *whole = &wholes[m->wholes[n]];
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
     const nsvcd__d3 normal = nsvcd__area_vector(&t);
     if (i == n) {
@@ -4750,8 +4752,8 @@ static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) 
 }
 
 // Which parts of what is left after peeling enclose something? Their triangles are marked.
-static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
-                              nsvcd__solids *out) {
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
+                              nsvcd__component *parts, nsvcd__solids *out) {
   nsvcd__judge_edges(m, m->parts, parts);
   for (size_t n = 0; n < m->count; n++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
@@ -4759,8 +4761,8 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
   }
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *part = &parts[m->parts[n]];
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__component *part = &parts[m->parts[n]];
+    nsvcd__component *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
@@ -4779,11 +4781,11 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
 }
 
 // Counts the wholes, and marks what is nearly a solid. alive: before peeling.
-static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes,
                                nsvcd__solids *out) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__component *whole = &wholes[m->wholes[n]];
     uint8_t *kind = &out->kinds[m->triangles[n]];
     const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
     const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
@@ -4812,8 +4814,8 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
   m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
-  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
-  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__component *wholes = NSVCD__TAKE(arena, nsvcd__component, count);
+  nsvcd__component *parts = NSVCD__TAKE(arena, nsvcd__component, count);
   if (arena->failed) return 0;
   for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
   nsvcd__group_edges(m);
@@ -4978,7 +4980,7 @@ static nsvcd__d3 nsvcd__centroid(const nsvcd__triangle *t) {
 // about this share of the weight. Centroids decide: the cut is at the end of a bin across the
 // longest axis of their box. In a part triangles keep their order. Returns where the second begins.
 static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
-                                   double share) {
+                                   double fraction) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = first; i < end; i++) {
@@ -5008,7 +5010,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
   uint32_t last_bin = 0;
   for (double sum = weights[0]; last_bin + 2 < NSVCD__REGION_BINS; last_bin++) {
     const double next = weights[last_bin + 1];
-    if (!(sum + 0.5 * next < share * all)) break;
+    if (!(sum + 0.5 * next < fraction * all)) break;
     sum += next;
   }
 
@@ -5030,8 +5032,8 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   r->first[n] = first;
   if (parts == 1) return;
   const size_t left = parts / 2;
-  const double share = (double)left / (double)parts;
-  const size_t middle = nsvcd__regions_split(r, first, end, share);
+  const double fraction = (double)left / (double)parts;
+  const size_t middle = nsvcd__regions_split(r, first, end, fraction);
   nsvcd__regions_part(r, first, middle, left, n);
   nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }
@@ -5187,7 +5189,7 @@ static void nsvcd__region_end(nsvcd__regions *r, const nsvcd__region *region) {
 // metres, added to that: keeps clear of what float cannot hold
 #define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
-#define NSVCD__HULL_SHARE 1e-4
+#define NSVCD__HULL_FRACTION 1e-4
 // corners of a piece, at most
 #define NSVCD__PIECE_CORNERS 16
 // polygons that wait for their turn (12 at most were seen)
@@ -5209,7 +5211,7 @@ typedef struct nsvcd__list {
   size_t count, capacity;
 } nsvcd__list;
 
-// Room for `more` items of so many bytes; 0 without memory, and the list is as it was.
+// Room for `more` patch pairs of so many bytes; 0 without memory, and the list is as it was.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                nsvcd__arena *arena) {
   if (list->capacity - list->count >= more) return 1;
@@ -5358,8 +5360,8 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
     const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
     const uint32_t number = vertices + (uint32_t)pieces->points.count;
-    const double share = beyond[i] / (beyond[i] - beyond[j]);
-    points[pieces->points.count++] = nsvcd__d3_mix(a, b, share);
+    const double fraction = beyond[i] / (beyond[i] - beyond[j]);
+    points[pieces->points.count++] = nsvcd__d3_mix(a, b, fraction);
     near_part->points[near_part->count++] = number;
     far_part->points[far_part->count++] = number;
   }
@@ -5768,7 +5770,7 @@ typedef struct nsvcd__border {
 
 // The least ball that holds the border (1 to 5 points) among those through the last of them and up
 // to three others. Keeps in the border only the points that it goes through. 0 if there is none.
-static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
+static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
   for (unsigned set = last; set < 2 * last; set++) {
@@ -5832,12 +5834,12 @@ static nsvcd__d3 nsvcd__ball_centre(nsvcd__points points) {
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // What points extend to along a direction.
-typedef struct nsvcd__range {
+typedef struct nsvcd__drange {
   double low, high;
-} nsvcd__range;
+} nsvcd__drange;
 
-static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction) {
-  nsvcd__range range = {HUGE_VAL, -HUGE_VAL};
+static nsvcd__drange nsvcd__drange_along(nsvcd__points points, nsvcd__d3 direction) {
+  nsvcd__drange range = {HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < points.count; i++) {
     const double at = nsvcd__d3_dot(points.at[i], direction);
     range.low = at < range.low ? at : range.low;
@@ -5847,7 +5849,7 @@ static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction
 }
 
 static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
-  const nsvcd__range range = nsvcd__range_along(points, direction);
+  const nsvcd__drange range = nsvcd__drange_along(points, direction);
   return range.high - range.low;
 }
 
@@ -5939,7 +5941,7 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
   const nsvcd__d3 stored = nsvcd__d3_widen(n);
-  const nsvcd__range range = nsvcd__range_along(points, stored);
+  const nsvcd__drange range = nsvcd__drange_along(points, stored);
   double squared = 0;
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);
@@ -5969,7 +5971,7 @@ typedef struct nsvcd__simplex {
 // Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
 // bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
 // the weights still are weights.
-static int nsvcd__simplex_settle(nsvcd__simplex *s) {
+static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
   for (;;) {
     // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
     nsvcd__d3 edges[3];
@@ -6017,12 +6019,12 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     if (least >= 0.998 * best) break;
     s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
-    const int settled = nsvcd__simplex_settle(&s);
+    const int resolved = nsvcd__simplex_resolve(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
       nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!settled || squared >= best) break;
+    if (!resolved || squared >= best) break;
     best = squared;
   }
   return sqrt(best);
@@ -6240,7 +6242,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
 
   size_t chosen[NSVCD__HULL];
   double farthest;
-  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
+  const double enough = NSVCD__HULL_FRACTION * (double)ball->radius;
   const size_t count =
       nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
   s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
@@ -6249,8 +6251,8 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
     sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
 }
 
-// What patch i lists for its k-th piece: the piece's corners where its triangle is parted, else the
-// triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
+// What patch i lists for its k-th piece: the piece's corners where its triangle is separated, else
+// the triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
 // other in a patch, and a whole triangle is listed with the first of them.
 static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
                                     const uint32_t **corners) {
@@ -6619,15 +6621,15 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     m2[2] = nsvcd__f5_add(m2[2], f.qnn);
     m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
   }
-  const float share = 1 / (float)patch->count;
+  const float fraction = 1 / (float)patch->count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
     nsvcd__f3 c1 = {0, 0, 0};
     nsvcd__f5 c2 = {{0, 0, 0, 0, 0}};
     for (size_t m = 0; m < 4; m++) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
-      c1 = nsvcd__f3_fma(share, nsvcd__f3_scale(m1[m], w1), c1);
-      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
+      c1 = nsvcd__f3_fma(fraction, nsvcd__f3_scale(m1[m], w1), c1);
+      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), fraction));
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
     out->degree2[NSVCD_W_POOLED + c] = c2;
@@ -6707,7 +6709,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
 // CHANNELS), scalars.
 static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   const size_t pooled = NSVCD_W_POOLED;
-  const float share = 1 / (float)patch->count;
+  const float fraction = 1 / (float)patch->count;
   nsvcd__channels all;
   memset(&all, 0, sizeof all);
   nsvcd__context(patch, &all);
@@ -6722,11 +6724,11 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
-      all.degree1[c] = nsvcd__f3_fma(share, a1, all.degree1[c]);
-      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
+      all.degree1[c] = nsvcd__f3_fma(fraction, a1, all.degree1[c]);
+      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, fraction));
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
-      all.scalars[c] += gates[5 * pooled + c] * share;
+      all.scalars[c] += gates[5 * pooled + c] * fraction;
   }
   nsvcd__finish_latent(&all, latent);
 }
@@ -7020,8 +7022,9 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
                                      size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
   // less by more than the roundings: the farthest is never passed over
-  const float share = 0.999998f;
-  float least = share * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
+  const float fraction = 0.999998f;
+  float least =
+      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
   float reach = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
     const size_t left = count - first;
@@ -7034,7 +7037,7 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
       if (to > reach) *farthest = i;
       reach = to > reach ? to : reach;
     }
-    least = share * reach > least ? share * reach : least;
+    least = fraction * reach > least ? fraction * reach : least;
   }
   return reach;
 }
@@ -7643,7 +7646,7 @@ typedef struct nsvcd__hulls {
   float spheres[4][NSVCD__HULLS];  // x, y, z, r
 } nsvcd__hulls;
 
-static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
+static void nsvcd__collect_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
   const size_t end = NSVCD__GROUP * (g + 1);
   out->count = 0;
   for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
@@ -7680,7 +7683,7 @@ static void nsvcd__facets_finish(nsvcd_body *b, float off) {
     nsvcd__sphere over = {{0, 0, 0}, NSVCD__NOWHERE};
     nsvcd__hulls hulls;
     if (g < groups.count) {
-      nsvcd__gather_hulls(&f, g, &hulls);
+      nsvcd__collect_hulls(&f, g, &hulls);
       over = nsvcd__cover_spheres(nsvcd__hull_spheres(&hulls), hulls.count);
     }
     nsvcd__sphere_store(over, out, groups.slots, g);
@@ -7926,7 +7929,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 
   for (size_t g = 0; g < groups; g++) {
     nsvcd__hulls hulls;
-    nsvcd__gather_hulls(&f, g, &hulls);
+    nsvcd__collect_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
     const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
     if (!nsvcd__covers(over, all, hulls.count)) return 0;
@@ -8647,7 +8650,7 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 }
 
 // Checks options and mesh, and fills in the defaults.
-static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
+static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
 #endif
@@ -8677,16 +8680,17 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 
 // nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
 // triangle t is point t.
-static nsvcd_result nsvcd__encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                  const nsvcd_allocator *allocator, void *memory,
-                                  size_t capacity, const nsvcd_body **body) {
+static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
+                                       const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, void *memory,
+                                       size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_encode_options o;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   nsvcd__parts parts;
-  nsvcd_result result = nsvcd__encode_settle(mesh, &o);
+  nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
   if (!result) result = nsvcd__parts_build(mesh, &o, allocator, &parts);
   if (result) return result;
 
@@ -8712,7 +8716,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body) {
   if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
-  return nsvcd__encode(mesh, options, allocator, memory, capacity, body);
+  return nsvcd__encode_mesh(mesh, options, allocator, memory, capacity, body);
 }
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {
@@ -8735,7 +8739,7 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  return nsvcd__encode(mesh, &options, allocator, NULL, 0, body);
+  return nsvcd__encode_mesh(mesh, &options, allocator, NULL, 0, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,
@@ -9323,8 +9327,8 @@ static inline nsvcd__vmat3 nsvcd__vmat3_of(nsvcd__vquat q) {
 //
 // Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
 // two of its poses: the least common multiple. Where poses have times of their own, 2^31 or more,
-// and each of these is at the nearest. A *knot* is a tick at which a pose of either is. Between two
-// knots both motions are smooth.
+// and each of these is at the nearest. A *keyframe* is a tick at which a pose of either is. Between
+// two keyframes both motions are smooth.
 
 // The poses of one body.
 typedef struct nsvcd__track {
@@ -9414,8 +9418,8 @@ static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
   return track;
 }
 
-// The motion's ticks as if all poses were uniform, `parts` times as many as its knots need. No more
-// than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where knots are few.
+// The motion's ticks as if all poses were uniform, `parts` times as many as its keyframes need. No
+// more than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where keyframes are few.
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
@@ -9561,12 +9565,12 @@ static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
 
 // Between two poses, a share of the way from the first.
 static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                   double share) {
+                                                   double fraction) {
   const nsvcd__world_pose from = nsvcd__world_pose_of(a);
   const nsvcd__world_pose to = nsvcd__world_pose_of(b);
   nsvcd__world_pose out;
-  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)share);
-  out.position = nsvcd__d3_mix(from.position, to.position, share);
+  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)fraction);
+  out.position = nsvcd__d3_mix(from.position, to.position, fraction);
   return out;
 }
 
@@ -9586,8 +9590,8 @@ static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
   return nsvcd__tick_of(track, nsvcd__pose_before(track, tick) + 1);
 }
 
-// The knot after a tick.
-static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
+// The keyframe after a tick.
+static uint32_t nsvcd__next_keyframe(const nsvcd__motion *motion, uint32_t tick) {
   if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
   const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
   const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
@@ -9632,27 +9636,27 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
 #ifndef NSVCD_NO_NETWORK
 // The pose of a track that moves before time t in [0,1], and the share of the way to the next. A
 // uniform one is not taken to ticks: derivatives by t need what floats resolve.
-static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *share) {
+static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *fraction) {
   if (track->times) {
     const double tick = (double)t * (double)track->whole;
     const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
     const float from = track->times[k];
-    *share = (t - from) / (track->times[k + 1] - from);
+    *fraction = (t - from) / (track->times[k + 1] - from);
     return k;
   }
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  *share = at - (float)k;
+  *fraction = at - (float)k;
   return k;
 }
 
 // A track's pose at time t in [0,1].
 static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
   if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
-  float share;
-  const size_t k = nsvcd__pose_at(track, t, &share);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)share);
+  float fraction;
+  const size_t k = nsvcd__pose_at(track, t, &fraction);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
 }
 
 // The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be
@@ -9683,21 +9687,21 @@ static nsvcd__transform nsvcd__motion_pose(const nsvcd__motion *motion, float t)
 //   dev(c) = spread + bulge |c|
 // so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the
 // scale. Why: let L(t) be the linear interpolation of M between the segment's ends, K(t) the
-// piecewise linear one through the knots inside. Between two knots a chord misses a curve by at
-// most max|second derivative| / 8, with time from 0 to 1 there. Where only one body moves, that is
-// h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the fixed
-// body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so it is
-// largest at a knot. Hence
-//   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||
+// piecewise linear one through the keyframes inside. Between two keyframes a chord misses a curve
+// by at most max|second derivative| / 8, with time from 0 to 1 there. Where only one body moves,
+// that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the
+// fixed body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so
+// it is largest at a keyframe. Hence
+//   bulge  = max over arcs of what they bend by per metre  +  max over keyframes ||M_k - L(t_k)||
 //          (Frobenius >= 2-norm)
-//   drift  = max over arcs of what the origin bends by  +  max over knots |p_k - its linear
+//   drift  = max over arcs of what the origin bends by  +  max over keyframes |p_k - its linear
 //                                                       interpolation|
 //   spread = drift + rounding + the clearance that is asked for
 // Along a direction n, |n| <= 1, it is less. A turn by h about the unit axis a bends the way of a
 // point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x y), which is no
 // more than |n x a| |x|: nothing along the axis. So `bulge_along_axis` and `drift_along_axis` are
 // what is left along the axis of the whole segment's turn, off which the arcs' axes may be, and
-// nsvcd__deviation puts them together.
+// nsvcd__deviation_of puts them together.
 //
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
 // members', truly posed.
@@ -9753,7 +9757,7 @@ typedef struct nsvcd__segments {
   float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
       moved[3][NSVCD__LANES];
   float spread[NSVCD__LANES], bulge[NSVCD__LANES];
-  // For the proof, the same along directions: see nsvcd__deviation.
+  // For the proof, the same along directions: see nsvcd__deviation_of.
   float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES],
       bulge_along_axis[NSVCD__LANES];
   float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
@@ -9761,23 +9765,23 @@ typedef struct nsvcd__segments {
 
 // Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
 // sees them.
-#define NSVCD__KNOTS (NSVCD__LANES + 1)
-typedef struct nsvcd__knots {
-  // (4, KNOTS) quaternions, as the next two
-  float moving[4 * NSVCD__KNOTS];
-  float fixed[4 * NSVCD__KNOTS];
-  float seen[4 * NSVCD__KNOTS];
-  // (3, KNOTS) see nsvcd__v_poses
-  float offset[3 * NSVCD__KNOTS];
-} nsvcd__knots;
+#define NSVCD__KEYFRAMES (NSVCD__LANES + 1)
+typedef struct nsvcd__keyframes {
+  // (4, KEYFRAMES) quaternions, as the next two
+  float moving[4 * NSVCD__KEYFRAMES];
+  float fixed[4 * NSVCD__KEYFRAMES];
+  float seen[4 * NSVCD__KEYFRAMES];
+  // (3, KEYFRAMES) see nsvcd__v_poses
+  float offset[3 * NSVCD__KEYFRAMES];
+} nsvcd__keyframes;
 
-// What is kept of 16 segments while their knots are visited, lane by lane.
+// What is kept of 16 segments while their keyframes are visited, lane by lane.
 typedef struct nsvcd__bends {
   float sum[NSVCD__LANES];  // of the turns of arcs
   // The greatest so far of what arcs leave their chords by: per metre from the moving body's
   // origin, along the axis too, and that origin itself.
   float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
-  // The greatest so far, squared, of what knots are off their chord by: the rotation and the
+  // The greatest so far, squared, of what keyframes are off their chord by: the rotation and the
   // position, and both along the axis, or across the way.
   float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES],
       axis_drift[NSVCD__LANES];
@@ -9786,7 +9790,7 @@ typedef struct nsvcd__bends {
 
 typedef struct nsvcd__cut {
   // read now, the ones before, and those at the segments' ends
-  nsvcd__knots here, last, end;
+  nsvcd__keyframes here, last, end;
   nsvcd__bends most;
 } nsvcd__cut;
 
@@ -9859,7 +9863,7 @@ typedef struct nsvcd__search {
 #ifndef NSVCD_NO_NETWORK
   // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
   // another: search/apart
-  struct nsvcd__sheets *sheets;
+  struct nsvcd__plane_cache *cache;
   uint16_t *met;
   // 0: no patches' balls meet, which certifies free
   int balls_met;
@@ -9946,8 +9950,8 @@ static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
 
 // Reads the poses of both bodies at the first `count` of these ticks; where one body moves and
 // every tick is one of its poses, as the caller gave them.
-static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
-                              nsvcd__knots *out) {
+static void nsvcd__keyframes_read(const nsvcd__motion *motion, const uint32_t *ticks,
+                                  size_t count, nsvcd__keyframes *out) {
   const nsvcd__track *track = &motion->moving;
   const int as_given = track->ticks == 1 && track->count > 1 && !motion->fixed_moves;
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(motion->fixed_position)};
@@ -9963,36 +9967,37 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
       if (motion->fixed_moves) fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
       rotation = moving.rotation;
       offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-      if (motion->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KNOTS);
+      if (motion->fixed_moves)
+        nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KEYFRAMES);
     }
-    nsvcd__f3_put(offset, out->offset + l, NSVCD__KNOTS);
-    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KNOTS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__KEYFRAMES);
+    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KEYFRAMES);
   }
 }
 
-// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more
-// than lanes.
-static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from,
-                                        size_t first) {
+// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one keyframe
+// more than lanes.
+static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *motion,
+                                            const nsvcd__keyframes *from, size_t first) {
   nsvcd__v_poses out;
-  out.offset = nsvcd__v3_load_rows(from->offset + first, NSVCD__KNOTS);
-  out.moving = nsvcd__vquat_load(from->moving + first, NSVCD__KNOTS);
+  out.offset = nsvcd__v3_load_rows(from->offset + first, NSVCD__KEYFRAMES);
+  out.moving = nsvcd__vquat_load(from->moving + first, NSVCD__KEYFRAMES);
   out.fixed = out.moving;
   if (motion->fixed_moves) {
     out.moving = nsvcd__vquat_unit(out.moving);
-    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + first, NSVCD__KNOTS));
+    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + first, NSVCD__KEYFRAMES));
   }
   return out;
 }
 
 // `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
-static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
-                              nsvcd__vquat seen, size_t l, nsvcd__knots *out) {
-  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KNOTS);
-  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KNOTS);
+static void nsvcd__keyframes_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+                                  nsvcd__vquat seen, size_t l, nsvcd__keyframes *out) {
+  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KEYFRAMES);
+  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KEYFRAMES);
   if (!motion->fixed_moves) return;
-  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KNOTS);
-  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KNOTS);
+  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KEYFRAMES);
+  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KEYFRAMES);
 }
 
 // A bound of the angle between two unit quaternions, lane by lane.
@@ -10022,36 +10027,37 @@ static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
   nsvcd__v_store(sum, nsvcd__v_add(nsvcd__v_load(sum), value));
 }
 
-// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots
-// within.
-static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin,
-                                           nsvcd__segments *out, nsvcd__cut *cut) {
+// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the
+// keyframes within.
+static NSVCD__NOINLINE void nsvcd__cut_starts(const nsvcd__motion *motion,
+                                              const uint32_t *begin, nsvcd__segments *out,
+                                              nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
-  nsvcd__knots_read(motion, begin, NSVCD__KNOTS, &cut->here);
+  nsvcd__keyframes_read(motion, begin, NSVCD__KEYFRAMES, &cut->here);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->last);
+    nsvcd__keyframes_keep(motion, &at, seen.rotation, l, &cut->last);
     nsvcd__vmat3_store(out->rotation, l, nsvcd__vmat3_scale(rotation, scale));
     nsvcd__v3_store(out->position, l, seen.position);
   }
 }
 
 // The same at their ends; the starts are known.
-static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
-                                         nsvcd__cut *cut) {
+static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
+                                            nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l + 1);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l + 1);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     const nsvcd__vmat3 end = nsvcd__vmat3_scale(nsvcd__vmat3_of(seen.rotation), scale);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__v3 moved = nsvcd__v3_sub(seen.position, nsvcd__v3_load(out->position, l));
-    const nsvcd__vquat seen_first = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__vquat seen_first = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
     const nsvcd__v3 turn = nsvcd__v_turn_between(seen_first, seen.rotation);
-    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->end);
+    nsvcd__keyframes_keep(motion, &at, seen.rotation, l, &cut->end);
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
     nsvcd__v3_store(out->moved, l, moved);
     nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
@@ -10102,45 +10108,45 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
-// Adds the arc from the last knot to this one, which becomes the last. seen: its rotation as the
-// fixed body sees it.
+// Adds the arc from the last keyframe to this one, which becomes the last. seen: its rotation as
+// the fixed body sees it.
 static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
                            nsvcd__vquat seen, size_t l, nsvcd__segments *out,
                            nsvcd__cut *cut) {
-  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
+  const nsvcd__v_poses last = nsvcd__keyframes_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
   nsvcd__v_add_to(cut->most.sum + l, arc);
   if (motion->fixed_moves) {
     nsvcd__cut_double_arc(motion, &last, at, l, cut);
   } else {
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
     const nsvcd__v bulge = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
     const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
     nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
     nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
   }
-  nsvcd__knots_keep(motion, at, seen, l, &cut->last);
+  nsvcd__keyframes_keep(motion, at, seen, l, &cut->last);
 }
 
-// Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at
+// Visits a keyframe of each segment: ticks (16), of segments that begin at begin[0..15] and end at
 // begin[1..16]. Adds the arc up to it, and what it is off its segment's chord by.
-static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin,
-                                         const uint32_t *ticks, nsvcd__segments *out,
-                                         nsvcd__cut *cut) {
+static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *motion,
+                                                const uint32_t *begin, const uint32_t *ticks,
+                                                nsvcd__segments *out, nsvcd__cut *cut) {
   nsvcd__bends *most = &cut->most;
-  // of the segment, before the knot
-  float share[NSVCD__LANES];
-  nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
+  // of the segment, before the keyframe
+  float fraction[NSVCD__LANES];
+  nsvcd__keyframes_read(motion, ticks, NSVCD__LANES, &cut->here);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const uint32_t length = begin[l + 1] - begin[l];
-    share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
+    fraction[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     nsvcd__cut_arc(motion, &at, seen.rotation, l, out, cut);
-    const nsvcd__v u = nsvcd__v_load(share + l);
+    const nsvcd__v u = nsvcd__v_load(fraction + l);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
     const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
@@ -10162,7 +10168,7 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
   }
 }
 
-// The deviations of segments whose knots have all been visited.
+// The deviations of segments whose keyframes have all been visited.
 static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l,
                                   nsvcd__segments *out, const nsvcd__cut *cut) {
   const nsvcd__bends *most = &cut->most;
@@ -10170,8 +10176,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
   const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
   const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
-  const nsvcd__v knot_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, knot_bulge);
+  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, keyframe_bulge);
   nsvcd__v bulge_along_axis = bulge;
   nsvcd__v drift_along_axis = drift;
   nsvcd__v drift_off_way = drift;
@@ -10210,15 +10216,15 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
     within = 0;
     for (size_t l = 0; l < NSVCD__LANES; l++) {
       const uint32_t next =
-          ticks[l] < begin[l + 1] ? nsvcd__next_knot(motion, ticks[l]) : begin[l + 1];
+          ticks[l] < begin[l + 1] ? nsvcd__next_keyframe(motion, ticks[l]) : begin[l + 1];
       ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
       within |= ticks[l] < begin[l + 1];
     }
-    if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
+    if (within) nsvcd__cut_keyframe(motion, begin, ticks, out, cut);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
-    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KNOTS);
+    const nsvcd__v_poses end = nsvcd__keyframes_load(motion, &cut->end, l);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KEYFRAMES);
     nsvcd__cut_arc(motion, &end, seen, l, out, cut);
     nsvcd__cut_deviations(motion, lengths, l, out, cut);
   }
@@ -10370,8 +10376,9 @@ static uint64_t nsvcd__meet_in(const nsvcd__chords *chords, uint64_t wanted,
 // In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
 // search is cut into *intervals*, each of which is searched anew with segments of its own: else
 // segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
-// interval begins at a knot. It has as many arcs as there is room for, a segment each, or several
-// where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is easy.
+// interval begins at a keyframe. It has as many arcs as there is room for, a segment each, or
+// several where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is
+// easy.
 
 // Bounds of the total length of a track's rotation arcs, radians, and of the longest.
 static void nsvcd__measure_turn(const nsvcd__track *track, float *turn, float *widest) {
@@ -10491,7 +10498,7 @@ static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *sear
     const uint32_t from = search->begin[segments];
     uint32_t to = from;
     for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
-      to = nsvcd__next_knot(motion, to);
+      to = nsvcd__next_keyframe(motion, to);
     const float turn = nsvcd__turn_within(&motion->moving, from, to) +
                        nsvcd__turn_within(&motion->fixed, from, to);
     const float steps = ceilf(turn / step - 0.1f);
@@ -10527,8 +10534,8 @@ static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
 }
 
 #ifndef NSVCD_NO_PROOF
-// No more knots than this come after a tick.
-static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
+// No more keyframes than this come after a tick.
+static size_t nsvcd__keyframes_after(const nsvcd__motion *motion, uint32_t tick) {
   const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
   const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
   return moving + fixed;
@@ -10539,7 +10546,7 @@ static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
 static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
                                    uint32_t arcs) {
   const size_t most = search->most_segments;
-  const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
+  const size_t left = (nsvcd__keyframes_after(motion, from) + most - 1) / most;
   motion->from = from;
   motion->arcs = arcs < left ? arcs : (uint32_t)left;
   nsvcd__choose_segments(motion, search);
@@ -10548,10 +10555,10 @@ static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search,
 // Is a motion too long for one search? The segments of one that is not are chosen.
 static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
   const size_t most = search->most_segments;
-  const size_t knots = nsvcd__knots_after(motion, 0);
-  if (knots <= most) {
+  const size_t keyframes = nsvcd__keyframes_after(motion, 0);
+  if (keyframes <= most) {
     nsvcd__choose_all(motion, search);
-    if (knots < 2 || search->segments < most) return 0;
+    if (keyframes < 2 || search->segments < most) return 0;
   }
   nsvcd__choose_interval(motion, search, 0, 1);
   if (search->begin[search->segments] < motion->ticks) return 1;
@@ -10581,8 +10588,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uin
 #endif
 
 #ifndef NSVCD_NO_NETWORK
-static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                           nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+                                              nsvcd__search *search) {
   nsvcd__choose_all(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
 }
@@ -10592,11 +10599,11 @@ static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
 
 // ------------------------------------------------------------------------------------ search/apart
 // In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
-// plane parts from it all the time, by the hulls of their tips.
+// plane separates from it all the time, by the hulls of their tips.
 //
 // Planes are tried along the resting patch's normal, the moving patches', both together, the lines
-// between the centres, and the last few that parted others of the same query: what stands on a
-// table is parted from all of it by one plane, whole groups at a time. The tips go on chords, as
+// between the centres, and the last few that separated others of the same query: what stands on a
+// table is separated from all of it by one plane, whole groups at a time. The tips go on chords, as
 // centres do, and what points stray from theirs is allowed for. But tips are not all of a patch, so
 // that this is no proof: where a greater recall is asked for, patches swell before.
 
@@ -10654,8 +10661,8 @@ NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *
 }
 
 // Lanes in which a plane across u parts both, on either side.
-NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
-                                           nsvcd__v3 u) {
+NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
+                                              const nsvcd__resting *rest, nsvcd__v3 u) {
   const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
@@ -10679,7 +10686,7 @@ NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd_
   return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
 }
 
-// ---- planes that parted others
+// ---- planes that separated others
 
 // What 16 patches reach along a plane's normal.
 typedef struct nsvcd__ranges {
@@ -10689,9 +10696,9 @@ typedef struct nsvcd__ranges {
 // planes that are remembered
 #define NSVCD__PLANES 2
 
-// Planes that parted others, and a pair of groups along them: the moving one in one segment.
-typedef struct nsvcd__sheets {
-  // normals; how many were found, of which the last ones are kept; the one that parted last
+// Planes that separated others, and a pair of groups along them: the moving one in one segment.
+typedef struct nsvcd__plane_cache {
+  // normals; how many were found, of which the last ones are kept; the one that separated last
   nsvcd__f3 planes[NSVCD__PLANES];
   uint32_t found, best;
   float swell;  // of patches, shares of their radii
@@ -10699,20 +10706,20 @@ typedef struct nsvcd__sheets {
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
-} nsvcd__sheets;
+} nsvcd__plane_cache;
 
 // Begins the search of a motion.
-static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
-  search->sheets->found = search->sheets->best = 0;
-  search->sheets->swell = swell;
+static void nsvcd__plane_cache_begin(nsvcd__search *search, float swell) {
+  search->cache->found = search->cache->best = 0;
+  search->cache->swell = swell;
   // patches whose balls meet are then no farther apart than that
-  search->sheets->unasked = swell >= 1;
+  search->cache->unasked = swell >= 1;
   search->balls_met = 0;
 }
 
 // share: of their radii, by which they swell.
 static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 normal,
-                                  float share, nsvcd__ranges *out) {
+                                  float fraction, nsvcd__ranges *out) {
   const nsvcd__spheres patches =
       nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * h);
   const nsvcd__v3 u = nsvcd__v3_set(normal);
@@ -10722,7 +10729,7 @@ static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 no
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
     nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * share);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * fraction);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
     nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
   }
@@ -10758,7 +10765,7 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->sheets->swell);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->cache->swell);
     const nsvcd__v off = nsvcd__v_plus(swell, stray);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
@@ -10767,26 +10774,25 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 
 // Fills in the ranges along plane n of group h of the fixed body.
 static void nsvcd__resting_know(const nsvcd__search *search, size_t h, size_t n) {
-  nsvcd__sheets *sheets = search->sheets;
-  if (sheets->resting_known >> n & 1) return;
-  nsvcd__resting_ranges(search->fixed, h, sheets->planes[n], sheets->swell,
-                        &sheets->resting[n]);
-  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
+  nsvcd__plane_cache *cache = search->cache;
+  if (cache->resting_known >> n & 1) return;
+  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->swell, &cache->resting[n]);
+  cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
 }
 
 // The same, and those of moving group g in segment s.
-static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                               size_t n, float stray) {
-  nsvcd__sheets *sheets = search->sheets;
-  const nsvcd__f3 normal = sheets->planes[n];
+static void nsvcd__plane_cache_knows(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                                     size_t n, float stray) {
+  nsvcd__plane_cache *cache = search->cache;
+  const nsvcd__f3 normal = cache->planes[n];
   nsvcd__resting_know(search, h, n);
-  if (!(sheets->moving_known >> n & 1))
-    nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
-  sheets->moving_known = (uint16_t)(sheets->moving_known | 1u << n);
+  if (!(cache->moving_known >> n & 1))
+    nsvcd__moving_ranges(search, g, s, stray, normal, &cache->moving[n]);
+  cache->moving_known = (uint16_t)(cache->moving_known | 1u << n);
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
-  const size_t found = search->sheets->found;
+  const size_t found = search->cache->found;
   return found < NSVCD__PLANES ? found : NSVCD__PLANES;
 }
 
@@ -10798,25 +10804,25 @@ static float nsvcd__least_lane(const float *lanes, float sign) {
   return nsvcd__v_least(least);
 }
 
-// Of the segments `wanted`, those in which the plane that parted last does not part the ball of a
-// moving group, whose chords these are, from all of group h of the fixed body.
+// Of the segments `wanted`, those in which the plane that separated last does not separate the ball
+// of a moving group, whose chords these are, from all of group h of the fixed body.
 static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
                                          uint64_t wanted) {
-  nsvcd__sheets *sheets = search->sheets;
-  const size_t n = sheets->best;
+  nsvcd__plane_cache *cache = search->cache;
+  const size_t n = cache->best;
   uint64_t parted = 0;
   if (n >= nsvcd__planes_known(search)) return wanted;
   nsvcd__resting_know(search, h, n);
-  const nsvcd__ranges *resting = &sheets->resting[n];
+  const nsvcd__ranges *resting = &cache->resting[n];
   const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
   const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
-  const nsvcd__v3 u = nsvcd__v3_set(sheets->planes[n]);
+  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
   for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
       const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), start);
-      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + sheets->swell);
+      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + cache->swell);
       const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
       const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
@@ -10826,17 +10832,17 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
   return wanted & ~parted;
 }
 
-// Of the members `bits` of group h of the fixed body, those that the same plane does not part from
-// all of moving group g, in segment s.
+// Of the members `bits` of group h of the fixed body, those that the same plane does not separate
+// from all of moving group g, in segment s.
 static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, size_t s,
                                         size_t h, float stray, uint32_t bits) {
-  nsvcd__sheets *sheets = search->sheets;
-  const size_t n = sheets->best;
+  nsvcd__plane_cache *cache = search->cache;
+  const size_t n = cache->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__sheets_know(search, g, s, h, n, stray);
-  const nsvcd__ranges *resting = &sheets->resting[n];
-  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(sheets->moving[n].low, 1));
-  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(sheets->moving[n].high, -1));
+  nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+  const nsvcd__ranges *resting = &cache->resting[n];
+  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(cache->moving[n].low, 1));
+  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(cache->moving[n].high, -1));
   NSVCD__EACH_SLICE(l) {
     bits &= ~(nsvcd__v_lt(high, nsvcd__v_load(resting->low + l)) << l);
     bits &= ~(nsvcd__v_lt(nsvcd__v_load(resting->high + l), low) << l);
@@ -10846,23 +10852,23 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
 
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
-static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                        size_t k, float stray, uint32_t met) {
-  nsvcd__sheets *sheets = search->sheets;
+static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                           size_t k, float stray, uint32_t met) {
+  nsvcd__plane_cache *cache = search->cache;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
-    // the one that parted last, first
-    const size_t n = (sheets->best + m) % planes;
-    nsvcd__sheets_know(search, g, s, h, n, stray);
-    const nsvcd__ranges *moving = &sheets->moving[n];
-    const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
-    const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
+    // the one that separated last, first
+    const size_t n = (cache->best + m) % planes;
+    nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+    const nsvcd__ranges *moving = &cache->moving[n];
+    const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
+    const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
     uint32_t parted = 0;
     NSVCD__EACH_SLICE(l) {
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) sheets->best = (uint32_t)n;
+    if (met & parted) cache->best = (uint32_t)n;
     met &= ~parted;
   }
   return met;
@@ -10879,8 +10885,8 @@ enum {
 };
 
 // Fills in how the moving body is turned in segment s.
-static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
-                                              nsvcd__passing *p) {
+static NSVCD__NOINLINE void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
+                                                 nsvcd__passing *p) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
@@ -10891,9 +10897,10 @@ static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_
 
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
-static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
-                                                    size_t j, float stray, uint32_t met) {
-  nsvcd__sheets *sheets = search->sheets;
+static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search, size_t g,
+                                                          size_t s, size_t j, float stray,
+                                                          uint32_t met) {
+  nsvcd__plane_cache *cache = search->cache;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
@@ -10910,8 +10917,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * sheets->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * sheets->swell);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * cache->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * cache->swell);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
@@ -10924,7 +10931,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
             nsvcd__v3_unit(nsvcd__v3_add(before, nsvcd__vmat3_apply(p.end, area)));
         u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
       }
-      const uint32_t here = nsvcd__parted_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
+      const uint32_t here =
+          nsvcd__separated_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
       if (here && !parted) {
         float lanes[3 * NSVCD__SLICE];
         nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
@@ -10934,10 +10942,10 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
     }
     met &= ~parted;
     if (!parted) continue;
-    const size_t oldest = sheets->found++ % NSVCD__PLANES;
-    sheets->planes[oldest] = plane;
-    sheets->moving_known = (uint16_t)(sheets->moving_known & ~(1u << oldest));
-    sheets->resting_known = (uint16_t)(sheets->resting_known & ~(1u << oldest));
+    const size_t oldest = cache->found++ % NSVCD__PLANES;
+    cache->planes[oldest] = plane;
+    cache->moving_known = (uint16_t)(cache->moving_known & ~(1u << oldest));
+    cache->resting_known = (uint16_t)(cache->resting_known & ~(1u << oldest));
   }
   return met;
 }
@@ -10950,12 +10958,12 @@ static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, s
                                     uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
-  if (search->sheets->unasked) return met;
-  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met);
+  if (search->cache->unasked) return met;
+  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, stray, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh);
+  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, stray, fresh);
 }
 #endif  // NSVCD_NO_NETWORK
 
@@ -11019,10 +11027,10 @@ typedef struct nsvcd__intervals {
 } nsvcd__intervals;
 
 // The time at a share of segment s: at 1 that of its end, to the bit.
-static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
+static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float fraction) {
   const float start = search->time[s];
   const float end = search->time[s + 1];
-  return share < 1 ? start + share * (end - start) : end;
+  return fraction < 1 ? start + fraction * (end - start) : end;
 }
 
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
@@ -11052,13 +11060,13 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
   const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
   const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
-  const nsvcd__v share = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
+  const nsvcd__v fraction = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
   nsvcd__v_store(first, intervals->first);
   nsvcd__v_store(least_segment, intervals->least_segment);
   nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
   nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
   nsvcd__v_store(least, intervals->least);
-  nsvcd__v_store(depth, nsvcd__v_sub(one, share));
+  nsvcd__v_store(depth, nsvcd__v_sub(one, fraction));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     nsvcd__candidate candidate;
@@ -11101,10 +11109,10 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
 // segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
-static NSVCD__APART void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
-                                                    size_t j, uint64_t wanted,
-                                                    const uint16_t *all_met, uint64_t cuts,
-                                                    nsvcd__candidates *kept) {
+static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+                                                       size_t j, uint64_t wanted,
+                                                       const uint16_t *all_met, uint64_t cuts,
+                                                       nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);
@@ -11500,8 +11508,8 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   const size_t stride = search->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
-  nsvcd__sheets *sheets = search->sheets;
-  sheets->resting_known = 0;
+  nsvcd__plane_cache *cache = search->cache;
+  cache->resting_known = 0;
   wanted = nsvcd__unparted_segments(search, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
@@ -11510,7 +11518,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
-    sheets->moving_known = 0;
+    cache->moving_known = 0;
     bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
@@ -11548,7 +11556,7 @@ static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
 
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
-static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
+static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
   nsvcd__search_pair(search, kept);
   search->waiting &= ~((uint32_t)1 << search->at);
   if (search->waiting)
@@ -11593,21 +11601,21 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
 // come as near as their extents and the clearance together need none of this: nsvcd__prove.
 //   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
-//      to part each patch of one body from each of the other, at all times.
+//      to separate each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
-//      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
-//      item is parted by one of the steps below, or the verdict is not FREE.
+//      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
+//      pair is separated by one of the steps below, or the verdict is not FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
 //      point x of the moving body (body frame) leaves the chord between its places at the ends by
-//      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
+//      no more than nsvcd__deviation_of along any direction: that is the bulge of motion/segments,
 //      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
 //      nothing along the axis). A plane that has the moving side's places at both ends on one side,
 //      by more than that and the clearance, has their chords there too, for a chord is convex, and
 //      so all places between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
 //      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
-//      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
-//      all triangles of its pieces, whole or in parts.
+//      of its first vertices. Triangles: a plane for a triangle pair, two listed triangles. A patch
+//      lists all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
 //      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
@@ -11642,16 +11650,17 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // the other triangle at one time and on the other at another, and within its edges all the while,
 // has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
 // triangles come closer than NSVCD__TOO_NEAR and the tolerance without meeting, or the limit of
-// work was reached. After such a doubt only a contact can still decide, and flat on flat there are
-// as many doubts as triangles: so a share of the limit is all that is left then, more than a yes or
-// no takes on any problem of the sets.
+// work was reached. After such an unresolved pair only a contact can still decide, and flat on flat
+// there are as many unresolved pairs as triangles: so a share of the limit is all that is left
+// then, more than a yes or no takes on any problem of the sets.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
-// Segments are searched some at a time, in their order, so that what is found first is early. Once
-// the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where there is not work enough for that, what is left goes to what is proven soonest: part after
-// part of the motion, the first a short one, from where nothing is settled on.
+// before it matters from then on, and is proven free, or gives an earlier contact, or is
+// unresolved. Segments are searched some at a time, in their order, so that what is found first is
+// early. Once the share that an unresolved pair leaves is spent, the unresolved pair is the end,
+// and what is before it is proven. Where there is not work enough for that, what is left goes to
+// what is proven soonest: part after part of the motion, the first a short one, from where nothing
+// is resolved on.
 //
 // THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
 // depends on the units that were taken, not on those that are allowed. So a higher limit never
@@ -11660,45 +11669,47 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 //
 // THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
 // lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
-// found nearer than that, it becomes their distance less `measure`. What has been parted stays
-// parted, by more than that. So both are one search whose question shrinks, and in the end all of
-// the motion that matters is proven free at the clearance that matters.
+// found nearer than that, it becomes their distance less `measure`. What has been separated stays
+// separated, by more than that. So both are one search whose question shrinks, and in the end all
+// of the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a couple at one time, a ray against 16 triangles or one. Spheres, discs
-// and planes that held before are not counted. A query stops within one patch's listings, or one
-// ray, of its limit: nsvcd__is_spent.
+// of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
+// discs and planes that held before are not counted. A query stops within one patch's listings, or
+// one ray, of its limit: nsvcd__is_exhausted.
 
 #ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it.
-// The search hands over items as it finds them.
-#define NSVCD__FRESH 48  // room for items on which nothing has been tried
+// The search hands over patch pairs as it finds them.
+#define NSVCD__FRESH 48  // room for patch pairs on which nothing has been tried
 #define NSVCD__NEWS 8    // of them are worth a look before the search goes on
-// A look: planes and witnesses, the deepest item first.
-#define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
+// A look: planes and witnesses, the deepest patch pair first.
+#define NSVCD__DEEP 0.2f       // patch pairs as deep: a witness is sought before any plane
 #define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
 #define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
 #define NSVCD__DESPAIR 128  // and before none is looked for, if all that is asked is yes or no
 #define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
-// What no plane parts is settled by its triangles, arc by arc.
-#define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
-#define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
-// Parts that couples ask for, before the span is halved for all, if it is longer than this share of
-// an arc.
+// What no plane separates is resolved by its triangles, arc by arc.
+#define NSVCD__PATCH_PAIRS \
+  256                    // room for such patch pairs; when it is full they are resolved first
+#define NSVCD__WINDOW 8  // blocks of a resting patch, loaded at once
+// Parts that triangle pairs ask for, before the span is halved for all, if it is longer than this
+// share of an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 // Triangle pairs that one plane separates, one after the other, for each time that it is tried on
 // all of two patches.
 #define NSVCD__SHARED 4
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
-#define NSVCD__HALVINGS 40       // of a span for one couple
+#define NSVCD__HALVINGS 40       // of a span for one triangle pair
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__TOO_NEAR \
-  1e-9                     // of all lengths: it is not worth halving for a distance as short
-#define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
-#define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
+  1e-9  // of all lengths: it is not worth halving for a distance as short
+#define NSVCD__AFTER_UNRESOLVED \
+  8  // the share of the limit, 1 / this, that goes on after an unresolved pair
+#define NSVCD__AFTER_FIRST_UNRESOLVED 3000  // units that do, where the first contact is sought
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
 // find triangles that meet where one is within the other
@@ -11716,47 +11727,48 @@ static void nsvcd__candidates_start(nsvcd__candidates *kept, nsvcd__candidate *i
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
 // and units that a part may take besides eight times those of the part before.
 #define NSVCD__FIRST_PART 0.0625
-#define NSVCD__PART 250
+#define NSVCD__PART_BUDGET 250
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 16   // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
-#define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
-#define NSVCD__AROUND 8       // directions along which contact points are sought,
-#define NSVCD__SUPPORTS 10    // and two across what these span,
-#define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
-#define NSVCD__HOLDS 64       // items that are looked at for them
-#define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
-#define NSVCD__NEVER 1e300    // ticks
+#define NSVCD__LEAST_EPSILON \
+  1.2e-7                    // of all lengths: as short as what is told in float can tell
+#define NSVCD__EPSILONS 3   // epsilons: so far before a contact a safe place is
+#define NSVCD__AROUND 8     // directions along which contact points are sought,
+#define NSVCD__SUPPORTS 10  // and two across what these span,
+#define NSVCD__SLIM 0.3     // if that is less than this times its length squared; and
+#define NSVCD__HOLDS 64     // patch pairs that are looked at for them
+#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300  // ticks
 
-typedef struct nsvcd__item {
+typedef struct nsvcd__patch_pair {
   uint16_t moving, fixed, segment;
   uint16_t sought;  // 1: a witness has been looked for
   // 1 - least distance of the centres / (r1 + r2)
   float depth;
   // of the segment, gone by at that time
-  float share;
-} nsvcd__item;
+  float fraction;
+} nsvcd__patch_pair;
 
 // How a body turns over an arc.
-typedef struct nsvcd__leg {
+typedef struct nsvcd__slerp {
   // at its poses before and after: unit, on the shorter side
   nsvcd__dquat start, end;
   double half_angle;  // between them as quaternions: half the angle of the turn
   // where between these poses the arc begins, and how much of the way it lasts
-  double from, share;
-} nsvcd__leg;
+  double from, fraction;
+} nsvcd__slerp;
 
-// The motion between two knots, in double and in the fixed body's units.
+// The motion between two keyframes, in double and in the fixed body's units.
 typedef struct nsvcd__arc {
   // when it begins, and how long it lasts; no ticks: none
   uint32_t first, ticks;
   int fixed_moves;
   // of the moving body
   double scale;
-  nsvcd__leg moving;  // as the fixed body sees it; where that moves, in the world, and so is
-  nsvcd__leg fixed;   // the fixed body's own
+  nsvcd__slerp moving;  // as the fixed body sees it; where that moves, in the world, and so is
+  nsvcd__slerp fixed;   // the fixed body's own
   // from the fixed body's origin to the moving one's, and how it changes; in the same axes
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
@@ -11773,10 +11785,10 @@ typedef struct nsvcd__arc {
 } nsvcd__arc;
 
 // A pose in double.
-typedef struct nsvcd__placement {
+typedef struct nsvcd__dtransform {
   nsvcd__dmat3 rotation;
   nsvcd__d3 position;
-} nsvcd__placement;
+} nsvcd__dtransform;
 
 // A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
 // metres from its origin is off the chord between its places at both ends by no more than drift +
@@ -11798,7 +11810,7 @@ typedef struct nsvcd__block {
   size_t first, count;  // listings
 } nsvcd__block;
 
-typedef struct nsvcd__contact {
+typedef struct nsvcd__pair_contact {
   double tick;      // when
   double distance;  // of the triangles
   // the fixed body's frame; out of the fixed body
@@ -11806,7 +11818,7 @@ typedef struct nsvcd__contact {
   uint32_t moving_triangle, fixed_triangle;
   uint32_t moving_listing, fixed_listing;
   uint16_t moving_patch, fixed_patch;
-} nsvcd__contact;
+} nsvcd__pair_contact;
 
 // How the moving body goes, as the fixed one sees it: a point x by `along` and turn x x in a tick.
 typedef struct nsvcd__twist {
@@ -11830,33 +11842,33 @@ typedef struct nsvcd__manifold {
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
-  nsvcd__contact supports[NSVCD__SUPPORTS];
+  nsvcd__pair_contact supports[NSVCD__SUPPORTS];
   double farthest[NSVCD__SUPPORTS];
   uint32_t numbers[NSVCD__SUPPORTS];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
 // rest, all are gathered, as touches or as supports.
-typedef enum nsvcd__gathering {
+typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
   NSVCD__SUPPORTING
-} nsvcd__gathering;
+} nsvcd__collecting;
 
 // What is said of a question in the end.
-typedef enum nsvcd__verdict {
-  NSVCD__FREE,
-  NSVCD__MEETS,
-  NSVCD__WITHIN,
-  NSVCD__UNDECIDED
-} nsvcd__verdict;
+typedef enum nsvcd__finding {
+  NSVCD__FOUND_FREE,
+  NSVCD__FOUND_CONTACT,
+  NSVCD__FOUND_INSIDE,
+  NSVCD__FOUND_NEITHER
+} nsvcd__finding;
 
 // What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
 typedef enum nsvcd__outcome {
-  // parted, or kept as a doubt, or no longer asked about
-  NSVCD__SETTLED,
+  // separated, or kept as an unresolved pair, or no longer asked about
+  NSVCD__RESOLVED,
   // the same of all triangles of both patches
-  NSVCD__ALL_SETTLED,
+  NSVCD__ALL_RESOLVED,
   // where a contact was looked for, there is none
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -11866,14 +11878,14 @@ typedef enum nsvcd__outcome {
   // the stretch is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
-  NSVCD__SPENT
+  NSVCD__EXHAUSTED
 } nsvcd__outcome;
 
 // A pose that has been computed.
 typedef struct nsvcd__placed {
   uint32_t arc, ticks;  // as the arc has them
   double u;
-  nsvcd__placement placement;
+  nsvcd__dtransform transform;
 } nsvcd__placed;
 
 // A patch's height over a plane, of a moving patch in a segment.
@@ -11893,13 +11905,13 @@ typedef struct nsvcd__given {
   double round;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
-  double share, width;
+  double fraction, width;
   // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
   double to;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken, and each interval of a long motion may, if it grows; and what is
-  // beside the question, a doubt above all, may take of them
+  // beside the question, an unresolved pair above all, may take of them
   size_t work, aside;
   int grows;
 } nsvcd__given;
@@ -11912,16 +11924,17 @@ typedef struct nsvcd__asked {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
-  // nor does what begins with the first doubt
-  int doubts_end;
+  // nor does what begins with the first unresolved pair
+  int unresolved_ends;
   double clearance, measure;
   // a share of the motion, and as ticks
-  double share, first;
-  // units: how many may have been taken, and in the end; and how many go on after a doubt
-  size_t limit, most, in_doubt;
+  double fraction, first;
+  // units: how many may have been taken, and in the end; and how many go on after an unresolved
+  // pair
+  size_t limit, most, after_unresolved;
   // a try: there is a longer one after it
   int is_brief;
-  nsvcd__gathering gathers;
+  nsvcd__collecting collects;
   // how deep touches may be
   double skin;
 } nsvcd__asked;
@@ -11929,13 +11942,13 @@ typedef struct nsvcd__asked {
 // What is known, of a motion.
 typedef struct nsvcd__known {
   int has_contact;
-  nsvcd__contact found;
-  // ticks: when the first doubt begins, two triangles too near to tell; and these
-  double unsure;
-  nsvcd__contact doubt;
-  // the work allowed was not enough: all from `settled` on, ticks, is undecided
+  nsvcd__pair_contact found;
+  // ticks: when the first unresolved pair begins, two triangles too near to tell; and these
+  double unresolved;
+  nsvcd__pair_contact unresolved_pair;
+  // the work allowed was not enough: all from `resolved` on, ticks, is undecided
   int lost;
-  double settled;
+  double resolved;
 } nsvcd__known;
 
 // What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
@@ -11951,8 +11964,8 @@ typedef struct nsvcd__memo {
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
-  // unit: of the plane that parted a couple last
-  nsvcd__d3 parting;
+  // unit: of the plane that separated a triangle pair last
+  nsvcd__d3 separating;
   // how many triangle pairs it has separated after that, one after the other
   size_t shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
@@ -11966,7 +11979,7 @@ typedef struct nsvcd__proof {
   nsvcd__asked ask;
   nsvcd__known known;
   nsvcd__memo memo;
-  // the last one asked for, if it has ticks; items and couples are looked at within it
+  // the last one asked for, if it has ticks; patch pairs and triangle pairs are looked at within it
   nsvcd__arc arc;
   size_t work;
   // the least distance is known to be between these
@@ -12003,31 +12016,31 @@ typedef struct nsvcd__proof {
 
   // segments in which 16 resting patches are met
   uint64_t met_in[NSVCD__GROUP];
-  // Items: as the search finds them, and those that no plane parts over their segment; and looks
-  // for a witness that found none.
+  // Patch pairs: as the search finds them, and those that no plane separates over their segment;
+  // and looks for a witness that found none.
   size_t fresh_count, count, misses;
-  nsvcd__item fresh[NSVCD__FRESH];
+  nsvcd__patch_pair fresh[NSVCD__FRESH];
   union {
     struct {
-      nsvcd__item items[NSVCD__ITEMS];
+      nsvcd__patch_pair items[NSVCD__PATCH_PAIRS];
       nsvcd__manifold manifold;
     } kept;
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
   } of;
 
-  // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
+  // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
   // blocks; corners of the moving block at the ends of a span.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   float posed[2][3][3][NSVCD__LANES];
 
-  // An item over an arc, and a couple: later ends of the parts to come, the last one first; and how
-  // many parts of the span its couples asked for.
+  // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
+  // first; and how many parts of the span its triangle pairs asked for.
   nsvcd__span span;
   double arc_ends[NSVCD__ARC_PARTS];
-  double couple_ends[NSVCD__HALVINGS + 2];
+  double pair_ends[NSVCD__HALVINGS + 2];
   size_t parts;
   // how often a plane has been tried on all of both patches
   size_t all_tried;
@@ -12043,7 +12056,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->spans = 0;
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
-  memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->separating = nsvcd__d3_of(0, 0, 0);
   memo->shared = 0;
   memo->window = 0;
   memo->has_block = 0;
@@ -12063,16 +12076,16 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->ask.most - p->given.aside;
 }
 
-// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
-// contacts after it may be: then the doubt becomes the end here, and what comes before it can be
-// proven.
-static int nsvcd__is_spent(nsvcd__proof *p) {
+// Is all work done that is allowed? Where the first contact is sought, what an unresolved pair has
+// left for contacts after it may be: then the unresolved pair becomes the end here, and what comes
+// before it can be proven.
+static int nsvcd__is_exhausted(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
-  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
-      p->known.unsure < NSVCD__NEVER) {
-    ask->doubts_end = 1;
-    ask->end = nsvcd__min(ask->end, p->known.unsure);
-    const size_t left = (NSVCD__IN_DOUBT - 1) * p->given.aside;
+  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
+      p->known.unresolved < NSVCD__NEVER) {
+    ask->unresolved_ends = 1;
+    ask->end = nsvcd__min(ask->end, p->known.unresolved);
+    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.aside;
     ask->limit = nsvcd__limit_of_first(p);
     if (p->work + left < ask->limit) ask->limit = p->work + left;
   }
@@ -12097,16 +12110,16 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // How far points of the moving body are, in its own units, as bulges have it: none is farther from
 // its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
-typedef struct nsvcd__lever {
+typedef struct nsvcd__arm {
   float reach, radial;
-} nsvcd__lever;
+} nsvcd__arm;
 
 // Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
-static nsvcd__lever nsvcd__lever_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
   const float distance = nsvcd__f3_length(centre);
   const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
-  const nsvcd__lever out = {1.000001f * (distance + radius),
-                            1.000001f * (aside + radius) + 1e-6f * distance};
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
   return out;
 }
 
@@ -12132,33 +12145,33 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
 // The rotation a share u in [0,1] of the arc later than its start; unit.
-static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
-  const double way = leg->from + leg->share * u;
+static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
+  const double way = slerp->from + slerp->fraction * u;
   double before = 1 - way;
   double after = way;
   // below, the difference is less than rounding
-  if (leg->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - way) * leg->half_angle);
-    after = nsvcd__sin(way * leg->half_angle);
+  if (slerp->half_angle > 1e-7) {
+    before = nsvcd__sin((1 - way) * slerp->half_angle);
+    after = nsvcd__sin(way * slerp->half_angle);
   }
-  const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
+  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
+  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
-static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
-                            nsvcd__leg *leg, nsvcd__d3 *ends) {
+static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                              nsvcd__slerp *slerp, nsvcd__d3 *ends) {
   if (track->count == 1) {
-    leg->start = nsvcd__unit_rotation(track->poses);
-    leg->end = leg->start;
-    leg->half_angle = 0;
-    leg->from = 0;
-    leg->share = 1;
+    slerp->start = nsvcd__unit_rotation(track->poses);
+    slerp->end = slerp->start;
+    slerp->half_angle = 0;
+    slerp->from = 0;
+    slerp->fraction = 1;
     ends[0] = nsvcd__d3_load(track->poses->position);
     ends[1] = ends[0];
     return;
@@ -12168,39 +12181,40 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const nsvcd_pose *b = a + 1;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  leg->share = (double)ticks * per_tick;
-  leg->from = (double)(first - begin) * per_tick;
+  slerp->fraction = (double)ticks * per_tick;
+  slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
   const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from + slerp->fraction));
 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
-  leg->start = nsvcd__unit_rotation(a);
-  leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, leg->end, leg->start);
+  slerp->start = nsvcd__unit_rotation(a);
+  slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
   const double apart = nsvcd__dquat_dot(difference, difference);
-  const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
   const double together = nsvcd__dquat_dot(sum, sum);
-  leg->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
+  slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
 // The rotation vector of a leg, over its arc.
-static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(leg->start);
-  const nsvcd__d3 v = nsvcd__dquat_axis(leg->end);
-  const nsvcd__d3 ahead = nsvcd__d3_scale(v, leg->start.w);
-  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, leg->end.w));
+static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
+  const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);
+  const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
+  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
   const double sine = nsvcd__d3_length(across);
-  return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
+  return nsvcd__d3_scale(across,
+                         sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
 }
 
-// The arc that begins at the knot `first`.
+// The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__motion *motion = p->ask.motion;
   nsvcd__arc *arc = &p->arc;
-  const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
+  const uint32_t ticks = nsvcd__next_keyframe(motion, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
   const double per_metre = 1 / (double)motion->unit;
@@ -12209,16 +12223,16 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = motion->ratio;
   arc->lift = nsvcd__d3_widen(motion->lift);
-  nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
-  nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
+  nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (arc->fixed_moves) {
     // what both bodies' turns do: see nsvcd__cut_double_arc
-    const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
-    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+    const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
     const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
     const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
     const double angle = nsvcd__d3_length(fixed_turn);
@@ -12227,8 +12241,8 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
     const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, 0));
-    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__leg_at(&arc->moving, 0));
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
     arc->twist = 0.1250001 * arc->scale * twist;
@@ -12245,11 +12259,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
   arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
   arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
-  arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
+  arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
   arc->speed = nsvcd__d3_length(arc->moved);
   arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
   arc->waver = arc->twist = arc->drift = 0;
@@ -12263,12 +12277,12 @@ static int nsvcd__is_straight(const nsvcd__arc *arc) {
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
 // rotation is times the moving body's scale.
-static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__leg_at(&arc->moving, u);
-  nsvcd__placement at;
+static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
+  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dtransform at;
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
-    const nsvcd__dquat fixed = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
     q = nsvcd__dquat_inverse_mul(fixed, q);
     at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
@@ -12281,16 +12295,16 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
 
 // How the moving body goes there. Where both turn, what the fixed one does is taken off.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
-  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
   nsvcd__twist out;
-  nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
   out.along = arc->moved;
   out.turn = turn;
   if (arc->fixed_moves) {
-    const nsvcd__dquat q = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dquat q = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
-    nsvcd__d3 own = nsvcd__leg_turn(&arc->fixed);
+    nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
     own = nsvcd__dmat3_apply_transpose(&fixed, own);
     turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
     out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
@@ -12306,9 +12320,9 @@ static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
 
-// The true pose in p->arc, remembered: couples ask for the same poses again.
+// The true pose in p->arc, remembered: triangle pairs ask for the same poses again.
 // The last two that were asked for stay where they are.
-static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
+static const nsvcd__dtransform *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
   const nsvcd__arc *arc = &p->arc;
   for (; n < NSVCD__PLACED; n++) {
@@ -12320,13 +12334,13 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
     p->memo.placed[n].arc = arc->first;
     p->memo.placed[n].ticks = arc->ticks;
     p->memo.placed[n].u = u;
-    p->memo.placed[n].placement = nsvcd__placement_at(arc, u);
+    p->memo.placed[n].transform = nsvcd__dtransform_at(arc, u);
   }
   if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->memo.placed[n].placement;
+  return &p->memo.placed[n].transform;
 }
 
-static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
+static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
   nsvcd__transform out;
   out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
   out.rotation.y = nsvcd__d3_narrow(at->rotation.y);
@@ -12358,12 +12372,12 @@ static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to
   uint32_t *begin = search->begin;
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  const double share = to - (double)last;
+  const double fraction = to - (double)last;
   double end = (double)begin[last];
-  if (share > 0) end += share * ((double)begin[last + 1] - end);
+  if (fraction > 0) end += fraction * ((double)begin[last + 1] - end);
   const double start = (double)begin[first];
   const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (share > 0);
+  search->segments = last - first + (fraction > 0);
   for (size_t s = 1; s < search->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
   begin[0] = (uint32_t)(finer * (start + into));
@@ -12405,11 +12419,11 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
   return &p->spans[s];
 }
 
-// The span from u0 to u1 of the arc that begins at the knot `first`.
+// The span from u0 to u1 of the arc that begins at the keyframe `first`.
 static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-  const nsvcd__placement start = nsvcd__placement_at(arc, u0);
-  const nsvcd__placement end = nsvcd__placement_at(arc, u1);
+  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
+  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__span span;
   span.start = nsvcd__transform_of(&start);
@@ -12437,10 +12451,10 @@ static nsvcd__f3 nsvcd__own_axis(const nsvcd__span *span) {
 }
 
 // Of a patch's pieces.
-static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
-                                       const nsvcd__span *span) {
+static nsvcd__arm nsvcd__patch_arm(const nsvcd__facets *f, size_t patch,
+                                   const nsvcd__span *span) {
   const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__lever_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
+  return nsvcd__arm_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
 }
 
 // What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
@@ -12448,9 +12462,9 @@ static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
 // a', the axis as the moving body has it, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
-  const float by_axis = span->bulge * lever.radial + span->bulge_along_axis * lever.reach;
-  return fminf(span->bulge * lever.reach, by_axis);
+static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__arm arm) {
+  const float by_axis = span->bulge * arm.radial + span->bulge_along_axis * arm.reach;
+  return fminf(span->bulge * arm.reach, by_axis);
 }
 
 // What the points of the moving body leave their chords by along a direction n, times its length,
@@ -12458,7 +12472,7 @@ static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
 // off by n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever lever) {
+static float nsvcd__deviation_of(const nsvcd__span *span, nsvcd__f3 n, nsvcd__arm arm) {
   const float along = fabsf(nsvcd__f3_dot(n, span->axis));
   const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
   const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
@@ -12466,8 +12480,8 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever
   const float by_axis = along * span->drift_along_axis + across * span->drift;
   const float by_way = along_way * span->drift + across_way * span->drift_off_way;
   const float drift = by_axis < by_way ? by_axis : by_way;
-  const float turn = along * span->bulge_along_axis * lever.reach;
-  return drift + turn + across * nsvcd__bulge_of(span, lever);
+  const float turn = along * span->bulge_along_axis * arm.reach;
+  return drift + turn + across * nsvcd__bulge_of(span, arm);
 }
 
 // The same for a slice of directions, or one direction in a slice of spans.
@@ -12518,7 +12532,8 @@ NSVCD__INLINE nsvcd__v nsvcd__v_deviation(const nsvcd__v_span *span, nsvcd__v3 n
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/discs
-// In: items, a slice at a time. Out: those that a plane along a disc's normal does not part.
+// In: patch pairs, a slice at a time. Out: those that a plane along a disc's normal does not
+// separate.
 
 #ifndef NSVCD_NO_PROOF
 // A slice of discs.
@@ -12593,11 +12608,11 @@ typedef struct nsvcd__v_approach {
   nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
-// Lanes in which planes part two bodies: the moving side is below, or above.
-typedef struct nsvcd__v_parted {
+// Lanes in which planes separate two bodies: the moving side is below, or above.
+typedef struct nsvcd__v_separated {
   nsvcd__v3 plane;  // its normal
   uint32_t below, above;
-} nsvcd__v_parted;
+} nsvcd__v_separated;
 
 // Along a plane's normal: what a moving point may be off by, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
@@ -12605,9 +12620,9 @@ NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane)
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
 }
 
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range moving,
-                                            nsvcd__v_range fixed, nsvcd__v off) {
-  nsvcd__v_parted out;
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
+                                                   nsvcd__v_range fixed, nsvcd__v off) {
+  nsvcd__v_separated out;
   out.plane = plane;
   out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
   out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
@@ -12615,7 +12630,7 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range movi
 }
 
 // By planes normal to the resting discs.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a) {
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, a->at_start);
@@ -12627,12 +12642,12 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a)
       nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   moving.high =
       nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_part(plane, moving, fixed, a->fixed_off);
+  return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
 }
 
 // By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
 // angle with w: along it they are |w|^2, across it no more than |turned|.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a) {
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
@@ -12642,12 +12657,12 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a
   nsvcd__v_range moving;
   moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
   moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_part(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
+  return nsvcd__v_separate(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
 }
 
 #ifdef NSVCD__CERTIFIES
 // Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parted, size_t l,
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *parted, size_t l,
                                 const nsvcd__span *span) {
   float lanes[3][NSVCD__LANES];
   float normal[3];
@@ -12661,8 +12676,8 @@ static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parte
 // segment `first`.
 static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                   size_t h, size_t first, uint32_t apart,
-                                  const nsvcd__v_parted *by_fixed,
-                                  const nsvcd__v_parted *by_moving) {
+                                  const nsvcd__v_separated *by_fixed,
+                                  const nsvcd__v_separated *by_moving) {
   for (; apart; apart &= apart - 1) {
     const size_t l = nsvcd__low_bit(apart);
     const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
@@ -12689,9 +12704,10 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
   return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
 }
 
-// Lanes of `wanted` that are not parted: pairs of moving patches from the i-th on and patch j.
-static inline uint32_t nsvcd__not_parted(size_t i, size_t j, const nsvcd__span *span,
-                                         const nsvcd__v_parted *parted, uint32_t wanted) {
+// Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
+static inline uint32_t nsvcd__not_separated(size_t i, size_t j, const nsvcd__span *span,
+                                            const nsvcd__v_separated *parted,
+                                            uint32_t wanted) {
   const uint32_t apart = (parted->above | parted->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
     const size_t l = nsvcd__low_bit(k);
@@ -12727,8 +12743,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_way(c, l);
     a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
-    nsvcd__v_parted parted = nsvcd__v_part_by_fixed(&a);
-    wanted = nsvcd__not_parted(i, j, span, &parted, wanted);
+    nsvcd__v_separated parted = nsvcd__v_separate_by_fixed(&a);
+    wanted = nsvcd__not_separated(i, j, span, &parted, wanted);
     if (!wanted) continue;
     // rotations in a span are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
@@ -12736,8 +12752,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    parted = nsvcd__v_part_by_moving(&a);
-    left |= nsvcd__not_parted(i, j, span, &parted, wanted) << l;
+    parted = nsvcd__v_separate_by_moving(&a);
+    left |= nsvcd__not_separated(i, j, span, &parted, wanted) << l;
   }
   return left;
 }
@@ -12745,7 +12761,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
 // Clears the segments in which discs part the moving group that is searched, whose chords are in
 // search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
 // of single discs, with all in lanes but the discs.
-static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
+                                                   nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = search->order[search->step];
@@ -12786,8 +12803,8 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
       a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
-      const nsvcd__v_parted by_fixed = nsvcd__v_part_by_fixed(&a);
-      const nsvcd__v_parted by_moving = nsvcd__v_part_by_moving(&a);
+      const nsvcd__v_separated by_fixed = nsvcd__v_separate_by_fixed(&a);
+      const nsvcd__v_separated by_moving = nsvcd__v_separate_by_moving(&a);
       const uint32_t either =
           by_fixed.below | by_fixed.above | by_moving.below | by_moving.above;
       *met &= ~((uint64_t)(either & wanted) << first);
@@ -12799,7 +12816,7 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
 #endif  // NSVCD_NO_PROOF
 
 // ------------------------------------------------------------------------------------- proof/hulls
-// In: an item and a span. Out: is there a plane between the two hulls, over all of the span?
+// In: a patch pair and a span. Out: is there a plane between the two hulls, over all of the span?
 
 #ifndef NSVCD_NO_PROOF
 // Vertices first .. first + 15 of a patch, of which `count` are wanted: the slice of them that
@@ -12907,11 +12924,11 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
 // iteration (1966) from there towards the point nearest to 0 of the differences of the two hulls.
 // p->memo.held is the one that held.
 #define NSVCD__GUESSES 4
-static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                               const nsvcd__span *span) {
+static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+                                                  const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
   const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const nsvcd__lever lever = nsvcd__patch_lever(&p->moving, i, span);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, span);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
@@ -12937,15 +12954,16 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, lever)) {
+    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation_of(span, normal, arm)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(way, way);
-    const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
+    const float fraction =
+        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // these hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;
@@ -12954,18 +12972,18 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
 }
 #endif  // NSVCD_NO_PROOF
 
-// ----------------------------------------------------------------------------------- proof/couples
-// In: two triangles and a span. Out: parted, or in contact, or neither as long as it is halved.
+// ---------------------------------------------------------------------------- proof/triangle_pairs
+// In: two triangles and a span. Out: separated, or in contact, or neither as long as it is halved.
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
+static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
                                   nsvcd__d3 *out) {
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which listings may be
 // pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
-typedef struct nsvcd__couple {
+typedef struct nsvcd__triangle_pair {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
@@ -12976,73 +12994,72 @@ typedef struct nsvcd__couple {
   double rounding;
   // a part of the arc in which they come so near is not worth halving
   double close;
-} nsvcd__couple;
+} nsvcd__triangle_pair;
 
 // How far its moving triangle is from the origin and from the axis.
-static void nsvcd__couple_reaches(const nsvcd__arc *arc, nsvcd__couple *couple) {
-  couple->reach = couple->radial = 0;
+static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+  pair->reach = pair->radial = 0;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 corner = couple->moving[k];
+    const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    couple->reach = nsvcd__max(couple->reach, nsvcd__d3_length(corner));
-    couple->radial = nsvcd__max(couple->radial, nsvcd__d3_length(across));
+    pair->reach = nsvcd__max(pair->reach, nsvcd__d3_length(corner));
+    pair->radial = nsvcd__max(pair->radial, nsvcd__d3_length(across));
   }
-  couple->radial += (arc->waver + 1e-6) * couple->reach;
-  couple->radial = nsvcd__min(couple->radial, couple->reach);
+  pair->radial += (arc->waver + 1e-6) * pair->reach;
+  pair->radial = nsvcd__min(pair->radial, pair->reach);
 }
 
-static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                      size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
-  nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
-  nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
-  nsvcd__couple_reaches(&p->arc, &couple);
-  couple.rounding =
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
+  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+  nsvcd__pair_reaches(&p->arc, &pair);
+  pair.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  couple.slack = couple.rounding + nsvcd__off_meshes(p);
-  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
-  couple.close =
-      couple.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
-  return couple;
+  pair.slack = pair.rounding + nsvcd__off_meshes(p);
+  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  pair.close = pair.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
+  return pair;
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
-static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
 }
-static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
 }
 
 // What is said of two triangles a share u of the arc later than its start.
-static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
-                                        double u, const nsvcd__nearest *nearest) {
-  const nsvcd__d3 face = nsvcd__face_direction(couple->fixed);
+static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
+                                             const nsvcd__triangle_pair *pair, double u,
+                                             const nsvcd__nearest *nearest) {
+  const nsvcd__d3 face = nsvcd__face_direction(pair->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
-  const int touches = distance <= couple->rounding;
-  nsvcd__contact out;
+  const int touches = distance <= pair->rounding;
+  nsvcd__pair_contact out;
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
-      nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  out.fixed_triangle =
-      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
-  out.moving_listing = (uint32_t)couple->moving_listing;
-  out.fixed_listing = (uint32_t)couple->fixed_listing;
-  out.moving_patch = (uint16_t)couple->moving_patch;
-  out.fixed_patch = (uint16_t)couple->fixed_patch;
+      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
+  out.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
+  out.moving_listing = (uint32_t)pair->moving_listing;
+  out.fixed_listing = (uint32_t)pair->fixed_listing;
+  out.moving_patch = (uint16_t)pair->moving_patch;
+  out.fixed_patch = (uint16_t)pair->fixed_patch;
   return out;
 }
 
 // Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
 // that is an answer, SHRUNK if there may be a better one.
-static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
-  p->known.found = nsvcd__contact_at(p, couple, u, nearest);
+  p->known.found = nsvcd__contact_at(p, pair, u, nearest);
   if (p->ask.measure > 0) {
     p->high = p->known.found.distance;
     p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
@@ -13056,21 +13073,22 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
-                                           double u0, double u1) {
+static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
+                                                   const nsvcd__triangle_pair *pair, double u0,
+                                                   double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
-  const size_t left = p->ask.in_doubt;
+  const size_t left = p->ask.after_unresolved;
   // a try is short, whatever it finds
-  const int is_first = !(p->known.unsure < NSVCD__NEVER) && !p->ask.is_brief;
+  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
-  if (!(tick < p->known.unsure)) return;
-  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
-  p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
-  p->known.unsure = tick;
-  if (p->ask.doubts_end) p->ask.end = nsvcd__min(p->ask.end, tick);
+  if (!(tick < p->known.unresolved)) return;
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
+  p->known.unresolved = tick;
+  if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -13078,36 +13096,36 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// By how much the points of a couple's moving triangle are off their chords along a unit direction
-// n, at most, over all of the arc; over a share of it by the square of that share. A point at r
-// metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a| + twist r
-// + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
-static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__couple *couple,
+// By how much the points of a triangle pair's moving triangle are off their chords along a unit
+// direction n, at most, over all of the arc; over a share of it by the square of that share. A
+// point at r metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a|
+// + twist r + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
-  const double turn = arc->bulge * couple->radial * off_axis;
-  return turn + arc->twist * couple->reach + arc->drift;
+  const double turn = arc->bulge * pair->radial * off_axis;
+  return turn + arc->twist * pair->reach + arc->drift;
 }
 
-// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
-static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                              double u1, nsvcd__d3 normal) {
+// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                                  double u1, nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
-  const nsvcd__placement *start = nsvcd__placed_at(p, u0);
-  const nsvcd__placement *end = nsvcd__placed_at(p, u1);
+  const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
+  const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, couple, normal);
+  const double off = nsvcd__off_chord_along(arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + couple->slack + deviation;
+  return lowest - highest > p->ask.clearance + pair->slack + deviation;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -13141,7 +13159,7 @@ static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
                             margin * nsvcd__d3_length(n1));
 }
 
-// A couple at three times: the moving triangle's corners.
+// A triangle pair at three times: the moving triangle's corners.
 typedef struct nsvcd__passage {
   nsvcd__d3 corners[3][3];
   // no point of it moves farther between these times, seen from the fixed one
@@ -13177,17 +13195,17 @@ static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a couple met between u0 and u1 of the arc, at that speed, since a corner has passed through
-// the other triangle, or an edge through an edge? That is how faces meet which are parallel then:
-// at no single time can it be seen in rounded numbers.
-static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                                double u1, double speed) {
-  const nsvcd__d3 *fixed = couple->fixed;
-  const double margin = couple->rounding;
+// Has a triangle pair met between u0 and u1 of the arc, at that speed, since a corner has passed
+// through the other triangle, or an edge through an edge? That is how faces meet which are parallel
+// then: at no single time can it be seen in rounded numbers.
+static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                              double u1, double speed) {
+  const nsvcd__d3 *fixed = pair->fixed;
+  const double margin = pair->rounding;
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__passage passage;
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), couple->moving, passage.corners[n]);
+    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), pair->moving, passage.corners[n]);
   const nsvcd__d3 *start = passage.corners[0];
   const nsvcd__d3 *middle = passage.corners[1];
   const nsvcd__d3 *end = passage.corners[2];
@@ -13205,25 +13223,26 @@ static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, do
   return 0;
 }
 
-static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple,
-                                  double u0, double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.parting);
+static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
+                                         const nsvcd__triangle_pair *pair, double u0,
+                                         double u1) {
+  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
   const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
-                 couple->moving_listing, couple->fixed_listing, nsvcd__time_in_arc(p, u0),
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_listing, pair->fixed_listing, nsvcd__time_in_arc(p, u0),
                  nsvcd__time_in_arc(p, u1), normal);
-  (void)couple;
+  (void)pair;
   (void)normal;
   (void)u0;
   (void)u1;
 }
 
-// A share u of the arc later than its start: the nearest points of a couple.
-static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
-                                            double u) {
+// A share u of the arc later than its start: the nearest points of a triangle pair.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
-  return nsvcd__nearest_of(posed, couple->fixed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
+  return nsvcd__nearest_of(posed, pair->fixed);
 }
 
 // How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
@@ -13254,22 +13273,23 @@ static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
 }
 
-// The direction that separates a couple at a time: that of its nearest points. Their roundings
-// over their distance put it off, and points as near to a digit put it off by the root of that.
-// Where it keeps less than half of what is above the clearance, a normal of a triangle, the
+// The direction that separates a triangle pair at a time: that of its nearest points. Their
+// roundings over their distance put it off, and points as near to a digit put it off by the root of
+// that. Where it keeps less than half of what is above the clearance, a normal of a triangle, the
 // direction across an edge of each, or the same direction made normal to an edge, may keep more.
 // The result is how far it separates them.
-static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
-                                            double u, const nsvcd__nearest *nearest) {
+static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
+                                               const nsvcd__triangle_pair *pair, double u,
+                                               const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
-  nsvcd__d3 *plane = &p->memo.parting;
+  nsvcd__d3 *plane = &p->memo.separating;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
-  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
-  const double limit = p->ask.clearance + couple->slack;
+  const double limit = p->ask.clearance + pair->slack;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : posed;
@@ -13285,62 +13305,62 @@ static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple
   return best;
 }
 
-// A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
-// told whether it touches: a doubt. But where distances are measured, less is said, for certain:
-// these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
-// TOO_LONG; ANSWERED where it is as low as is known anyway.
-static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
-                                          double u0, double u1, double when) {
+// A triangle pair that comes so near from u0 to u1 of the arc, the nearest at `when`, that it
+// cannot be told whether it touches: an unresolved pair. But where distances are measured, less is
+// said, for certain: these come no nearer than that. Then the clearance is lowered and the part to
+// be looked at again, TOO_LONG; ANSWERED where it is as low as is known anyway.
+static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
+                                              const nsvcd__triangle_pair *pair, double u0,
+                                              double u1, double when) {
   if (!(p->ask.measure > 0)) {
-    nsvcd__take_doubt(p, couple, u0, u1);
-    return NSVCD__SETTLED;
+    nsvcd__keep_unresolved(p, pair, u0, u1);
+    return NSVCD__RESOLVED;
   }
-  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * couple->close;
+  if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
+  const double parted = distance - 2 * pair->close;
   p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
-// What becomes of a part of the arc that is too short to be halved. Where the couple has met by
-// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
-                                                            const nsvcd__couple *couple,
-                                                            double u0, double u1,
-                                                            double speed) {
-  int passes = nsvcd__couple_passes(p, couple, u0, u1, speed);
+// What becomes of a part of the arc that is too short to be halved. Where the triangle pair has met
+// by passing, the time is narrowed down to rounding, and is the contact's. If not, it is an
+// unresolved pair.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1, double speed) {
+  int passes = nsvcd__pair_passes(p, pair, u0, u1, speed);
   const int has_met = passes;
   for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__couple_passes(p, couple, u0, middle, speed);
-    passes = in_first || nsvcd__couple_passes(p, couple, middle, u1, speed);
+    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
+    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1, speed);
     if (!passes) break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__settle_doubt(p, couple, u0, u1, when);
-  nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  if (!has_met) return nsvcd__resolve_doubtful(p, pair, u0, u1, when);
+  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
-  return nsvcd__take_contact(p, couple, when, &nearest);
+  return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
 // Where the least distance is measured and the moving body only goes along: looks between u0 and u1
 // of the arc for when a triangle pair is nearest. The distance is convex, and falls where the
 // nearest points approach each other. Steps of `measure` would not get there.
-static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u0, double u1) {
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
-    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
     const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
-        nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+        nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
     // a tangent is nowhere above it
@@ -13353,125 +13373,126 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
   return NSVCD__SHRUNK;
 }
 
-// Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
-// distance is a convex function of time, and no less than the plane at its nearest points says, its
-// tangent: Newton's method, from the start on, comes to the first contact and never past it. The
-// plane that separated a pair last is tried before.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
-                                                          const nsvcd__couple *couple,
-                                                          double u0, double u1) {
+// Resolves a triangle pair from u0 to u1 of an arc in which the moving body only goes along. Then
+// the distance is a convex function of time, and no less than the plane at its nearest points says,
+// its tangent: Newton's method, from the start on, comes to the first contact and never past it.
+// The plane that separated a pair last is tried before.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
+                                                              const nsvcd__triangle_pair *pair,
+                                                              double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = couple->close;
-  nsvcd__d3 *plane = &p->memo.parting;
+  const double close = pair->close;
+  nsvcd__d3 *plane = &p->memo.separating;
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_parts(p, couple, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
     p->work++;
-    nsvcd__certify_couple(p, couple, u0, all);
-    return NSVCD__SETTLED;
+    nsvcd__certify_triangle_pair(p, pair, u0, all);
+    return NSVCD__RESOLVED;
   }
-  for (double u = u0;;) {  // before u it is parted
+  for (double u = u0;;) {  // before u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
-    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
-    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, at);
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->ask.clearance;
-    if (above <= couple->rounding) {
-      if (nsvcd__take_contact(p, couple, at, &nearest) == NSVCD__ANSWERED)
+    if (above <= pair->rounding) {
+      if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, couple, u, end) == NSVCD__ANSWERED)
+      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
       continue;
     }
-    const double beyond = nsvcd__aim_plane(p, couple, at, &nearest);
+    const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = beyond - p->ask.clearance - couple->slack - couple->rounding;
+    const double room = beyond - p->ask.clearance - pair->slack - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
-      nsvcd__certify_couple(p, couple, u, until);
+    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
+      nsvcd__certify_triangle_pair(p, pair, u, until);
       u = until;
     }
     const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
-    const int is_unsure = fall > 0 ? !(at < end) : is_short;
-    if (u < end && (is_unsure || steps++ == NSVCD__HALVINGS)) {
+    const int is_unresolved = fall > 0 ? !(at < end) : is_short;
+    if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
-      const nsvcd__outcome part = nsvcd__settle_doubt(p, couple, u, at, at);
+      const nsvcd__outcome part = nsvcd__resolve_doubtful(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
-      if (part == NSVCD__SETTLED) u = end;
+      if (part == NSVCD__RESOLVED) u = end;
     } else {
       at = fall > 0 ? at + above / fall : 0.5 * (u + at);
     }
   }
 }
 
-// Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
-// triangles, or there is a contact, or they come too close to tell. After each doubt parts need be
-// less short: what is still asked is whether they meet. The planes tried are the one that parted a
-// couple last, and one at the nearest points of the middle.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
-                                                        const nsvcd__couple *couple, double u0,
-                                                        double u1) {
+// Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
+// separates the triangles, or there is a contact, or they come too close to tell. After each
+// unresolved pair parts need be less short: what is still asked is whether they meet. The planes
+// tried are the one that separated a triangle pair last, and one at the nearest points of the
+// middle.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
+                                                          const nsvcd__triangle_pair *pair,
+                                                          double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
-  if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * couple->radial;
-  const double close = couple->close;
-  nsvcd__d3 *plane = &p->memo.parting;
-  double *ends = p->couple_ends;
+  if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
+  const double speed = arc->speed + arc->turn * arc->scale * pair->radial;
+  const double close = pair->close;
+  nsvcd__d3 *plane = &p->memo.separating;
+  double *ends = p->pair_ends;
   size_t left = 1;
-  size_t doubts = 0;
+  size_t unresolved_count = 0;
   int shrunk = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
-    // a doubt may be the end
+    // an unresolved pair may be the end
     if (!(u < end)) break;
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
-    int apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
     if (!apart) {
-      const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->ask.clearance + couple->rounding) {
-        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+      if (distance <= p->ask.clearance + pair->rounding) {
+        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
           return NSVCD__ANSWERED;
         shrunk = 1;
         continue;
       }
-      (void)nsvcd__aim_plane(p, couple, middle, &nearest);
-      apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+      (void)nsvcd__aim_plane(p, pair, middle, &nearest);
+      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
     }
     if (apart) {
-      nsvcd__certify_couple(p, couple, u, end);
+      nsvcd__certify_triangle_pair(p, pair, u, end);
     } else {
-      const double least = 0.25 * close * (double)(1 + doubts);
+      const double least = 0.25 * close * (double)(1 + unresolved_count);
       const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
         p->parts++;
         continue;
       }
-      const nsvcd__outcome part = nsvcd__settle_short_part(p, couple, u, end, speed);
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end, speed);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
-      if (part != NSVCD__SETTLED) continue;
-      doubts++;
+      if (part != NSVCD__RESOLVED) continue;
+      unresolved_count++;
     }
     u = end;
     left--;
   }
-  return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+  return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
 }
 #endif  // NSVCD_NO_PROOF
 
@@ -13534,8 +13555,8 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
 }
 
 // Poses the corners of the moving block, into p->posed[which].
-static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
-                                           size_t which) {
+static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+                                              size_t which) {
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
@@ -13545,7 +13566,7 @@ static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transfo
 }
 
 // Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
+static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
   nsvcd__v remote = nsvcd__v_set(0);
   nsvcd__v aside = remote;
   for (size_t k = 0; k < 3; k++) {
@@ -13558,7 +13579,7 @@ static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float qu
   }
   const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(remote))) + quantum;
   const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
-  const nsvcd__lever out = {reach, radial + 1e-6f * reach};
+  const nsvcd__arm out = {reach, radial + 1e-6f * reach};
   return out;
 }
 
@@ -13649,9 +13670,9 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
 // on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
 // the moving one is on the side that the normal points from.
-NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                           size_t s, size_t ends, float margin, nsvcd__v3 n,
-                                           uint32_t *below) {
+NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                               size_t s, size_t ends, float margin,
+                                               nsvcd__v3 n, uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -13701,8 +13722,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 #ifdef NSVCD__CERTIFIES
-// All couples of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
-// or, where that is NULL, by their boxes.
+// All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
+// s on, or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                  const nsvcd__block *b, const nsvcd__span *span,
                                  uint32_t apart, size_t s, const nsvcd__v3 *plane,
@@ -13734,20 +13755,20 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
-// Of these lanes of a fixed block, those that the plane which parted a couple last does not part
-// from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where there is a
-// clearance it parts many: triangles near by have their nearest points along nearly the same
-// direction.
-static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                                 nsvcd__block *fixed, size_t ends,
-                                                 const nsvcd__span *span, float margin,
-                                                 uint32_t met) {
-  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.parting));
+// Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
+// not separate from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where
+// there is a clearance it parts many: triangles near by have their nearest points along nearly the
+// same direction.
+static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                    size_t l, nsvcd__block *fixed, size_t ends,
+                                                    const nsvcd__span *span, float margin,
+                                                    uint32_t met) {
+  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const uint32_t apart =
-        nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+        nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
     if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
     met &= ~apart;
   }
@@ -13756,13 +13777,13 @@ static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size
   return met;
 }
 
-// Of these lanes of the moving block, those that the plane which parted a couple last does not part
-// from all of a fixed block, by more than `margin`, at `ends` poses.
-static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                       nsvcd__block *fixed, size_t ends,
-                                                       const nsvcd__span *span, float margin,
-                                                       uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+// Of these lanes of the moving block, those that the plane which separated a triangle pair last
+// does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                          nsvcd__block *fixed, size_t ends,
+                                                          const nsvcd__span *span,
+                                                          float margin, uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
   if (!(p->ask.clearance > 0) || !lanes) return lanes;
   float lowest = HUGE_VALF;  // of the fixed block's heights, negated
@@ -13793,11 +13814,11 @@ static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i
   return lanes & ~apart;
 }
 
-// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
+// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
 // `ends` poses. span: of patches i and j, for the certificates; NULL for none.
-static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                             nsvcd__block *fixed, size_t ends,
-                                             const nsvcd__span *span, float margin) {
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                                nsvcd__block *fixed, size_t ends,
+                                                const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
   if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
   if (p->ask.clearance > 0)
@@ -13808,7 +13829,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
       if (!(met >> s & NSVCD__SLICE_MASK)) continue;
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
-          nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+          nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
       if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }
@@ -13820,7 +13841,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
 #endif  // NSVCD_NO_PROOF
 
 // ---------------------------------------------------------------------------------- proof/manifold
-// In: couples of triangles that are near each other when a contact is. Out: up to four contact
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact
 // points that hold the body: those that span the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
@@ -13880,22 +13901,22 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
-// A couple that is looked at: the moving triangle, posed; where its faces look, out of the fixed
-// body, for the sides of an open surface as the normal of the contact does; and has it such?
+// A triangle pair that is looked at: the moving triangle, posed; where its faces look, out of the
+// fixed body, for the sides of an open surface as the normal of the contact does; and has it such?
 typedef struct nsvcd__facing {
-  const nsvcd__couple *couple;
+  const nsvcd__triangle_pair *pair;
   const nsvcd__d3 *posed;
   nsvcd__d3 faces[2];
   int is_open;
 } nsvcd__facing;
 
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                       const nsvcd__d3 *posed) {
   const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_closed(p, couple), nsvcd__fixed_closed(p, couple)};
-  nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
+  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  out.faces[1] = nsvcd__face_direction(couple->fixed);
+  out.faces[1] = nsvcd__face_direction(pair->fixed);
   for (int k = 0; k < 2; k++) {
     nsvcd__d3 *face = &out.faces[k];
     const int turned = nsvcd__d3_dot(*face, n) < 0;
@@ -13905,7 +13926,7 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple
 }
 
 // Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
-// then, or one of another couple.
+// then, or one of another triangle pair.
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
@@ -13916,11 +13937,11 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
   return 0;
 }
 
-// Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
-// face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
-                                           nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                           nsvcd__d3 normal, uint32_t number) {
+// Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
+// of a face, or across two edges, either way round.
+static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
+                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                              nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
@@ -13930,18 +13951,18 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing 
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
   // nor are they on the far side of a sheet that they do not pass through
-  const nsvcd__d3 *fixed = f->couple->fixed;
+  const nsvcd__d3 *fixed = f->pair->fixed;
   const int beyond = gap < 0 && f->is_open;
   if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
-  nsvcd__contact contact;
+  nsvcd__pair_contact contact;
   int known = 0;
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->couple, 0, &nearest);
+    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
@@ -13956,11 +13977,12 @@ static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
-// All places where a couple touches, to within the reach. posed: the moving triangle.
-static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__couple *couple,
-                                              const nsvcd__d3 *posed) {
+// All places where a triangle pair touches, to within the reach. posed: the moving triangle.
+static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
+                                                  const nsvcd__triangle_pair *pair,
+                                                  const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
@@ -13969,12 +13991,12 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
   }
   if (!farther) return;
   // faces look at each other, along the normal
-  const nsvcd__facing facing = nsvcd__facing_of(p, couple, posed);
+  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(pair->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
@@ -14018,8 +14040,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
-                                           double *area) {
+static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                              double *area) {
   int kept[NSVCD__SUPPORTS];
   int count = 0;
   // each place once, those with lower numbers first
@@ -14056,13 +14078,13 @@ static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen
 #endif  // NSVCD_NO_PROOF
 
 // --------------------------------------------------------------------------------- proof/witnesses
-// In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
-// within the clearance; with a skin, what touches at the start and which directions undo it.
+// In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
+// come within the clearance; with a skin, what touches at the start and which directions undo it.
 
 #ifndef NSVCD_NO_PROOF
 // Nearer to each other than this nothing that is told in float is separate.
-static double nsvcd__hair(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
@@ -14071,7 +14093,7 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
+// Is a touch too deep for the skin in every direction? Two triangles are separated soonest along a
 // normal of one, or across an edge of each (the separating axes).
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
@@ -14110,8 +14132,8 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
-static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most, double grain) {
+static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
+                                             double clearance, double most, double grain) {
   // parallel faces meet at one time only
   const double reach = clearance + nsvcd__min(0.003 * most, grain);
   const double square = reach * reach;
@@ -14162,16 +14184,16 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
 // undoes that.
-static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
-                                  const nsvcd__d3 *posed) {
+static void nsvcd__collect_touch(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                 const nsvcd__d3 *posed) {
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
-  memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
-  const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
+  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  touch.ways[1] = nsvcd__face_direction(couple->fixed);
+  touch.ways[1] = nsvcd__face_direction(pair->fixed);
   touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undone_by(p, k, &touch)) return;
@@ -14183,7 +14205,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
 // the arc later than its start.
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
-                                             const nsvcd__placement *at, double u,
+                                             const nsvcd__dtransform *at, double u,
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
@@ -14197,35 +14219,35 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
       if (!met) break;
       const size_t listing = p->moving_block.first + l;
-      const nsvcd__couple couple =
-          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+      const nsvcd__triangle_pair pair =
+          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, couple.moving, posed);
+      nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->ask.gathers == NSVCD__SUPPORTING) {
-        nsvcd__gather_places(p, &couple, posed);
+      if (p->ask.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_places(p, &pair, posed);
         continue;
       }
-      if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
+      if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
         nearest.on_a = nearest.on_b;
       } else {
         if (!(clearance > 0)) continue;
-        nearest = nsvcd__nearest_of(posed, couple.fixed);
+        nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.parting = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          p->memo.separating = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (p->ask.gathers == NSVCD__TOUCHING) {
-        nsvcd__gather_contact(p, &couple, posed);
+      if (p->ask.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_touch(p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__settle_couple(p, &couple, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -14246,7 +14268,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
@@ -14263,7 +14285,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_box(p, 1);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
-        if (nsvcd__is_spent(p)) return NSVCD__NOTHING;
+        if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
@@ -14272,25 +14294,25 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__NOTHING;
 }
 
-// The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
-// is not after that time.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
+// The arc, and the share of it, that a time counted in ticks is in: it begins at the last keyframe
+// that is not after that time.
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *fraction) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
   const uint32_t a =
       nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
   const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
+  *fraction = (at - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
   return first;
 }
 
-// Looks for a contact of an item where its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
-                                       nsvcd__item *item) {
+// Looks for a contact of a patch pair where its spheres are nearest, if that still matters.
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+                                                nsvcd__patch_pair *item) {
   const double start = (double)search->begin[item->segment];
   const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
-  const double tick = start + (double)item->share * (end - start);
+  const double tick = start + (double)item->fraction * (end - start);
   double u;
   item->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;
@@ -14299,15 +14321,15 @@ static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *sea
 }
 #endif  // NSVCD_NO_PROOF
 
-// ------------------------------------------------------------------------------------- proof/items
-// In: fresh items, as the search finds them. Out: each is parted by a plane between its hulls or by
-// its triangles, or in contact, or kept as a doubt.
+// ------------------------------------------------------------------------------- proof/patch_pairs
+// In: fresh patch pairs, as the search finds them. Out: each is separated by a plane between its
+// hulls or by its triangles, or in contact, or kept as an unresolved pair.
 
 #ifndef NSVCD_NO_PROOF
 // Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
 // of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
-static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
-                                             double u1) {
+static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
+                                                double u1) {
   const size_t moving_first = p->moving.first_triangle[i];
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_first = p->fixed.first_triangle[j];
@@ -14318,22 +14340,22 @@ static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j
     nsvcd__d3 corners[3];
     nsvcd__facet_triangle(&p->fixed, j, b, corners);
     for (size_t k = 0; k < 3; k++) {
-      const double height = nsvcd__d3_dot(p->memo.parting, corners[k]);
+      const double height = nsvcd__d3_dot(p->memo.separating, corners[k]);
       if (height > highest) top = b;
       highest = nsvcd__max(highest, height);
     }
   }
   p->work += (fixed_end - fixed_first) / NSVCD__LANES;
   for (size_t a = moving_first; a < moving_end; a++) {
-    const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_parts(p, &couple, u0, u1, p->memo.parting)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
   }
 #ifdef NSVCD__CERTIFIES
   for (size_t a = moving_first; a < moving_end; a++) {
     for (size_t b = fixed_first; b < fixed_end; b++) {
-      const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, b);
-      nsvcd__certify_couple(p, &couple, u0, u1);
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
+      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
     }
   }
 #endif
@@ -14341,50 +14363,53 @@ static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j
 }
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
-// the window: couples that planes do not part are settled one by one, and what parts one may part
-// others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more than
-// `patience` parts of the span; without any, when there is such a couple.
-static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                        size_t n, const nsvcd__span *span, nsvcd__lever lever,
-                                        float margin, double u0, double u1, size_t patience) {
+// the window: triangle pairs that planes do not part are resolved one by one, and what parts one
+// may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
+// than `patience` parts of the span; without any, when there is such a triangle pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                         size_t n, const nsvcd__span *span, nsvcd__arm arm,
+                                         float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__d3 before = p->memo.parting;
+    const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
-      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
     const size_t listing = p->moving_block.first + l;
-    const nsvcd__couple couple =
-        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
-    const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
-    if (one != NSVCD__SETTLED) return one;
+    const nsvcd__triangle_pair pair =
+        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+    const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
+    if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.shared = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.shared + 1;
+    p->memo.shared =
+        nsvcd__d3_distance2(p->memo.separating, before) > 0 ? 0 : p->memo.shared + 1;
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-// All couples of an item's patches over a span from u0 to u1 of the arc.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
-                                                           const nsvcd__span *span, double u0,
-                                                           double u1, size_t patience) {
+// All triangle pairs of a patch pair's patches over a span from u0 to u1 of the arc.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
+                                                               size_t j,
+                                                               const nsvcd__span *span,
+                                                               double u0, double u1,
+                                                               size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(span);
   const float stays =
       nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
   const float extent = p->moving.body->extent + p->moving.quanta[i];
-  const nsvcd__lever all = {extent, extent};
+  const nsvcd__arm all = {extent, extent};
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
@@ -14394,9 +14419,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__lever lever =
-          bends ? nsvcd__block_lever(p, axis, p->moving.quanta[i]) : all;
-      const float margin = stays + nsvcd__bulge_of(span, lever);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.quanta[i]) : all;
+      const float margin = stays + nsvcd__bulge_of(span, arm);
       nsvcd__block_pose(p, &span->start, 0);
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
@@ -14406,24 +14430,24 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
         const uint32_t lanes =
             nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
         p->work++;
-        if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+        if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(nearby >> l & 1))
             NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
-          if (row == NSVCD__ALL_SETTLED) return NSVCD__SETTLED;
-          if (row != NSVCD__SETTLED) return row;
+              nsvcd__resolve_row(p, i, j, l, n, span, arm, margin, u0, u1, patience);
+          if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
+          if (row != NSVCD__RESOLVED) return row;
         }
       }
     }
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
-                                const nsvcd__item *item) {
+static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__span *span,
+                                      const nsvcd__patch_pair *item) {
   const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
   NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
                  span->t_start, span->t_end, normal);
@@ -14432,10 +14456,10 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
   (void)item;
 }
 
-// Settles an item that no plane parts over its segment, arc by arc. Each arc is halved as often as
-// need be: a part of it is parted by a plane between the hulls, or by its triangles.
-static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
-                                         const nsvcd__item *item) {
+// Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
+// often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
+static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+                                                const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
@@ -14443,10 +14467,10 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
-    const uint32_t knot = nsvcd__next_knot(motion, first);
-    at = last < knot ? last : knot;
+    const uint32_t keyframe = nsvcd__next_keyframe(motion, first);
+    at = last < keyframe ? last : keyframe;
     is_tried = is_tried && at == last;
-    ends[0] = (double)(at - first) / (double)(knot - first);
+    ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
@@ -14457,28 +14481,29 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
           !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
       is_tried = 0;
       if (apart) {
-        nsvcd__certify_item(p, &p->span, item);
+        nsvcd__certify_patch_pair(p, &p->span, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
         const nsvcd__outcome part =
-            nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-        if (part == NSVCD__ANSWERED || part == NSVCD__SPENT) return part;
+            nsvcd__resolve_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
-        if (part != NSVCD__SETTLED) continue;
+        if (part != NSVCD__RESOLVED) continue;
       }
       u = end;
       left--;
     }
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-// Does a plane with the normal that held last part an item's patches over its segment? Neighbours
-// of an item that a plane parts ask for the same again: so heights over it are remembered, of a
-// moving patch in a segment the least, all allowances taken off, and of a resting one the greatest.
+// Does a plane with the normal that held last part a patch pair's patches over its segment?
+// Neighbours of a patch pair that a plane separates ask for the same again: so heights over it are
+// remembered, of a moving patch in a segment the least, all allowances taken off, and of a resting
+// one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
-                             const nsvcd__item *item) {
+                             const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
@@ -14503,7 +14528,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(&p->moving, i, span));
+        lowest - slack - nsvcd__deviation_of(span, n, nsvcd__patch_arm(&p->moving, i, span));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -14517,31 +14542,32 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     below->height = p->fixed.slacks[j] * length - highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_item(p, span, item);
+  nsvcd__certify_patch_pair(p, span, item);
   return 1;
 }
 
 // Is there any plane that does?
-static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
-                                 const nsvcd__item *item) {
+static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
+                               const nsvcd__patch_pair *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
-  nsvcd__certify_item(p, span, item);
+  nsvcd__certify_patch_pair(p, span, item);
   return 1;
 }
 
-// Is an item to be looked at before another? The deeper; with `first` the one that is nearest
+// Is a patch pair to be looked at before another? The deeper; with `first` the one that is nearest
 // earlier in their segment, and once there is a contact that of the earlier segment.
-static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
-                            const nsvcd__item *b) {
+static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
+                            const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;
-  if (a->segment == b->segment) return a->share < b->share;
+  if (a->segment == b->segment) return a->fraction < b->fraction;
   return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
 
-static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
+static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *items,
+                                    size_t count) {
   for (size_t n = 1; n < count; n++) {
-    const nsvcd__item item = items[n];
+    const nsvcd__patch_pair item = items[n];
     size_t at = n;
     for (; at > 0 && nsvcd__is_before(p, &item, &items[at - 1]); at--)
       items[at] = items[at - 1];
@@ -14557,7 +14583,7 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
 // Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
 // chord by some length leaves that of a part of the time by no more than twice that, along any
 // direction.
-static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
   if (!(p->ask.end < p->clipped_end)) return;
@@ -14567,7 +14593,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -14591,29 +14617,30 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->memo.plane += p->memo.plane > 0;
 }
 
-// Settles the items that no plane parts.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
-                                                       nsvcd__search *search) {
-  nsvcd__sort_items(p, p->of.kept.items, p->count);
+// Resolves the patch pairs that no plane separates.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
+                                                                 nsvcd__search *search) {
+  nsvcd__sort_patch_pairs(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__item *item = &p->of.kept.items[n];
+    const nsvcd__patch_pair *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
     const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__item_is_parted(p, search, item)) continue;
-    const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
-    if (outcome != NSVCD__SETTLED) return outcome;
+    if (is_clipped && nsvcd__is_separated(p, search, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+    if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
-  return nsvcd__is_spent(p) ? NSVCD__SPENT : NSVCD__SETTLED;
+  return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
-// Looks at fresh items: parts those that planes can part, looks for a witness in the others, and
-// keeps them. The last plane that held is tried on all before anything else: it often holds for
+// Looks at fresh patch pairs: parts those that planes can part, looks for a witness in the others,
+// and keeps them. The last plane that held is tried on all before anything else: it often holds for
 // neighbours.
-static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
+                                                              nsvcd__search *search) {
   const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, search);
@@ -14622,78 +14649,79 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
-  nsvcd__sort_items(p, p->fresh, count);
+  nsvcd__sort_patch_pairs(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+      nsvcd__seek_in_patch_pair(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
-    nsvcd__item *item = &p->fresh[n];
+    nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__item_is_parted(p, search, item)) continue;
+    if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
-      const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
-      if (outcome != NSVCD__SETTLED) return outcome;
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+      if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__HOPE) {
       const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
-      if (by_triangles == NSVCD__SETTLED) continue;
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+      if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
-    if (has_hope && !item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+    if (has_hope && !item->sought &&
+        nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
-    if (p->count == NSVCD__ITEMS) {
-      const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
-      if (outcome != NSVCD__SETTLED) return outcome;
+    if (p->count == NSVCD__PATCH_PAIRS) {
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, search);
+      if (outcome != NSVCD__RESOLVED) return outcome;
     }
     p->of.kept.items[p->count++] = *item;
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
 // Is there room for touches, and a way out of those that were gathered?
-static int nsvcd__gathers_on(const nsvcd__proof *p) {
+static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
-// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
-// much as can be looked at together, or as was allowed.
-static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  for (size_t n = 0; n < p->fresh_count && nsvcd__gathers_on(p); n++) {
-    const nsvcd__item *item = &p->fresh[n];
+// Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
+// be. SPENT: as much as can be looked at together, or as was allowed.
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
+  for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
+    const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__item_is_parted(p, search, item)) continue;
-    if (p->ask.gathers == NSVCD__TOUCHING) {
+    if (nsvcd__is_separated(p, search, item)) continue;
+    if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
         // what was lifted off just so is farther than the clearance by less than floats tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
-    } else if (p->count < NSVCD__ITEMS) {
+    } else if (p->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.items[p->count++] = *item;
     }
   }
   p->fresh_count = 0;
-  return nsvcd__gathers_on(p) && p->work <= p->ask.limit ? NSVCD__SETTLED : NSVCD__SPENT;
+  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
 }
 
-// How far places on both patches of an item, the moving one posed, can at most be along each
+// How far places on both patches of a patch pair, the moving one posed, can at most be along each
 // of these directions of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__item *item, int first, int last, float *most) {
+                            const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
   const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
@@ -14713,14 +14741,14 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
   }
 }
 
-// The manifold of the items that were gathered, in directions first to last - 1: at first of those
-// that may be farthest along one, then of what may still be farther. Where bodies are deep in each
-// other there are many, and few of their places are like a contact: so many are looked at, and no
-// more.
-static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
+// The manifold of the patch pairs that were gathered, in directions first to last - 1: at first of
+// those that may be farthest along one, then of what may still be farther. Where bodies are deep in
+// each other there are many, and few of their places are like a contact: so many are looked at, and
+// no more.
+static NSVCD__NOINLINE void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__item *items = p->of.kept.items;
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  nsvcd__patch_pair *items = p->of.kept.items;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
   float farthest[NSVCD__SUPPORTS];
@@ -14738,7 +14766,7 @@ static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last
   const size_t count = (size_t)(last - first);
   for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
-    nsvcd__item *item = &items[which];
+    nsvcd__patch_pair *item = &items[which];
     int matters = 0;
     nsvcd__bound_of(p, &pose, item, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;
@@ -15066,9 +15094,9 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
 
 // The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
 // those of the inverse rotation, over it.
-static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
+static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
-  nsvcd__placement out;
+  nsvcd__dtransform out;
   const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
   out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
   out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
@@ -15079,9 +15107,9 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, dou
 typedef struct nsvcd__enclosure {
   const nsvcd__facets *inner, *outer;
   // of the inner body in the outer one's frame, the same rounded, and the other way round
-  nsvcd__placement start;
+  nsvcd__dtransform start;
   nsvcd__transform rounded;
-  nsvcd__placement back;
+  nsvcd__dtransform back;
   float scale;  // of the inner body, in that frame
   // of that frame: the fixed body's units
   double unit;
@@ -15098,7 +15126,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const size_t l = (n - first) % NSVCD__LANES;
     if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
     if (!(nearby >> l & 1)) continue;
-    if (nsvcd__is_spent(p)) {
+    if (nsvcd__is_exhausted(p)) {
       p->unclear = 1;
       return 0;
     }
@@ -15142,10 +15170,10 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // point. Where that is so close to the surface that what that is off by matters, 0 is returned and
 // p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
 // looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
-static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
+static NSVCD__NOINLINE int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
-  moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
+  moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);
   moving.rounded = nsvcd__transform_of(&moving.start);
   moving.inner = fixed.outer = &p->moving;
   moving.outer = fixed.inner = &p->fixed;
@@ -15163,7 +15191,7 @@ static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
 #endif  // NSVCD_NO_PROOF
 
 // -------------------------------------------------------------------------------------- proof/loop
-// In: a question, and a motion that has been cut into segments. Out: all of it settled, or a
+// In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
 // contact that answers the question, or the work spent.
 
 #ifndef NSVCD_NO_PROOF
@@ -15176,10 +15204,10 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
   return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
 }
 
-// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
-// long as there is room for 16 more.
-static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                 size_t j, uint64_t *left) {
+// Adds the patch pairs of moving group g and resting patch j in the segments `left`, and clears
+// these, as long as there is room for 16 more.
+static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                   size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
@@ -15190,7 +15218,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &search->members[s];
     float squares[NSVCD__LANES];
-    float share[NSVCD__LANES];
+    float fraction[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
@@ -15203,7 +15231,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
       met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
       nsvcd__v_store(squares + l, square);
-      nsvcd__v_store(share + l, tau);
+      nsvcd__v_store(fraction + l, tau);
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
@@ -15215,31 +15243,33 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
-      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
+      const nsvcd__patch_pair item = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
+                                      0,           depth,       fraction[l]};
       p->fresh[p->fresh_count++] = item;
     }
   }
 }
 
 // Looks at what the search has found so far.
-static nsvcd__outcome nsvcd__see_to_items(nsvcd__proof *p, nsvcd__search *search) {
-  return p->ask.gathers ? nsvcd__gather_items(p, search) : nsvcd__sift_items(p, search);
+static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
+  return p->ask.collects ? nsvcd__collect_contacts(p, search)
+                         : nsvcd__sift_patch_pairs(p, search);
 }
 
 // THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// parted by spheres and by discs; of those left, patches by spheres and by discs; what is left of
-// these are items, which nsvcd__sift_items and nsvcd__settle_items see to. In the end each pair of
-// patches, in each segment that is wanted and still matters, has been parted, or has given a
-// contact that answers or shrinks the question, or is a doubt, or was settled by its parts; or
-// SPENT says that it has not.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
-                                                         nsvcd__search *search) {
+// separated by spheres and by discs; of those left, patches by spheres and by discs; what is left
+// of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
+// the end each pair of patches, in each segment that is wanted and still matters, has been
+// separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,
+// or was resolved by its parts; or SPENT says that it has not.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+                                                            nsvcd__search *search) {
   nsvcd__outcome outcome;
   for (; search->step < search->steps; search->step++) {
     const size_t next = search->order[search->step];
     const size_t g = search->moving_tile.groups[next];
     nsvcd__search_group(search);
-    nsvcd__part_groups(p, search);
+    nsvcd__separate_groups(p, search);
     for (; search->waiting; search->waiting &= search->waiting - 1) {
       const size_t at = nsvcd__low_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
@@ -15252,20 +15282,20 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(search, g, *left);
-          nsvcd__collect_items(p, search, g, NSVCD__GROUP * h + l, left);
+          nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__see_to_items(p, search);
-          if (outcome != NSVCD__SETTLED) return outcome;
+          outcome = nsvcd__see_to_patch_pairs(p, search);
+          if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__NEWS) continue;
-      outcome = nsvcd__see_to_items(p, search);
-      if (outcome != NSVCD__SETTLED) return outcome;
+      outcome = nsvcd__see_to_patch_pairs(p, search);
+      if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__see_to_items(p, search);
-  if (outcome != NSVCD__SETTLED || p->ask.gathers) return outcome;
-  return nsvcd__settle_items(p, search);
+  outcome = nsvcd__see_to_patch_pairs(p, search);
+  if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
+  return nsvcd__resolve_patch_pairs(p, search);
 }
 
 // Those of the segments from one to another, the last one not included.
@@ -15276,29 +15306,29 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// settled of one tile tells nothing of the others.
+// resolved of one tile tells nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t all = search->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
-  nsvcd__outcome outcome = NSVCD__SETTLED;
+  nsvcd__outcome outcome = NSVCD__RESOLVED;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
   do {
-    for (size_t s = 0; s < all && outcome == NSVCD__SETTLED; s += few) {
+    for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
       const size_t next = s + few < all ? s + few : all;
       if (!nsvcd__matters(p, search, s)) break;
       search->wanted = nsvcd__segments_in(s, next);
       search->step = 0;
       search->waiting = 0;
       outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
-        p->known.settled = (double)search->begin[next];
+      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && !has_tiles)
+        p->known.resolved = (double)search->begin[next];
     }
-  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-  if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-    p->known.settled = (double)search->begin[all];
+  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));
+  if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
+    p->known.resolved = (double)search->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF
@@ -15309,27 +15339,27 @@ static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search)
 
 #ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
-static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+static nsvcd__finding nsvcd__is_within(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
   p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
   p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
-  return NSVCD__WITHIN;
+  return NSVCD__FOUND_INSIDE;
 }
 
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
-  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure),
-                    p->known.lost ? p->known.settled : NSVCD__NEVER);
+  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
+                    p->known.lost ? p->known.resolved : NSVCD__NEVER);
 }
 
 // Makes a proof forget all that it knew of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
-  p->known.settled = (double)p->ask.motion->from;
-  p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
-  p->ask.doubts_end = 0;
+  p->known.resolved = (double)p->ask.motion->from;
+  p->ask.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
+  p->ask.unresolved_ends = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = p->touch_count = 0;
@@ -15337,13 +15367,13 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and settles what is found.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
-                                                       nsvcd__search *search) {
+// Searches a motion whose segments have been chosen, and resolves what is found.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
+                                                          nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
-  p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
+  p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
-  p->known.lost = outcome == NSVCD__SPENT;
+  p->known.lost = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
@@ -15371,12 +15401,12 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 
 // A look at the start alone, or at the end, which takes so many units at most: do triangles meet
 // there? Then that is the contact that is known. If not, all that was known is lost.
-static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
-                                        size_t units) {
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+                                           size_t units) {
   const nsvcd__asked asked = p->ask;
   nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
   p->ask.motion = &still;
-  p->ask.share = 0;
+  p->ask.fraction = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
   p->ask.is_brief = 1;
   const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
@@ -15392,13 +15422,14 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 // anyway. Before intervals that has been done: they are searched at once.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  const int is_brief = !p->ask.motion->arcs && !(p->ask.share > 0);
+  const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
-  if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
-  // a part of what a doubt leaves has been used
-  if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
+  if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
+  // a part of what an unresolved pair leaves has been used
+  if (p->known.unresolved < NSVCD__NEVER)
+    p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
     if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
   }
@@ -15408,8 +15439,8 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
 }
 
 // A part of the motion, from one place to another, in segments, and no later than `end`: where is
-// the first contact there, or the first doubt? All else that was known is lost. Ticks become finer:
-// returns how many one is.
+// the first contact there, or the first unresolved pair? All else that was known is lost. Ticks
+// become finer: returns how many one is.
 static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
                                 double end) {
   nsvcd__proof_restart(p);
@@ -15417,7 +15448,7 @@ static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double f
   const double finer = nsvcd__motion_refine(p->ask.motion);
   nsvcd__narrow_segments(search, from, to, finer);
   p->ask.end = nsvcd__min(p->ask.end, finer * end);
-  p->ask.doubts_end = 1;
+  p->ask.unresolved_ends = 1;
   (void)nsvcd__prove_motion(p, search);
   return finer;
 }
@@ -15435,19 +15466,19 @@ static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search
     end = p->ask.end / finer;
   }
   if (part->lost) return end;
-  if (part->unsure < NSVCD__NEVER) {
-    known->doubt = part->doubt;
-    known->doubt.tick /= finer;
-    known->unsure = part->unsure / finer;
+  if (part->unresolved < NSVCD__NEVER) {
+    known->unresolved_pair = part->unresolved_pair;
+    known->unresolved_pair.tick /= finer;
+    known->unresolved = part->unresolved / finer;
   }
-  known->settled = nsvcd__min(last, p->ask.end) / finer;
+  known->resolved = nsvcd__min(last, p->ask.end) / finer;
   return end;
 }
 
-// There was not work enough for the first contact: once more from what is settled on, by time, a
+// There was not work enough for the first contact: once more from what is resolved on, by time, a
 // part of the motion after another. Where one takes too many units, a shorter one is tried.
-static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
-                                              size_t limit) {
+static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+                                                 size_t limit) {
   nsvcd__known known = p->known;
   const double ticks = (double)p->ask.motion->ticks;
   const double all = (double)search->segments;
@@ -15456,9 +15487,10 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
-  while (from < all && (double)search->begin[(size_t)from + 1] <= known.settled) from++;
+  while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
-  while (p->work < limit && known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure))) {
+  while (p->work < limit &&
+         known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved))) {
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
@@ -15471,10 +15503,10 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
     } else {
       from = to;
       length *= grows;
-      units = 8 * (p->work - before) + NSVCD__PART;
+      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
-  known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));
+  known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -15495,7 +15527,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
+    p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
   }
   p->known = known;
   p->ask.end = end;
@@ -15560,7 +15592,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
   int found = 0;
   for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
     const nsvcd__chords *c = &search->group[b];
-    float gaps[NSVCD__LANES], share[NSVCD__LANES];
+    float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 way = nsvcd__chords_way(c, l);
@@ -15573,7 +15605,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
           nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
-      nsvcd__v_store(share + l, tau);
+      nsvcd__v_store(fraction + l, tau);
     }
     for (; nearer; nearer &= nearer - 1) {
       const size_t l = nsvcd__low_bit(nearer);
@@ -15581,7 +15613,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
       if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
       *gap = gaps[l] - fixed.radius;
       *tick = (double)search->begin[s];
-      *tick += (double)share[l] * ((double)search->begin[s + 1] - *tick);
+      *tick += (double)fraction[l] * ((double)search->begin[s + 1] - *tick);
       found = 1;
     }
   }
@@ -15636,14 +15668,14 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 // of two patches, when and where these are nearest to each other. They are found in turns: which
 // are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
 // the clearance, triangles of these patches are a contact, which is looked for there.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
   // they may not have been: bodies that never come near are told apart without
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
-  double share = 0;
+  double fraction = 0;
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
@@ -15654,9 +15686,9 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
       (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
     }
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
-    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
@@ -15672,7 +15704,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
-    share = u;
+    fraction = u;
     from = first;
     nearest[0] = i;
     nearest[1] = j;
@@ -15680,7 +15712,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
   if (!(least <= p->given.clearance)) return least;
   p->ask.clearance = least;
   p->ask.limit = p->work + NSVCD__LOOK;
-  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, share);
+  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }
 
@@ -15689,7 +15721,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
 // come no nearer than p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
-  const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
+  const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   nsvcd__proof_restart(p);
   const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
@@ -15698,8 +15730,8 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
     known.found = p->known.found;
   }
   p->known = known;
-  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
-  return pass != NSVCD__SPENT;
+  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
+  return pass != NSVCD__EXHAUSTED;
 }
 
 // Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest
@@ -15727,7 +15759,7 @@ static void nsvcd__narrow(nsvcd__proof *p, nsvcd__search *search, double finest)
 // intervals are; containment is decided once, at t = 0, for what is inside of what later on, and
 // not then, has crossed a surface in between. A contact in any interval answers a yes or no: so
 // the ends of the motion, where most are, are looked at first. The first contact is in the first
-// interval that has one; what could not be settled before is the end of what is proven, and from
+// interval that has one; what could not be resolved before is the end of what is proven, and from
 // there on it is only asked whether they meet at all. The least distance is found as contacts lower
 // it: later intervals need only stay beyond.
 //
@@ -15751,9 +15783,9 @@ static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *s
 // Chooses the one that comes after: larger where those before took little, with segments that turn
 // less where the one before took much; where a try was in vain, a part of it.
 static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
-                                 int is_settled, size_t units, nsvcd__pace *pace) {
+                                 int is_resolved, size_t units, nsvcd__pace *pace) {
   uint32_t arcs = motion->arcs;
-  if (!is_settled) {
+  if (!is_resolved) {
     arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
     if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
     pace->easy = 0;
@@ -15765,7 +15797,7 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
     if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
     motion->is_fine = units > NSVCD__TRY;
   }
-  if (is_settled) motion->from = until;
+  if (is_resolved) motion->from = until;
   if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
 }
 
@@ -15779,33 +15811,33 @@ static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
 // Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
 // contact will do.
 static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
-                                            double share) {
+                                            double fraction) {
   const int is_try = p->ask.motion->arcs > 1;
   p->ask.is_brief = is_try;
-  p->ask.share = is_try ? 0 : share;
-  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.aside;
+  p->ask.fraction = is_try ? 0 : fraction;
+  p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-  if (p->ask.share > 0) return nsvcd__prove_first(p, search);
+  if (p->ask.fraction > 0) return nsvcd__prove_first(p, search);
   return nsvcd__prove_motion(p, search);
 }
 
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t share = p->given.aside;
-  const size_t units = share < NSVCD__LOOK ? share : NSVCD__LOOK;
+  const size_t fraction = p->given.aside;
+  const size_t units = fraction < NSVCD__LOOK ? fraction : NSVCD__LOOK;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
 
 // A motion interval by interval, until a contact answers. What is known in the end is that of the
-// first interval that was not settled, and a contact.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                          nsvcd__search *search) {
+// first interval that was not resolved, and a contact.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
+                                                             nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
-  const double asked = p->ask.share;
-  nsvcd__outcome outcome = NSVCD__SETTLED;
+  const double asked = p->ask.fraction;
+  nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
-  double share = asked;
+  double fraction = asked;
   int is_open = 0;
   if (!(asked > 0) && nsvcd__meets_at_ends(p, search)) return NSVCD__ANSWERED;
   nsvcd__pace pace = nsvcd__first_interval(motion, search);
@@ -15815,47 +15847,48 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
-    outcome = NSVCD__SETTLED;
+    outcome = NSVCD__RESOLVED;
     if (!(nsvcd__apart_until(p, until) > nsvcd__clearance(p)))
-      outcome = nsvcd__prove_interval(p, search, share);
-    const int is_settled = outcome == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER);
-    const int has_contact = p->known.has_contact && !(is_try && share > 0);
+      outcome = nsvcd__prove_interval(p, search, fraction);
+    const int is_resolved =
+        outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
+    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
       open.found = p->known.found;
     }
-    if (!is_open && !is_try && !is_settled && !has_contact) {
+    if (!is_open && !is_try && !is_resolved && !has_contact) {
       open = p->known;
       end = p->ask.end;
       is_open = 1;
-      share = 0;
+      fraction = 0;
     }
     if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
-    nsvcd__next_interval(motion, search, until, is_settled || !is_try, p->work - before,
+    nsvcd__next_interval(motion, search, until, is_resolved || !is_try, p->work - before,
                          &pace);
   }
   p->ask.is_brief = 0;
-  p->ask.share = asked;
+  p->ask.fraction = asked;
   if (!is_open) return outcome;
   p->known = open;
   p->ask.end = end;
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
-  const int in_order = p->ask.share > 0;
+  const int in_order = p->ask.fraction > 0;
   const float lifted = nsvcd__f3_length(motion->lift);
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.aside;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
+  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__starts_within(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
     const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__is_within(p);
   }
   if (is_long)
     outcome = nsvcd__prove_intervals(p, search);
@@ -15864,19 +15897,19 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   else
     outcome = nsvcd__prove_and_look(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
+  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->within && clear > 0) return nsvcd__is_within(p);
-  if (p->known.has_contact) return NSVCD__MEETS;
-  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
-  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
+  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
+  return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
 }
 
 // ---- the least distance
 
 // The same interval by interval. What was named is divided by time: of what is left the share that
 // an interval has of the rest of the motion.
-static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
-                                                 double finest, nsvcd__pace *pace) {
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
+                                                    double finest, nsvcd__pace *pace) {
   nsvcd__motion *motion = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
@@ -15886,8 +15919,8 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
   while (motion->from < motion->ticks) {
     const uint32_t until = search->begin[search->segments];
     const size_t before = p->work;
-    const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
-    int is_settled = 1;
+    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
+    int is_resolved = 1;
     if (!p->given.grows) {
       const double rest =
           (double)(until - motion->from) / (double)(motion->ticks - motion->from);
@@ -15900,14 +15933,14 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
       if (motion->arcs > 1) {
         p->ask.measure = finest;
         p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_settled = nsvcd__measure_once(p, search);
+        is_resolved = nsvcd__measure_once(p, search);
       } else {
         nsvcd__narrow(p, search, finest);
       }
     }
-    if (is_settled) low = nsvcd__min(low, p->low);
+    if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_settled, p->work - before, pace);
+    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -15917,13 +15950,13 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
 
 // Brackets the least distance over the motion, when it is known whether they come within the
 // clearance that is asked for.
-static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
-                                        nsvcd__verdict verdict, double finest) {
+static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+                                           nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
-  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(motion->lift);
   const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
   nsvcd__pace pace = {0, 0};
   if (is_long) pace = nsvcd__first_interval(motion, search);
@@ -15973,7 +16006,7 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
 // Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
 // goes less far; and of those that go as far, that more faces say.
 static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
-  const double same = nsvcd__hair(p) + 0.01 * nsvcd__max(best->way, 0);
+  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->way, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
   for (size_t k = 0; k < p->touch_count; k++) {
@@ -16002,7 +16035,7 @@ static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
     for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
+  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__epsilon(p); k++) {
     const nsvcd__touch *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
@@ -16053,10 +16086,11 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
 }
 
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
-// that others of them stay in touch with, and there may be too many touches to look at together: so
-// what has been found is tried. If there is no way off all that was found, then what was found
-// first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way off.
+// lifted, by more, until nothing does. Triangles smaller than the skin can be separated along a
+// wall that others of them stay in touch with, and there may be too many touches to look at
+// together: so what has been found is tried. If there is no way off all that was found, then what
+// was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
+// off.
 static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   p->normal_count = 0;
   still->lift = nsvcd__f3_of(0, 0, 0);
@@ -16066,7 +16100,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
-    p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
+    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
     const size_t known = p->normal_count;
@@ -16100,7 +16134,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double least_more = 0.5 * nsvcd__hair(p);
+  const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
@@ -16123,11 +16157,11 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
 
 // Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
-static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = NSVCD__TOUCHING;
+  p->ask.collects = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
   p->by_faces = 0;
   p->needed = 0;
@@ -16138,13 +16172,13 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     p->needed = 0;
     is_free = nsvcd__lift_still(p, search, &start);
   }
-  const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
+  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
     p->ask.skin = least;
     is_free = nsvcd__lift_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
-  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
   whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);
@@ -16167,7 +16201,7 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
 // along the motion only if they have been nearer, and then the contact is moved to before that.
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends
+// The arc that is under way at a time counted in ticks or, where that is told as a keyframe, ends
 // there: what comes to a contact comes by that one.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
@@ -16180,20 +16214,21 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
 
 // The triangles of a contact at a time, and how the bodies go then.
 typedef struct nsvcd__approach {
-  nsvcd__couple couple;
+  nsvcd__triangle_pair pair;
   nsvcd__touch touch;
   nsvcd__twist twist;
   double u;
 } nsvcd__approach;
 
-static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
-                                            double tick, nsvcd__approach *out) {
+static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
+                                               const nsvcd__pair_contact *found, double tick,
+                                               nsvcd__approach *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
-  const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
-  out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
-                                 found->moving_listing, found->fixed_listing);
-  nsvcd__place_triangle(&at, out->couple.moving, out->touch.moving);
-  memcpy(out->touch.fixed, out->couple.fixed, sizeof out->touch.fixed);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
+  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_listing,
+                             found->fixed_listing);
+  nsvcd__place_triangle(&at, out->pair.moving, out->touch.moving);
+  memcpy(out->touch.fixed, out->pair.fixed, sizeof out->touch.fixed);
   out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
   out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
   out->twist = nsvcd__twist_at(arc, out->u);
@@ -16209,9 +16244,9 @@ static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
 // come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
 // apart all the while, it stays.
-static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
-  nsvcd__contact *found = &p->known.found;
-  nsvcd__contact sooner = *found;
+static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
+  nsvcd__pair_contact *found = &p->known.found;
+  nsvcd__pair_contact sooner = *found;
   double early = since;
   double late = found->tick;
   double tick = late;
@@ -16220,9 +16255,9 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
     nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
     const double gap = sqrt(nearest.square);
-    const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
-    const int nearing = gap > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
-    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.couple, then.u, &nearest);
+    const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
+    const int nearing = gap > then.pair.rounding && !nsvcd__recede(&then.twist, &nearest);
+    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
     if (are_near && nearing) break;
     *(are_near ? &late : &early) = tick;
     tick = k == 0 ? early : 0.5 * (early + late);
@@ -16242,10 +16277,10 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                         nsvcd__d3 way, double most, nsvcd__d3 *normal) {
+static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
+                                            nsvcd__d3 way, double most, nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
-  const double close = 16 * nsvcd__hair(p) / nsvcd__d3_length(way);
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
@@ -16255,7 +16290,7 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__app
     const double deep = nsvcd__lift_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
-    before = nsvcd__max(close, 1e4 * a->couple.rounding / fall);
+    before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
     *normal = n;
   }
   if (!(back < most)) return 0;
@@ -16270,12 +16305,12 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__app
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
-                                                const nsvcd__approach *a, nsvcd__d3 way) {
-  const int moving_closed = nsvcd__moving_closed(p, &a->couple);
-  const int fixed_closed = nsvcd__fixed_closed(p, &a->couple);
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                   const nsvcd__approach *a, nsvcd__d3 way) {
+  const int moving_closed = nsvcd__moving_closed(p, &a->pair);
+  const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
   const nsvcd__touch *t = &a->touch;
-  const double same = 1e4 * a->couple.rounding;
+  const double same = 1e4 * a->pair.rounding;
   nsvcd__d3 best = t->ways[1];
   double least = HUGE_VAL;
   for (size_t k = 0; k < NSVCD__AXES; k++) {
@@ -16298,7 +16333,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
 // `since`; or, if they were free of each other then, at some time.
 static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
                              nsvcd__approach *now) {
-  nsvcd__contact *found = &p->known.found;
+  nsvcd__pair_contact *found = &p->known.found;
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
@@ -16313,11 +16348,11 @@ static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) 
 }
 
 // Gives the contact that is known its normal.
-static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
-  nsvcd__contact *found = &p->known.found;
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
+  nsvcd__pair_contact *found = &p->known.found;
   const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
-  const double since = p->given.share > 0 ? until : 0;
-  const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
+  const double since = p->given.fraction > 0 ? until : 0;
+  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
   nsvcd__approach now;
   // what comes to a pose and goes back may have been found on the way back
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);
@@ -16378,8 +16413,8 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
 // is the image of basis vector k, a degree 2 of m's columns.
-static NSVCD__APART void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
-                                       float (*out)[NSVCD__SLICE]) {
+static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
+                                          float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
@@ -16423,8 +16458,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                              size_t l, size_t place, float *row) {
+static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
+                                                 size_t l, size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   // one after the other: it is the deepest place of a query
@@ -16846,7 +16881,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 // positions from an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
-  float share[NSVCD__SLICE] = {0};
+  float fraction[NSVCD__SLICE] = {0};
   float rotation[4 * NSVCD__SLICE] = {0};
   float turned[4 * NSVCD__SLICE] = {0};
   float position[3 * NSVCD__SLICE] = {0};
@@ -16854,7 +16889,7 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const int moves = track->count > 1;
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const size_t k = moves ? nsvcd__pose_at(track, t[l], &share[l]) : 0;
+    const size_t k = moves ? nsvcd__pose_at(track, t[l], &fraction[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
@@ -16868,14 +16903,14 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
     if (fabsf(cosine) < 0.999f)
-      q = nsvcd__quat_slerp(q, next, share[l]);
+      q = nsvcd__quat_slerp(q, next, fraction[l]);
     else
       nsvcd__quat_put(chord, turned + l, NSVCD__SLICE);
     nsvcd__quat_put(q, rotation + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(from, origin), position + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(to, from), moved + l, NSVCD__SLICE);
   }
-  const nsvcd__v u = nsvcd__v_load(share);
+  const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
   const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
@@ -16902,8 +16937,9 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
 // Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
 // halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
 // its stack does not lie below the poses'.
-static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const float *centres,
-                                                 nsvcd__pairs *pairs) {
+static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
+                                                    const float *centres,
+                                                    nsvcd__pairs *pairs) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
@@ -16920,10 +16956,10 @@ static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const 
 }
 
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
-static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                         const nsvcd__motion *motion,
-                                         nsvcd__candidate *const *candidates, size_t count,
-                                         nsvcd__pairs *pairs) {
+static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                            const nsvcd__motion *motion,
+                                            nsvcd__candidate *const *candidates, size_t count,
+                                            nsvcd__pairs *pairs) {
   // of entry, of exit, and halfway
   float times[3][NSVCD__SLICE];
   nsvcd__v_pose at[3];
@@ -16948,10 +16984,10 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
       const nsvcd__f3 even = nsvcd__f3_scale(area, most > 1e-37f ? 1 / most : 0);
       const float length = nsvcd__f3_length(even);
-      const float share = most * inverse * (length * inverse);
-      const nsvcd__f3 normal = nsvcd__f3_scale(even, share > 1e-6f ? 1 / length : 0);
+      const float fraction = most * inverse * (length * inverse);
+      const nsvcd__f3 normal = nsvcd__f3_scale(even, fraction > 1e-6f ? 1 / length : 0);
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
-      flat[n][l] = fminf(0.31830989f * share, 2);
+      flat[n][l] = fminf(0.31830989f * fraction, 2);
     }
     times[0][l] = candidate->t_enter;
     times[1][l] = candidate->t_exit;
@@ -17014,7 +17050,7 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
 }
 
 // Views of a slice of pairs.
-static NSVCD__APART void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
+static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
@@ -17093,7 +17129,7 @@ static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *vi
 
 // The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
 // TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
-static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
+static void nsvcd__tips_collect(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
   memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
     for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
@@ -17114,9 +17150,10 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
 // The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
 // the interval. Seen from a frame that turns half as fast as the moving patch, in which either
 // patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. tips: nsvcd__tips_gather.
-static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__gap_axes *axes,
-                                        const int8_t *tips, nsvcd__v tau, nsvcd__v *wide) {
+// by half of w, and the other the opposite way. tips: nsvcd__tips_collect.
+static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
+                                           const nsvcd__gap_axes *axes, const int8_t *tips,
+                                           nsvcd__v tau, nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
   const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
   const nsvcd__v3 back = nsvcd__v3_negate(half);
@@ -17154,12 +17191,13 @@ static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
 }
 
 // The facts about gaps.
-static NSVCD__APART void nsvcd__tell_gaps(const nsvcd__pairs *pairs, const nsvcd__views *view,
-                                          size_t count, float (*facts)[NSVCD__SLICE]) {
+static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
+                                             const nsvcd__views *view, size_t count,
+                                             float (*facts)[NSVCD__SLICE]) {
   int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
   nsvcd__gap_axes axes;
   nsvcd__gap_axes_of(pairs, view, &axes);
-  nsvcd__tips_gather(pairs, count, tips);
+  nsvcd__tips_collect(pairs, count, tips);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
@@ -17190,9 +17228,9 @@ typedef struct nsvcd__scenes {
 } nsvcd__scenes;
 
 // A slice of scenes, but for the facts about gaps.
-static NSVCD__APART void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
-                                                    const nsvcd__views *view,
-                                                    nsvcd__scenes *scene) {
+static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+                                                       const nsvcd__views *view,
+                                                       nsvcd__scenes *scene) {
   scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
   scene->turn[1] = view->frame;
   scene->k[0] = view->k1;
@@ -17244,8 +17282,9 @@ static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__sce
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
-                                          const nsvcd__pairs *pairs, size_t count, float *x) {
+static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
+                                             const nsvcd__pairs *pairs, size_t count,
+                                             float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t n = 0; n < 2; n++) {
@@ -17262,7 +17301,8 @@ static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
   }
 }
 
-static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count,
+                                              float *x) {
   nsvcd__scenes scene;
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__inputs_in(&scene, pairs, count, x);
@@ -17347,9 +17387,9 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
 // cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
 // outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
-                                                  const float *x, size_t count,
-                                                  float (*said)[NSVCD__SAYINGS]) {
+static NSVCD__NOINLINE void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
+                                                     const float *x, size_t count,
+                                                     float (*said)[NSVCD__SAYINGS]) {
   const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -17510,8 +17550,9 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 #endif
 
 // As nsvcd__decoder_says, in int8 arithmetic.
-static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
-                                                 size_t count, float (*said)[NSVCD__SAYINGS]) {
+static NSVCD__NOINLINE void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder,
+                                                    const float *x, size_t count,
+                                                    float (*said)[NSVCD__SAYINGS]) {
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {
@@ -17552,7 +17593,7 @@ static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, s
 //
 //   check       is it in order, which method can answer it, and is the workspace large enough?
 //   lay out     what it needs, and where in the workspace that is
-//   who moves   of its two bodies; all is reckoned in the other's frame and units
+//   who moves   of its two bodies; all is computed in the other's frame and units
 //   answer      by proof, or by the network
 //   write       what was found about moving and fixed, as facts about a and b
 //
@@ -17586,8 +17627,8 @@ static void nsvcd__decoder_says(const nsvcd__decoder *decoder, const float *x, s
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
-// that patches swell before planes part them, shares of their radii, at N = 32 and less the more
-// there are: at a recall of 0.999, and of 0.9999
+// that patches swell before planes separate them, shares of their radii, at N = 32 and less the
+// more there are: at a recall of 0.999, and of 0.9999
 #define NSVCD__SWELL 0.04f
 #define NSVCD__SWELL_MOST 0.1f
 // and where a distance is asked for: patches are told of within their radii
@@ -17612,7 +17653,7 @@ typedef struct nsvcd__settings {
   int int8;
   // subtracted from the decoder's logit
   float threshold;
-  // of patches, shares of their radii, before planes part them
+  // of patches, shares of their radii, before planes separate them
   float swell;
 } nsvcd__settings;
 
@@ -17679,7 +17720,7 @@ typedef char nsvcd__proof_constants_hold
 #ifndef NSVCD_NO_NETWORK
 typedef char
     nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
-                                          sizeof(nsvcd__sheets) <= 576 &&
+                                          sizeof(nsvcd__plane_cache) <= 576 &&
                                           NSVCD__LATENT == 40 &&
                                           sizeof(float) * NSVCD__DECODER_IN <=
                                               sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
@@ -17702,9 +17743,9 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   query->kept = (nsvcd__candidate *)kept;
   const size_t asked = needs->candidates > 0;
   const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  void *sheets = nsvcd__take(base, &network, asked, sizeof(nsvcd__sheets));
+  void *cache = nsvcd__take(base, &network, asked, sizeof(nsvcd__plane_cache));
   void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
-  query->broad_phase.sheets = (nsvcd__sheets *)sheets;
+  query->broad_phase.cache = (nsvcd__plane_cache *)cache;
   query->broad_phase.met = (uint16_t *)met;
   end = network;
 #endif
@@ -17880,7 +17921,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 }
 
 // The candidate for which this is greatest decides.
-static float nsvcd__doubt(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__unresolved(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
@@ -17916,8 +17957,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float here = nsvcd__doubt(task, &items[i]);
-      const float d = here - nsvcd__doubt(task, &items[best]);
+      const float here = nsvcd__unresolved(task, &items[i]);
+      const float d = here - nsvcd__unresolved(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
@@ -17939,22 +17980,22 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const float doubt = nsvcd__doubt(task, portion[k]);
-      if (!(doubt > most)) continue;
-      most = doubt;
+      const float unresolved_pair = nsvcd__unresolved(task, portion[k]);
+      if (!(unresolved_pair > most)) continue;
+      most = unresolved_pair;
       nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
-                                              nsvcd_opinion *out) {
+static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
+                                                 nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__sheets_begin(&query->broad_phase, settings->swell);
+  nsvcd__plane_cache_begin(&query->broad_phase, settings->swell);
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
@@ -17968,7 +18009,7 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
+static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
@@ -17976,16 +18017,16 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  nsvcd__sheets_begin(search, task->settings.swell);
+  nsvcd__plane_cache_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
-    // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
-    // there; planes would take most of the time.
+    // What collides deeply shows in the first pair of groups, whether or not a plane separates any
+    // pair there; planes would take most of the time.
     nsvcd__candidates_start(&kept, query->kept, worth);
-    const int unasked = search->sheets->unasked;
-    search->sheets->unasked = 1;
+    const int unasked = search->cache->unasked;
+    search->cache->unasked = 1;
     nsvcd__search_pair(search, &kept);
-    search->sheets->unasked = unasked;
+    search->cache->unasked = unasked;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
@@ -18011,7 +18052,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__starts_inside(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }
@@ -18078,13 +18119,13 @@ static void nsvcd__answer_by_network(nsvcd__query *query, nsvcd__hint *hint,
 // Where a body is at time t in [0,1], in the world.
 static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__track *track,
                                    double t, nsvcd__d3 *position) {
-  nsvcd__leg leg;
+  nsvcd__slerp slerp;
   nsvcd__d3 ends[2];
   double u;
   const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
-  nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
+  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
   *position = nsvcd__d3_mix(ends[0], ends[1], u);
-  return nsvcd__leg_at(&leg, u);
+  return nsvcd__slerp_at(&slerp, u);
 }
 
 // From the fixed body's frame and units to the world, at time t.
@@ -18118,10 +18159,11 @@ static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
 // asked for, nor longer than `share`, if that is. Of a short motion a quarter of its way, so that
-// not all of it is lost to a contact, if that is more than the hairs that a safe place is before.
-static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
+// not all of it is lost to a contact, if that is more than the epsilons that a safe place is
+// before.
+static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   const nsvcd__motion *motion = p->ask.motion;
-  const double most = share > 0 ? share : 1;
+  const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
   // that of the question before
   p->arc.ticks = 0;
@@ -18131,7 +18173,7 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  const double least = fmin(to, fmax(0.25 * whole, NSVCD__HAIRS * nsvcd__hair(p)));
+  const double least = fmin(to, fmax(0.25 * whole, NSVCD__EPSILONS * nsvcd__epsilon(p)));
   return least < most * whole ? least / whole : most;
 }
 
@@ -18155,14 +18197,15 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
   p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__IN_DOUBT;
+  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
-  p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
+  p->ask.measure = p->ask.first = p->ask.fraction = p->low = p->given.fraction =
+      p->given.width = 0;
   p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.collects = NSVCD__CONTACTS;
   p->ask.is_brief = p->within = p->unclear = p->wide = p->starts_free = 0;
   p->in_open = 0;
   const double to = nsvcd__to_of(task);
@@ -18170,8 +18213,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
-    p->given.share = nsvcd__share_of(p, by_time ? 0 : to, (double)q->to_time);
-  p->ask.share = p->given.share;
+    p->given.fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+  p->ask.fraction = p->given.fraction;
   nsvcd__proof_restart(p);
 }
 
@@ -18183,8 +18226,9 @@ static float nsvcd__time_above(double time) {
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
 // the fixed body that counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
-                                             const nsvcd__contact *found, nsvcd_contact *out) {
+static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
+                                                const nsvcd__pair_contact *found,
+                                                nsvcd_contact *out) {
   const nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
@@ -18224,8 +18268,8 @@ static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 place) {
 static int nsvcd__takes_lift(const nsvcd__task *task) {
   return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
 }
-static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
-                                         nsvcd_pose *moving, nsvcd_pose *fixed) {
+static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
+                                            nsvcd_pose *moving, nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
   const int moving_takes_it = nsvcd__takes_lift(task);
   const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
@@ -18255,7 +18299,7 @@ static double nsvcd__told_within(const nsvcd__proof *p, double t) {
 // to a little more than what they are pressed in by at the start, or to a little before they are in
 // contact. Returns how far they are lifted then, which is proven to be free, and all the way down
 // to it. All else that was known of the question is lost.
-static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   nsvcd__motion *whole = p->ask.motion;
@@ -18265,9 +18309,9 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
-  // nearer to each other than stored triangles are known, nothing would be parted
-  const double hairs = 4 * nsvcd__hair(p) + nsvcd__told_within(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, hairs);
+  // nearer to each other than stored triangles are known, nothing would be separated
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_within(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, epsilons);
   const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
   const double way = nsvcd__d3_length(by);
@@ -18277,15 +18321,16 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion_set_tracks(&down, moves, rests);
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
-  p->ask.share = kept / way;
+  p->ask.fraction = kept / way;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
-  // up to a doubt it is proven, but not so that it is proven anew from there
-  const double clear = p->known.unsure < p->ask.end ? until - 0.5 * p->ask.share : until;
+  // up to an unresolved pair it is proven, but not so that it is proven anew from there
+  const double clear =
+      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
   return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
@@ -18312,15 +18357,16 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
 // The directions that the contacts of a manifold may be about: the normal of the contact that was
 // found, and those of its faces that are not against it, where the bodies do not leave along them.
 // Returns how many. How the bodies go: 0 at the start, where they only touch.
-static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
-                                                nsvcd__twist *twist, nsvcd__d3 *normals) {
+static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
+                                                   const nsvcd__pair_contact *found,
+                                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
   nsvcd__approach now;
   int count = 1;
   nsvcd__approach_at(p, found, found->tick, &now);
   memset(twist, 0, sizeof *twist);
   if (found->tick > 0) *twist = now.twist;
   p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.couple, now.touch.moving);
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.touch.moving);
   for (int k = 1; k >= 0; k--) {
     const nsvcd__d3 n = facing.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
@@ -18335,13 +18381,13 @@ static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__co
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
 // rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
 // All else that was known of the question is lost.
-static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  const nsvcd__contact found = p->known.found;
+  const nsvcd__pair_contact found = p->known.found;
   const nsvcd__asked asked = p->ask;
-  const double hair = nsvcd__hair(p);
-  const double same = hair + 1e-5 * (double)p->given.lengths;
+  const double epsilon = nsvcd__epsilon(p);
+  const double same = epsilon + 1e-5 * (double)p->given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
@@ -18352,8 +18398,8 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
-  p->ask.gathers = NSVCD__SUPPORTING;
-  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
+  p->ask.collects = NSVCD__SUPPORTING;
+  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
   p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
@@ -18371,7 +18417,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = m->supports[chosen[n]];
+      nsvcd__pair_contact support = m->supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(query, &support, &answer->contacts[n]);
       // which body a corner is of
@@ -18383,7 +18429,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
 // contact at the start. Where one may be inside of the other no lift helps, and they stay.
-static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
@@ -18403,8 +18449,8 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
 }
 
 // Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
-static void nsvcd__settle_why(const nsvcd__proof *p, nsvcd_answer *answer) {
-  const int is_near = p->known.unsure < NSVCD__NEVER || p->unclear;
+static void nsvcd__resolve_why(const nsvcd__proof *p, nsvcd_answer *answer) {
+  const int is_near = p->known.unresolved < NSVCD__NEVER || p->unclear;
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
   if (answer->why && !p->wide && is_near) answer->why = NSVCD_WHY_TOO_NEAR;
   if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
@@ -18419,24 +18465,25 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   nsvcd__proof_begin(query);
   if (p->given.skin > 0) nsvcd__lift_motion(p, search);
-  nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (p->given.width > 0 && verdict != NSVCD__WITHIN) {
+  nsvcd__finding verdict = nsvcd__prove(p, search);
+  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
     nsvcd__measure(p, search, verdict, p->given.width);
     // A distance decides what was left undecided, but tells nothing of what is inside of what.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
         p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->within;
-    if (verdict == NSVCD__UNDECIDED && (meets || is_clear))
-      verdict = meets ? NSVCD__MEETS : NSVCD__FREE;
+    if (verdict == NSVCD__FOUND_NEITHER && (meets || is_clear))
+      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
-  // The triangles that the answer names are those of a contact, or else of a doubt.
-  const int has_doubt = p->known.unsure < NSVCD__NEVER;
-  const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
-  const int is_within = verdict == NSVCD__WITHIN;
-  if (names && !is_within) nsvcd__settle_normal(p);
-  const int is_free = verdict == NSVCD__FREE;
-  const int is_hit = is_within || verdict == NSVCD__MEETS;
+  // The triangles that the answer names are those of a contact, or else of an unresolved pair.
+  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
+  const int names =
+      p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
+  const int is_within = verdict == NSVCD__FOUND_INSIDE;
+  if (names && !is_within) nsvcd__resolve_normal(p);
+  const int is_free = verdict == NSVCD__FOUND_FREE;
+  const int is_hit = is_within || verdict == NSVCD__FOUND_CONTACT;
   nsvcd__answer_begin(task,
                       is_free  ? NSVCD_FREE
                       : is_hit ? NSVCD_HIT
@@ -18446,22 +18493,23 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (names || is_within) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
-  if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
+  if (verdict == NSVCD__FOUND_CONTACT)
+    answer->contacts[answer->contact_count++] = answer->nearest;
 
   // What is proven of times and distances.
-  if (p->given.share > 0 && !is_free && !is_within) {
+  if (p->given.fraction > 0 && !is_free && !is_within) {
     const nsvcd__motion *motion = p->ask.motion;
     const double ticks = (double)motion->ticks;
     const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
-    if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+    if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
     // nearer than this it is proven on the way, but who asks again from there would not be told so
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = NSVCD__HAIRS * nsvcd__hair(p) + nsvcd__told_within(p, until);
-    const double back = way > hairs ? hairs / way : p->given.share;
+    const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_within(p, until);
+    const double back = way > epsilons ? epsilons / way : p->given.fraction;
     answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
   const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.round;
@@ -18475,7 +18523,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
-  nsvcd__settle_why(p, answer);
+  nsvcd__resolve_why(p, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
@@ -18484,7 +18532,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, lift);
     nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->lift);
   }
-  if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
+  if (q->manifold && verdict == NSVCD__FOUND_CONTACT) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
   answer->work = p->work;
 }
@@ -18623,8 +18671,9 @@ static size_t nsvcd__sweep_size(const nsvcd_question *question) {
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
-                                              const void *workspace, size_t workspace_size) {
+static NSVCD__NOINLINE nsvcd_result nsvcd__answer_question(const nsvcd_question *question,
+                                                           const void *workspace,
+                                                           size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
   if (result) return result;
   if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
@@ -18634,8 +18683,8 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
 }
 
 // Lays a question that has been checked out in the workspace, and chooses who moves.
-static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
-                                                    void *workspace) {
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+                                                       void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
@@ -18709,15 +18758,16 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 }
 
 // As nsvcd_sweep_batch.
-static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
-                                       void *workspace, size_t workspace_size,
-                                       nsvcd_answer *answers) {
+static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
+                                     void *workspace, size_t workspace_size,
+                                     nsvcd_answer *answers) {
   const nsvcd__hint none = {0, 0, 0, 0};
   nsvcd__hint hint = none;
   int swapped = 0;
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
+    const nsvcd_result result =
+        nsvcd__answer_question(&questions[k], workspace, workspace_size);
     if (result) return result;
   }
   for (size_t k = 0; k < count; k++) {
@@ -18733,13 +18783,13 @@ static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t c
 }
 
 // --------------------------------------------------------------------------------- query/self_test
-// In: nothing. Out: does this build reckon as it should?
+// In: nothing. Out: does this build compute as it should?
 
 // As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
 // degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
 // y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
-static nsvcd_result nsvcd__self_test(void) {
-  // or the compiler would reckon instead
+static nsvcd_result nsvcd__run_self_test(void) {
+  // or the compiler would compute instead
   const volatile float half = 0.70710678f;
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
@@ -18750,14 +18800,14 @@ static nsvcd_result nsvcd__self_test(void) {
   // in a block: the stack is shared with what comes after it
   {
     nsvcd__motion motion;
-    nsvcd__knots knots;
+    nsvcd__keyframes keyframes;
     uint32_t ticks[NSVCD__LANES];
     for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
     nsvcd__motion_init(&moving, &fixed, &motion);
     nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
-    nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+    nsvcd__keyframes_read(&motion, ticks, NSVCD__LANES, &keyframes);
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+      const nsvcd__v_poses at = nsvcd__keyframes_load(&motion, &keyframes, l);
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
@@ -18879,8 +18929,9 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 
 // The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
 // at 0 is 0.
-static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, size_t output,
-                                                 const float *x, float *by_x) {
+static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decoder,
+                                                    size_t output, const float *x,
+                                                    float *by_x) {
   // what comes out of the layers, but for the last
   float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {0};
@@ -19148,9 +19199,10 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
 
 // The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
 // by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
-static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__views *views,
-                                        const nsvcd__view *view, float moves, const float *by,
-                                        nsvcd__by_pair *out, nsvcd__by_view *seen) {
+static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
+                                           const nsvcd__views *views, const nsvcd__view *view,
+                                           float moves, const float *by, nsvcd__by_pair *out,
+                                           nsvcd__by_view *seen) {
   const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
   nsvcd__gap_pair pair;
   nsvcd__gap_axes axes;
@@ -19166,7 +19218,7 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
   nsvcd__gap_axes_of(pairs, views, &axes);
-  nsvcd__tips_gather(pairs, 1, tips);
+  nsvcd__tips_collect(pairs, 1, tips);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
@@ -19216,8 +19268,8 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
 // is constant.
-static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
-                                              const float *by_x, nsvcd__by_pair *by) {
+static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
+                                                 const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
   nsvcd__views_of(pairs, &views);
@@ -19365,10 +19417,10 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
   const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
   const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-  const nsvcd__f3 lever = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
+  const nsvcd__f3 moment = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
   const nsvcd__f3 seen = nsvcd__mat3_apply(&axes, force);
   const nsvcd__f3 push = nsvcd__f3_of(seen.x / unit, seen.y / unit, seen.z / unit);
-  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, lever));
+  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, moment));
   const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
   const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
   const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
@@ -19450,14 +19502,14 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
 }
 
 // As nsvcd_sweep_gradient.
-static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
-                                          size_t workspace_size, nsvcd_answer *answer,
-                                          float *gradient_a, float *gradient_b) {
+static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answer,
+                                        float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
+  const nsvcd_result result = nsvcd__answer_question(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *task = &query->task;
@@ -19506,7 +19558,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__NUMBER_AT(name) NSVCD__OF_ISA(NSVCD__##name, NSVCD__ISA)
 
 // ---- the names, as src/make_header.py writes them
-#define NSVCD__ALL_SETTLED NSVCD__NUMBER_AT(ALL_SETTLED)
+#define NSVCD__ALL_RESOLVED NSVCD__NUMBER_AT(ALL_RESOLVED)
 #define NSVCD__ALONG_BOTH NSVCD__NUMBER_AT(ALONG_BOTH)
 #define NSVCD__ALONG_LINE NSVCD__NUMBER_AT(ALONG_LINE)
 #define NSVCD__ALONG_MOVING NSVCD__NUMBER_AT(ALONG_MOVING)
@@ -19523,6 +19575,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__DIRECTIONS NSVCD__NUMBER_AT(DIRECTIONS)
 #define NSVCD__ENTRY_BEGIN NSVCD__NUMBER_AT(ENTRY_BEGIN)
 #define NSVCD__ENTRY_END NSVCD__NUMBER_AT(ENTRY_END)
+#define NSVCD__EXHAUSTED NSVCD__NUMBER_AT(EXHAUSTED)
 #define NSVCD__EXIT_BEGIN NSVCD__NUMBER_AT(EXIT_BEGIN)
 #define NSVCD__EXIT_END NSVCD__NUMBER_AT(EXIT_END)
 #define NSVCD__FACTS NSVCD__NUMBER_AT(FACTS)
@@ -19538,36 +19591,37 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define NSVCD__FACT_TURN NSVCD__NUMBER_AT(FACT_TURN)
 #define NSVCD__FACT_VELOCITY NSVCD__NUMBER_AT(FACT_VELOCITY)
 #define NSVCD__FACT_WIDEST NSVCD__NUMBER_AT(FACT_WIDEST)
-#define NSVCD__FREE NSVCD__NUMBER_AT(FREE)
+#define NSVCD__FOUND_CONTACT NSVCD__NUMBER_AT(FOUND_CONTACT)
+#define NSVCD__FOUND_FREE NSVCD__NUMBER_AT(FOUND_FREE)
+#define NSVCD__FOUND_INSIDE NSVCD__NUMBER_AT(FOUND_INSIDE)
+#define NSVCD__FOUND_NEITHER NSVCD__NUMBER_AT(FOUND_NEITHER)
 #define NSVCD__GAPS NSVCD__NUMBER_AT(GAPS)
 #define NSVCD__GAP_BOTH NSVCD__NUMBER_AT(GAP_BOTH)
 #define NSVCD__GAP_LARGER NSVCD__NUMBER_AT(GAP_LARGER)
 #define NSVCD__GAP_LINE NSVCD__NUMBER_AT(GAP_LINE)
 #define NSVCD__GAP_SMALLER NSVCD__NUMBER_AT(GAP_SMALLER)
 #define NSVCD__INSTANTS NSVCD__NUMBER_AT(INSTANTS)
-#define NSVCD__MEETS NSVCD__NUMBER_AT(MEETS)
 #define NSVCD__NOTHING NSVCD__NUMBER_AT(NOTHING)
+#define NSVCD__RESOLVED NSVCD__NUMBER_AT(RESOLVED)
 #define NSVCD__SAYINGS NSVCD__NUMBER_AT(SAYINGS)
 #define NSVCD__SAYS_APART NSVCD__NUMBER_AT(SAYS_APART)
 #define NSVCD__SAYS_LOGIT NSVCD__NUMBER_AT(SAYS_LOGIT)
-#define NSVCD__SETTLED NSVCD__NUMBER_AT(SETTLED)
 #define NSVCD__SHRUNK NSVCD__NUMBER_AT(SHRUNK)
-#define NSVCD__SPENT NSVCD__NUMBER_AT(SPENT)
 #define NSVCD__SUPPORTING NSVCD__NUMBER_AT(SUPPORTING)
 #define NSVCD__TOO_LONG NSVCD__NUMBER_AT(TOO_LONG)
 #define NSVCD__TOUCHING NSVCD__NUMBER_AT(TOUCHING)
-#define NSVCD__UNDECIDED NSVCD__NUMBER_AT(UNDECIDED)
-#define NSVCD__WITHIN NSVCD__NUMBER_AT(WITHIN)
 #define nsvcd__across_edges NSVCD__AT(across_edges)
 #define nsvcd__add_along_rows NSVCD__AT(add_along_rows)
 #define nsvcd__add_dipoles NSVCD__AT(add_dipoles)
 #define nsvcd__add_part NSVCD__AT(add_part)
+#define nsvcd__add_patch_pairs NSVCD__AT(add_patch_pairs)
 #define nsvcd__aim_plane NSVCD__AT(aim_plane)
 #define nsvcd__all_segments NSVCD__AT(all_segments)
 #define nsvcd__answer_begin NSVCD__AT(answer_begin)
 #define nsvcd__answer_by_network NSVCD__AT(answer_by_network)
 #define nsvcd__answer_by_proof NSVCD__AT(answer_by_proof)
 #define nsvcd__answer_query NSVCD__AT(answer_query)
+#define nsvcd__answer_question NSVCD__AT(answer_question)
 #define nsvcd__answer_with NSVCD__AT(answer_with)
 #define nsvcd__apart_until NSVCD__AT(apart_until)
 #define nsvcd__approach NSVCD__AT(approach)
@@ -19578,6 +19632,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__arc_limit NSVCD__AT(arc_limit)
 #define nsvcd__arc_of NSVCD__AT(arc_of)
 #define nsvcd__are_opposed NSVCD__AT(are_opposed)
+#define nsvcd__arm NSVCD__AT(arm)
+#define nsvcd__arm_of NSVCD__AT(arm_of)
 #define nsvcd__ask_network NSVCD__AT(ask_network)
 #define nsvcd__asked NSVCD__AT(asked)
 #define nsvcd__axis_apart NSVCD__AT(axis_apart)
@@ -19587,11 +19643,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__best_lift NSVCD__AT(best_lift)
 #define nsvcd__beyond NSVCD__AT(beyond)
 #define nsvcd__block NSVCD__AT(block)
+#define nsvcd__block_arm NSVCD__AT(block_arm)
 #define nsvcd__block_bounds NSVCD__AT(block_bounds)
 #define nsvcd__block_box NSVCD__AT(block_box)
 #define nsvcd__block_corners NSVCD__AT(block_corners)
 #define nsvcd__block_lanes NSVCD__AT(block_lanes)
-#define nsvcd__block_lever NSVCD__AT(block_lever)
 #define nsvcd__block_load NSVCD__AT(block_load)
 #define nsvcd__block_pose NSVCD__AT(block_pose)
 #define nsvcd__bound_of NSVCD__AT(bound_of)
@@ -19617,12 +19673,11 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__candidates_start NSVCD__AT(candidates_start)
 #define nsvcd__certain_opinion NSVCD__AT(certain_opinion)
 #define nsvcd__certify_block NSVCD__AT(certify_block)
-#define nsvcd__certify_couple NSVCD__AT(certify_couple)
 #define nsvcd__certify_disc NSVCD__AT(certify_disc)
 #define nsvcd__certify_groups NSVCD__AT(certify_groups)
-#define nsvcd__certify_item NSVCD__AT(certify_item)
+#define nsvcd__certify_patch_pair NSVCD__AT(certify_patch_pair)
+#define nsvcd__certify_triangle_pair NSVCD__AT(certify_triangle_pair)
 #define nsvcd__changes_sides NSVCD__AT(changes_sides)
-#define nsvcd__check NSVCD__AT(check)
 #define nsvcd__choose_all NSVCD__AT(choose_all)
 #define nsvcd__choose_four NSVCD__AT(choose_four)
 #define nsvcd__choose_in_all NSVCD__AT(choose_in_all)
@@ -19644,18 +19699,16 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
-#define nsvcd__collect_items NSVCD__AT(collect_items)
+#define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
+#define nsvcd__collect_places NSVCD__AT(collect_places)
+#define nsvcd__collect_touch NSVCD__AT(collect_touch)
+#define nsvcd__collecting NSVCD__AT(collecting)
+#define nsvcd__collects_on NSVCD__AT(collects_on)
 #define nsvcd__collides_again NSVCD__AT(collides_again)
 #define nsvcd__comes_near NSVCD__AT(comes_near)
 #define nsvcd__comes_within NSVCD__AT(comes_within)
 #define nsvcd__constants_hold NSVCD__AT(constants_hold)
-#define nsvcd__contact NSVCD__AT(contact)
 #define nsvcd__contact_at NSVCD__AT(contact_at)
-#define nsvcd__couple NSVCD__AT(couple)
-#define nsvcd__couple_nearest NSVCD__AT(couple_nearest)
-#define nsvcd__couple_of NSVCD__AT(couple_of)
-#define nsvcd__couple_passes NSVCD__AT(couple_passes)
-#define nsvcd__couple_reaches NSVCD__AT(couple_reaches)
 #define nsvcd__cross_all NSVCD__AT(cross_all)
 #define nsvcd__crossings NSVCD__AT(crossings)
 #define nsvcd__cut NSVCD__AT(cut)
@@ -19664,7 +19717,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__cut_deviations NSVCD__AT(cut_deviations)
 #define nsvcd__cut_double_arc NSVCD__AT(cut_double_arc)
 #define nsvcd__cut_ends NSVCD__AT(cut_ends)
-#define nsvcd__cut_knot NSVCD__AT(cut_knot)
+#define nsvcd__cut_keyframe NSVCD__AT(cut_keyframe)
 #define nsvcd__cut_motion NSVCD__AT(cut_motion)
 #define nsvcd__cut_segments NSVCD__AT(cut_segments)
 #define nsvcd__cut_starts NSVCD__AT(cut_starts)
@@ -19675,15 +19728,17 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__decoder_gradient NSVCD__AT(decoder_gradient)
 #define nsvcd__decoder_says NSVCD__AT(decoder_says)
 #define nsvcd__deepen NSVCD__AT(deepen)
-#define nsvcd__deviation NSVCD__AT(deviation)
+#define nsvcd__deviation_of NSVCD__AT(deviation_of)
 #define nsvcd__discs_meet NSVCD__AT(discs_meet)
 #define nsvcd__dot_tile NSVCD__AT(dot_tile)
-#define nsvcd__doubt NSVCD__AT(doubt)
+#define nsvcd__dtransform NSVCD__AT(dtransform)
+#define nsvcd__dtransform_at NSVCD__AT(dtransform_at)
 #define nsvcd__edges_cross NSVCD__AT(edges_cross)
 #define nsvcd__encloses_any NSVCD__AT(encloses_any)
 #define nsvcd__encloses_seeds NSVCD__AT(encloses_seeds)
 #define nsvcd__enclosure NSVCD__AT(enclosure)
 #define nsvcd__end_of NSVCD__AT(end_of)
+#define nsvcd__epsilon NSVCD__AT(epsilon)
 #define nsvcd__exists NSVCD__AT(exists)
 #define nsvcd__f3_across NSVCD__AT(f3_across)
 #define nsvcd__f3_towards NSVCD__AT(f3_towards)
@@ -19694,12 +19749,14 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__farthest_tip NSVCD__AT(farthest_tip)
 #define nsvcd__find_witness NSVCD__AT(find_witness)
 #define nsvcd__find_witness_in NSVCD__AT(find_witness_in)
+#define nsvcd__finding NSVCD__AT(finding)
 #define nsvcd__first_f3 NSVCD__AT(first_f3)
 #define nsvcd__first_interval NSVCD__AT(first_interval)
 #define nsvcd__first_lanes NSVCD__AT(first_lanes)
 #define nsvcd__fixed_closed NSVCD__AT(fixed_closed)
 #define nsvcd__foot_well_within NSVCD__AT(foot_well_within)
 #define nsvcd__forget NSVCD__AT(forget)
+#define nsvcd__fraction_of NSVCD__AT(fraction_of)
 #define nsvcd__gap_after NSVCD__AT(gap_after)
 #define nsvcd__gap_axes NSVCD__AT(gap_axes)
 #define nsvcd__gap_axes_made NSVCD__AT(gap_axes_made)
@@ -19708,11 +19765,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__gap_pair NSVCD__AT(gap_pair)
 #define nsvcd__gap_told NSVCD__AT(gap_told)
 #define nsvcd__gaps_at NSVCD__AT(gaps_at)
-#define nsvcd__gather_contact NSVCD__AT(gather_contact)
-#define nsvcd__gather_items NSVCD__AT(gather_items)
-#define nsvcd__gather_places NSVCD__AT(gather_places)
-#define nsvcd__gathering NSVCD__AT(gathering)
-#define nsvcd__gathers_on NSVCD__AT(gathers_on)
 #define nsvcd__given NSVCD__AT(given)
 #define nsvcd__gradient NSVCD__AT(gradient)
 #define nsvcd__group_against_group NSVCD__AT(group_against_group)
@@ -19720,7 +19772,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__group_reach NSVCD__AT(group_reach)
 #define nsvcd__groups_nearest NSVCD__AT(groups_nearest)
 #define nsvcd__guess_clearance NSVCD__AT(guess_clearance)
-#define nsvcd__hair NSVCD__AT(hair)
 #define nsvcd__has_turned NSVCD__AT(has_turned)
 #define nsvcd__height NSVCD__AT(height)
 #define nsvcd__held_again NSVCD__AT(held_again)
@@ -19736,7 +19787,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__intervals NSVCD__AT(intervals)
 #define nsvcd__intervals_close NSVCD__AT(intervals_close)
 #define nsvcd__invariants NSVCD__AT(invariants)
-#define nsvcd__inverse_placement NSVCD__AT(inverse_placement)
+#define nsvcd__inverse_dtransform NSVCD__AT(inverse_dtransform)
 #define nsvcd__is_against NSVCD__AT(is_against)
 #define nsvcd__is_approached NSVCD__AT(is_approached)
 #define nsvcd__is_around NSVCD__AT(is_around)
@@ -19745,6 +19796,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_contained NSVCD__AT(is_contained)
 #define nsvcd__is_deep NSVCD__AT(is_deep)
 #define nsvcd__is_enclosed NSVCD__AT(is_enclosed)
+#define nsvcd__is_exhausted NSVCD__AT(is_exhausted)
 #define nsvcd__is_harmless NSVCD__AT(is_harmless)
 #define nsvcd__is_inside NSVCD__AT(is_inside)
 #define nsvcd__is_large NSVCD__AT(is_large)
@@ -19752,21 +19804,20 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__is_long NSVCD__AT(is_long)
 #define nsvcd__is_new NSVCD__AT(is_new)
 #define nsvcd__is_on_beam NSVCD__AT(is_on_beam)
+#define nsvcd__is_separated NSVCD__AT(is_separated)
 #define nsvcd__is_shallower NSVCD__AT(is_shallower)
-#define nsvcd__is_spent NSVCD__AT(is_spent)
 #define nsvcd__is_straight NSVCD__AT(is_straight)
 #define nsvcd__is_swapped NSVCD__AT(is_swapped)
 #define nsvcd__is_tiled NSVCD__AT(is_tiled)
 #define nsvcd__is_within NSVCD__AT(is_within)
-#define nsvcd__item NSVCD__AT(item)
-#define nsvcd__item_is_parted NSVCD__AT(item_is_parted)
 #define nsvcd__judge NSVCD__AT(judge)
 #define nsvcd__keep_place NSVCD__AT(keep_place)
-#define nsvcd__knots NSVCD__AT(knots)
-#define nsvcd__knots_after NSVCD__AT(knots_after)
-#define nsvcd__knots_keep NSVCD__AT(knots_keep)
-#define nsvcd__knots_load NSVCD__AT(knots_load)
-#define nsvcd__knots_read NSVCD__AT(knots_read)
+#define nsvcd__keep_unresolved NSVCD__AT(keep_unresolved)
+#define nsvcd__keyframes NSVCD__AT(keyframes)
+#define nsvcd__keyframes_after NSVCD__AT(keyframes_after)
+#define nsvcd__keyframes_keep NSVCD__AT(keyframes_keep)
+#define nsvcd__keyframes_load NSVCD__AT(keyframes_load)
+#define nsvcd__keyframes_read NSVCD__AT(keyframes_read)
 #define nsvcd__known NSVCD__AT(known)
 #define nsvcd__lane_of NSVCD__AT(lane_of)
 #define nsvcd__lane_set NSVCD__AT(lane_set)
@@ -19782,12 +19833,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__least_lane NSVCD__AT(least_lane)
 #define nsvcd__least_of NSVCD__AT(least_of)
 #define nsvcd__left_by_last NSVCD__AT(left_by_last)
-#define nsvcd__leg NSVCD__AT(leg)
-#define nsvcd__leg_at NSVCD__AT(leg_at)
-#define nsvcd__leg_init NSVCD__AT(leg_init)
-#define nsvcd__leg_turn NSVCD__AT(leg_turn)
-#define nsvcd__lever NSVCD__AT(lever)
-#define nsvcd__lever_of NSVCD__AT(lever_of)
 #define nsvcd__lift_along NSVCD__AT(lift_along)
 #define nsvcd__lift_motion NSVCD__AT(lift_motion)
 #define nsvcd__lift_off NSVCD__AT(lift_off)
@@ -19838,15 +19883,15 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__needs_of NSVCD__AT(needs_of)
 #define nsvcd__network_constants_hold NSVCD__AT(network_constants_hold)
 #define nsvcd__next_interval NSVCD__AT(next_interval)
-#define nsvcd__next_knot NSVCD__AT(next_knot)
+#define nsvcd__next_keyframe NSVCD__AT(next_keyframe)
 #define nsvcd__next_place NSVCD__AT(next_place)
 #define nsvcd__next_pose NSVCD__AT(next_pose)
 #define nsvcd__normal_met NSVCD__AT(normal_met)
 #define nsvcd__normal_to_try NSVCD__AT(normal_to_try)
-#define nsvcd__normals_part NSVCD__AT(normals_part)
-#define nsvcd__not_parted NSVCD__AT(not_parted)
-#define nsvcd__not_parted_again NSVCD__AT(not_parted_again)
-#define nsvcd__not_parted_anew NSVCD__AT(not_parted_anew)
+#define nsvcd__normals_separate NSVCD__AT(normals_separate)
+#define nsvcd__not_separated NSVCD__AT(not_separated)
+#define nsvcd__not_separated_again NSVCD__AT(not_separated_again)
+#define nsvcd__not_separated_anew NSVCD__AT(not_separated_anew)
 #define nsvcd__note_depth NSVCD__AT(note_depth)
 #define nsvcd__of_distance NSVCD__AT(of_distance)
 #define nsvcd__off_chord_along NSVCD__AT(off_chord_along)
@@ -19855,26 +19900,31 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__outcome NSVCD__AT(outcome)
 #define nsvcd__own_axis NSVCD__AT(own_axis)
 #define nsvcd__pace NSVCD__AT(pace)
+#define nsvcd__pair_contact NSVCD__AT(pair_contact)
+#define nsvcd__pair_nearest NSVCD__AT(pair_nearest)
+#define nsvcd__pair_of NSVCD__AT(pair_of)
+#define nsvcd__pair_passes NSVCD__AT(pair_passes)
+#define nsvcd__pair_reaches NSVCD__AT(pair_reaches)
 #define nsvcd__pairs NSVCD__AT(pairs)
 #define nsvcd__pairs_in_passing NSVCD__AT(pairs_in_passing)
 #define nsvcd__pairs_of NSVCD__AT(pairs_of)
-#define nsvcd__part_groups NSVCD__AT(part_groups)
-#define nsvcd__parted_along NSVCD__AT(parted_along)
 #define nsvcd__passage NSVCD__AT(passage)
 #define nsvcd__passing NSVCD__AT(passing)
 #define nsvcd__passing_turns NSVCD__AT(passing_turns)
-#define nsvcd__patch_lever NSVCD__AT(patch_lever)
+#define nsvcd__patch_arm NSVCD__AT(patch_arm)
+#define nsvcd__patch_pair NSVCD__AT(patch_pair)
 #define nsvcd__patch_towards NSVCD__AT(patch_towards)
 #define nsvcd__patches_apart NSVCD__AT(patches_apart)
 #define nsvcd__place_point NSVCD__AT(place_point)
 #define nsvcd__place_triangle NSVCD__AT(place_triangle)
 #define nsvcd__placed NSVCD__AT(placed)
 #define nsvcd__placed_at NSVCD__AT(placed_at)
-#define nsvcd__placement NSVCD__AT(placement)
-#define nsvcd__placement_at NSVCD__AT(placement_at)
 #define nsvcd__places NSVCD__AT(places)
 #define nsvcd__places_measure NSVCD__AT(places_measure)
-#define nsvcd__plane_parts NSVCD__AT(plane_parts)
+#define nsvcd__plane_cache NSVCD__AT(plane_cache)
+#define nsvcd__plane_cache_begin NSVCD__AT(plane_cache_begin)
+#define nsvcd__plane_cache_knows NSVCD__AT(plane_cache_knows)
+#define nsvcd__plane_separates NSVCD__AT(plane_separates)
 #define nsvcd__planes_known NSVCD__AT(planes_known)
 #define nsvcd__pose_at NSVCD__AT(pose_at)
 #define nsvcd__pose_before NSVCD__AT(pose_before)
@@ -19908,6 +19958,16 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__reach_of NSVCD__AT(reach_of)
 #define nsvcd__recede NSVCD__AT(recede)
 #define nsvcd__remember_plane NSVCD__AT(remember_plane)
+#define nsvcd__resolve_doubtful NSVCD__AT(resolve_doubtful)
+#define nsvcd__resolve_normal NSVCD__AT(resolve_normal)
+#define nsvcd__resolve_pair NSVCD__AT(resolve_pair)
+#define nsvcd__resolve_patch_pair NSVCD__AT(resolve_patch_pair)
+#define nsvcd__resolve_patch_pairs NSVCD__AT(resolve_patch_pairs)
+#define nsvcd__resolve_row NSVCD__AT(resolve_row)
+#define nsvcd__resolve_short_interval NSVCD__AT(resolve_short_interval)
+#define nsvcd__resolve_straight NSVCD__AT(resolve_straight)
+#define nsvcd__resolve_triangles NSVCD__AT(resolve_triangles)
+#define nsvcd__resolve_why NSVCD__AT(resolve_why)
 #define nsvcd__rest_at NSVCD__AT(rest_at)
 #define nsvcd__resting NSVCD__AT(resting)
 #define nsvcd__resting_know NSVCD__AT(resting_know)
@@ -19916,6 +19976,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__rotate_degree NSVCD__AT(rotate_degree)
 #define nsvcd__rotate_latent NSVCD__AT(rotate_latent)
 #define nsvcd__row_left NSVCD__AT(row_left)
+#define nsvcd__run_batch NSVCD__AT(run_batch)
+#define nsvcd__run_gradient NSVCD__AT(run_gradient)
+#define nsvcd__run_self_test NSVCD__AT(run_self_test)
 #define nsvcd__scenes NSVCD__AT(scenes)
 #define nsvcd__scenes_of NSVCD__AT(scenes_of)
 #define nsvcd__scenes_without_gaps NSVCD__AT(scenes_without_gaps)
@@ -19931,9 +19994,9 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__search_patch NSVCD__AT(search_patch)
 #define nsvcd__search_step NSVCD__AT(search_step)
 #define nsvcd__search_tile NSVCD__AT(search_tile)
-#define nsvcd__see_to_items NSVCD__AT(see_to_items)
+#define nsvcd__see_to_patch_pairs NSVCD__AT(see_to_patch_pairs)
 #define nsvcd__seeds_near NSVCD__AT(seeds_near)
-#define nsvcd__seek_item NSVCD__AT(seek_item)
+#define nsvcd__seek_in_patch_pair NSVCD__AT(seek_in_patch_pair)
 #define nsvcd__seek_places NSVCD__AT(seek_places)
 #define nsvcd__segment_count NSVCD__AT(segment_count)
 #define nsvcd__segment_span NSVCD__AT(segment_span)
@@ -19941,28 +20004,19 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__segments NSVCD__AT(segments)
 #define nsvcd__segments_in NSVCD__AT(segments_in)
 #define nsvcd__segments_that_matter NSVCD__AT(segments_that_matter)
-#define nsvcd__self_test NSVCD__AT(self_test)
+#define nsvcd__separate_groups NSVCD__AT(separate_groups)
+#define nsvcd__separated_along NSVCD__AT(separated_along)
 #define nsvcd__set_down NSVCD__AT(set_down)
 #define nsvcd__settings NSVCD__AT(settings)
 #define nsvcd__settings_of NSVCD__AT(settings_of)
-#define nsvcd__settle_couple NSVCD__AT(settle_couple)
-#define nsvcd__settle_doubt NSVCD__AT(settle_doubt)
-#define nsvcd__settle_item NSVCD__AT(settle_item)
-#define nsvcd__settle_items NSVCD__AT(settle_items)
-#define nsvcd__settle_normal NSVCD__AT(settle_normal)
-#define nsvcd__settle_row NSVCD__AT(settle_row)
-#define nsvcd__settle_short_part NSVCD__AT(settle_short_part)
-#define nsvcd__settle_straight NSVCD__AT(settle_straight)
-#define nsvcd__settle_triangles NSVCD__AT(settle_triangles)
-#define nsvcd__settle_why NSVCD__AT(settle_why)
 #define nsvcd__shallowest NSVCD__AT(shallowest)
-#define nsvcd__share_of NSVCD__AT(share_of)
-#define nsvcd__sheets NSVCD__AT(sheets)
-#define nsvcd__sheets_begin NSVCD__AT(sheets_begin)
-#define nsvcd__sheets_know NSVCD__AT(sheets_know)
-#define nsvcd__sift_items NSVCD__AT(sift_items)
+#define nsvcd__sift_patch_pairs NSVCD__AT(sift_patch_pairs)
+#define nsvcd__slerp NSVCD__AT(slerp)
+#define nsvcd__slerp_at NSVCD__AT(slerp_at)
+#define nsvcd__slerp_init NSVCD__AT(slerp_init)
+#define nsvcd__slerp_turn NSVCD__AT(slerp_turn)
 #define nsvcd__slice_against_patch NSVCD__AT(slice_against_patch)
-#define nsvcd__sort_items NSVCD__AT(sort_items)
+#define nsvcd__sort_patch_pairs NSVCD__AT(sort_patch_pairs)
 #define nsvcd__span NSVCD__AT(span)
 #define nsvcd__span_of_arc NSVCD__AT(span_of_arc)
 #define nsvcd__span_of_segment NSVCD__AT(span_of_segment)
@@ -19980,11 +20034,8 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__swap_answer NSVCD__AT(swap_answer)
 #define nsvcd__swap_contact NSVCD__AT(swap_contact)
 #define nsvcd__swap_patches NSVCD__AT(swap_patches)
-#define nsvcd__sweep_batch NSVCD__AT(sweep_batch)
-#define nsvcd__sweep_gradient NSVCD__AT(sweep_gradient)
 #define nsvcd__sweep_size NSVCD__AT(sweep_size)
 #define nsvcd__take_contact NSVCD__AT(take_contact)
-#define nsvcd__take_doubt NSVCD__AT(take_doubt)
 #define nsvcd__take_nearest NSVCD__AT(take_nearest)
 #define nsvcd__take_to_line NSVCD__AT(take_to_line)
 #define nsvcd__takes_lift NSVCD__AT(takes_lift)
@@ -20002,7 +20053,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__time_in_segment NSVCD__AT(time_in_segment)
 #define nsvcd__time_of NSVCD__AT(time_of)
 #define nsvcd__tips_along NSVCD__AT(tips_along)
-#define nsvcd__tips_gather NSVCD__AT(tips_gather)
+#define nsvcd__tips_collect NSVCD__AT(tips_collect)
 #define nsvcd__to_of NSVCD__AT(to_of)
 #define nsvcd__to_world NSVCD__AT(to_world)
 #define nsvcd__to_world_at NSVCD__AT(to_world_at)
@@ -20016,6 +20067,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__track_poses_at NSVCD__AT(track_poses_at)
 #define nsvcd__track_within NSVCD__AT(track_within)
 #define nsvcd__transform_of NSVCD__AT(transform_of)
+#define nsvcd__triangle_pair NSVCD__AT(triangle_pair)
 #define nsvcd__try_lift NSVCD__AT(try_lift)
 #define nsvcd__turn_at NSVCD__AT(turn_at)
 #define nsvcd__turn_back NSVCD__AT(turn_back)
@@ -20032,6 +20084,7 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
 #define nsvcd__unparted_members NSVCD__AT(unparted_members)
 #define nsvcd__unparted_segments NSVCD__AT(unparted_segments)
+#define nsvcd__unresolved NSVCD__AT(unresolved)
 #define nsvcd__v NSVCD__AT(v)
 #define nsvcd__v3 NSVCD__AT(v3)
 #define nsvcd__v3_add NSVCD__AT(v3_add)
@@ -20081,10 +20134,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_min NSVCD__AT(v_min)
 #define nsvcd__v_negate NSVCD__AT(v_negate)
 #define nsvcd__v_off NSVCD__AT(v_off)
-#define nsvcd__v_part NSVCD__AT(v_part)
-#define nsvcd__v_part_by_fixed NSVCD__AT(v_part_by_fixed)
-#define nsvcd__v_part_by_moving NSVCD__AT(v_part_by_moving)
-#define nsvcd__v_parted NSVCD__AT(v_parted)
 #define nsvcd__v_pick NSVCD__AT(v_pick)
 #define nsvcd__v_plus NSVCD__AT(v_plus)
 #define nsvcd__v_pose NSVCD__AT(v_pose)
@@ -20093,6 +20142,10 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_range NSVCD__AT(v_range)
 #define nsvcd__v_scale NSVCD__AT(v_scale)
 #define nsvcd__v_seen NSVCD__AT(v_seen)
+#define nsvcd__v_separate NSVCD__AT(v_separate)
+#define nsvcd__v_separate_by_fixed NSVCD__AT(v_separate_by_fixed)
+#define nsvcd__v_separate_by_moving NSVCD__AT(v_separate_by_moving)
+#define nsvcd__v_separated NSVCD__AT(v_separated)
 #define nsvcd__v_shorter_turn_between NSVCD__AT(v_shorter_turn_between)
 #define nsvcd__v_sign NSVCD__AT(v_sign)
 #define nsvcd__v_signed_square NSVCD__AT(v_signed_square)
@@ -20102,7 +20155,6 @@ static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *
 #define nsvcd__v_turn_between NSVCD__AT(v_turn_between)
 #define nsvcd__v_turn_off_axis NSVCD__AT(v_turn_off_axis)
 #define nsvcd__v_unit_or NSVCD__AT(v_unit_or)
-#define nsvcd__verdict NSVCD__AT(verdict)
 #define nsvcd__vertices_apart NSVCD__AT(vertices_apart)
 #define nsvcd__view NSVCD__AT(view)
 #define nsvcd__views NSVCD__AT(views)
@@ -20245,7 +20297,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 // ---- what is asked, handed to the best of them
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return NSVCD__BEST(self_test)();
+  return NSVCD__BEST(run_self_test)();
 }
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
@@ -20255,21 +20307,21 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
   if (!question) return NSVCD_ERROR_ARGUMENT;
-  return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
+  return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  return NSVCD__BEST(sweep_batch)(questions, count, workspace, workspace_size, answers);
+  return NSVCD__BEST(run_batch)(questions, count, workspace, workspace_size, answers);
 }
 
 #ifndef NSVCD_NO_GRADIENT
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  return NSVCD__BEST(sweep_gradient)(question, workspace, workspace_size, answer, gradient_a,
-                                     gradient_b);
+  return NSVCD__BEST(run_gradient)(question, workspace, workspace_size, answer, gradient_a,
+                                   gradient_b);
 }
 #endif
 
@@ -20426,7 +20478,7 @@ static void nsvcd__solve_upper(const double *l, size_t n, double *x) {
 #define NSVCD__FIRST_LOOK_SEGMENTS 8
 // gradient by differences: a joint's step, and what it grows by with the joint's value
 #define NSVCD__JOINT_STEP 1e-3f
-#define NSVCD__JOINT_STEP_SHARE 1e-6f
+#define NSVCD__JOINT_STEP_FRACTION 1e-6f
 // explore: temperatures above the least cost at which a rollout weighs nothing
 #define NSVCD__WEIGHTLESS 10
 // explore: one in so many rollouts costs less than the least cost and two temperatures
@@ -20904,8 +20956,8 @@ static float nsvcd__logit_of(const nsvcd_answer *answer) {
 
 // The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
 // end, by the method of the options. gradient: (segments + 1, 6), or NULL.
-static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
-                               int at_end, float *gradient) {
+static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t first,
+                                        size_t segments, int at_end, float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
   nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
@@ -20963,7 +21015,7 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   float gradient[2 * 6];
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
-  const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
+  const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, how->stride, how->at_end, wanted);
   const float logit = nsvcd__logit_of(&answer);
   const int collides = answer.verdict != NSVCD_FREE;
   if (logit > cost->logit) {
@@ -21001,7 +21053,7 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
       while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
       seen = s + run;
       if (run > 1) {
-        const nsvcd_answer answer = nsvcd__ask(p, k, s, run, 0, NULL);
+        const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, run, 0, NULL);
         if (nsvcd__logit_of(&answer) <= -p->options.margin) {
           s += run - 1;
           continue;
@@ -21052,7 +21104,7 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   float moved[NSVCD_MAX_JOINTS];
   memcpy(moved, joints, problem->joints * sizeof *moved);
   for (size_t j = 0; j < problem->joints; j++) {
-    moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_SHARE * fabsf(joints[j]));
+    moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
     problem->place(problem->user, moved, p->moved);
     moved[j] = joints[j];
@@ -21121,7 +21173,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
   const size_t all = stage->via + 2;
-  const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  const float fraction = NSVCD__LIMIT_COST / (float)stage->moments;
   // via points too: moments may be few, and miss one
   for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
     if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
@@ -21138,10 +21190,10 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
       const float inner = NSVCD__LIMIT_MARGIN * (high - low);
       float out = value > high - inner ? value - high + inner : 0;
       if (value < low + inner) out = value - low - inner;
-      cost->total += share * out * out;
+      cost->total += fraction * out * out;
       if (nsvcd__leaves_limits(problem, j, value)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
-        gradient[k * f + j] += 2 * share * out * w[k];
+        gradient[k * f + j] += 2 * fraction * out * w[k];
     }
   }
 }
@@ -21563,17 +21615,17 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
 // some share of the way from the poses `from` (B) to the next ones, where those on the spline are
 // p->moved.
 static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                const nsvcd_pose *from, double share) {
+                                const nsvcd_pose *from, double fraction) {
   const nsvcd_pose *to = from + p->problem->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
   const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), share);
+  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
   const nsvcd__quat q = nsvcd__quat_load(start.rotation);
   const nsvcd__quat r = nsvcd__quat_load(end.rotation);
-  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)share);
+  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
   const nsvcd__quat is = nsvcd__quat_load(there.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
   const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
@@ -21597,8 +21649,8 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
   float most = 0;
   for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
     const size_t s = n / looks * stride;
-    const double share = (double)(n % looks + 1) / (double)(looks + 1);
-    const double t = ((double)s + share) / (double)segments;
+    const double fraction = (double)(n % looks + 1) / (double)(looks + 1);
+    const double t = ((double)s + fraction) / (double)segments;
     nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
     nsvcd__place(p, joints, 1, p->moved);
     if (p->error) break;
@@ -21606,7 +21658,7 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
       const nsvcd_body_pair *pair = &problem->pairs[k];
       const nsvcd_pose *from = p->poses + s * problem->body_count;
       if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_strays(p, pair, from, share), most);
+        most = fmaxf(nsvcd__pair_strays(p, pair, from, fraction), most);
     }
   }
   return most;

@@ -192,9 +192,10 @@ static const draw_colour planner_pale = {{110, 130, 160}, {214, 226, 242}};
 
 // The joints when the held thing has come `share` of its way: spread evenly in space, not in time.
 PLANNER_DEF const float *planner_joints_at(const task_scene *scene, const planner_motion *motion,
-                                           double share) {
+                                           double fraction) {
   int s = 0;
-  while (s + 1 < PLANNER_SAMPLES && motion->metres[s] < share * motion->metres[PLANNER_SAMPLES - 1])
+  while (s + 1 < PLANNER_SAMPLES &&
+         motion->metres[s] < fraction * motion->metres[PLANNER_SAMPLES - 1])
     s++;
   return motion->joints + s * scene->joint_count;
 }

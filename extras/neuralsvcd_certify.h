@@ -26,7 +26,7 @@
 //   certificate: a proof that others can check
 //     tree            boxes over triangles, components
 //     law             where a body is, how far points leave their chords
-//     planes          one that parts two nodes for a while
+//     planes          one that separates two nodes for a while
 //     rays            what a ray crosses
 //     certify         the walk, and its bits
 //
@@ -196,7 +196,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
-// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+// NSVCD_ONE_PATH: nothing may be fused or computed more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
@@ -220,26 +220,26 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 #endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__MERGED static inline __attribute__((always_inline))
+#define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
-#define NSVCD__MERGED static __forceinline
+#define NSVCD__FORCE_INLINE static __forceinline
 #else
-#define NSVCD__MERGED static inline
+#define NSVCD__FORCE_INLINE static inline
 #endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
-#define NSVCD__INLINE NSVCD__MERGED
+#define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__APART __attribute__((noinline))
+#define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
-#define NSVCD__APART __declspec(noinline)
+#define NSVCD__NOINLINE __declspec(noinline)
 #else
-#define NSVCD__APART
+#define NSVCD__NOINLINE
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
@@ -252,7 +252,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
 #ifndef NSVCD__HAS_GROUND_ANGLES
 #define NSVCD__HAS_GROUND_ANGLES
 // In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+// are computed here, for libm's last digit is not the same everywhere; else by libm.
 
 #ifdef NSVCD_ONE_PATH
 // sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
@@ -628,7 +628,7 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
-  NSVCD__MERGED quat quat##_unit(quat q) { \
+  NSVCD__FORCE_INLINE quat quat##_unit(quat q) { \
     return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
   } \
   static inline vec quat##_axis(quat q) { \
@@ -809,7 +809,7 @@ typedef struct nsvcd__nearest {
   nsvcd__d3 on_a, on_b;
 } nsvcd__nearest;
 
-static double nsvcd__clamp_share(double x) {
+static double nsvcd__clamp_fraction(double x) {
   return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
@@ -835,9 +835,10 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
   double s = 0;
-  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
-  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
-  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  if (determinant > 1e-14 * uu * vv)
+    s = nsvcd__clamp_fraction((uv * vw - uw * vv) / determinant);
+  const double t = vv > 0 ? nsvcd__clamp_fraction((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_fraction((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
 }
 
@@ -1101,12 +1102,12 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //
 //   tree        boxes, and components
 //   law         where a body is at a time, and how far points leave their chords
-//   planes      one that parts two nodes over a stretch of time; its normal in a few bits
+//   planes      one that separates two nodes over a stretch of time; its normal in a few bits
 //   rays        what is inside of what at one time
 //   certify     the walk that a certificate is
 //
-// What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
-// rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+// What is built and computed here examples/verify builds and computes again, by code of its own:
+// the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
 
 #define NSVCD__TREE_TRIANGLES 0x20000000
 // nodes that wait, while a tree of so many triangles is walked through
@@ -1406,13 +1407,13 @@ typedef struct nsvcd__posed {
 } nsvcd__posed;
 
 // A mesh that moves.
-typedef struct nsvcd__rider {
+typedef struct nsvcd__moving_tree {
   const nsvcd_tree *tree;
   nsvcd_motion_model model;
-} nsvcd__rider;
+} nsvcd__moving_tree;
 
-static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
-  const nsvcd_placement at = rider->model.place(rider->model.motion, t);
+static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
+  const nsvcd_placement at = moving->model.place(moving->model.motion, t);
   nsvcd__posed out;
   memcpy(&out.turn, at.rotation, sizeof out.turn);
   memcpy(&out.at, at.position, sizeof out.at);
@@ -1421,7 +1422,7 @@ static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
 
 // ---- of poses: nsvcd_mover
 
-static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
+static double nsvcd__mover_keyframe(const nsvcd_mover *mover, size_t k) {
   if (mover->times) return (double)mover->times[k];
   return nsvcd__stored((double)k / (double)(mover->count - 1));
 }
@@ -1432,7 +1433,7 @@ static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
   size_t high = mover->count - 1;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__mover_knot(mover, middle) <= t)
+    if (nsvcd__mover_keyframe(mover, middle) <= t)
       low = middle;
     else
       high = middle;
@@ -1485,8 +1486,8 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
                                nsvcd__d3_load(mover->poses->position));
   const size_t k = nsvcd__mover_pose(mover, t);
   const nsvcd_pose *a = &mover->poses[k];
-  const double from = nsvcd__mover_knot(mover, k);
-  const double u = (t - from) / (nsvcd__mover_knot(mover, k + 1) - from);
+  const double from = nsvcd__mover_keyframe(mover, k);
+  const double u = (t - from) / (nsvcd__mover_keyframe(mover, k + 1) - from);
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   double before = 1 - u;
   double after = u;
@@ -1503,7 +1504,7 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
 
 static double nsvcd__mover_next(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+  return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
 }
 
 // A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
@@ -1515,7 +1516,7 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   if (mover->count == 1) return out;
   const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
   const nsvcd_pose *a = &mover->poses[k];
-  const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
+  const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   const double h = 2 * arc.half_angle * (t1 - t0) / whole;
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);
@@ -1560,7 +1561,7 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 }
 
 // ------------------------------------------------------------------------------ certificate/planes
-// In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
+// In: two nodes, and a stretch of time. Out: a plane that separates them all the while, by a normal
 // that takes a few bits; or none.
 
 // What is asked for beyond what numbers say, of all lengths: the checker's, and a little more.
@@ -1569,20 +1570,20 @@ static nsvcd_result nsvcd__model_of(const nsvcd_mover *mover, nsvcd_mover *meant
 #define NSVCD__EXACT 24
 #define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
 #define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
-// of both lengths: nodes that come as near are opened, not parted
+// of both lengths: nodes that come as near are opened, not separated
 #define NSVCD__NORMAL_GIVE_UP 1e-3
 
 // A time, where both bodies are then, and by how much points leave their chords to the next one.
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
-  double lengths;  // of both places, and what they are reckoned from
+  double lengths;  // of both places, and what they are computed from
   nsvcd_deviation off_a, off_b;
 } nsvcd__instant;
 
-// A stretch of time: both ends, and all knots between.
+// A stretch of time: both ends, and all keyframes between.
 typedef struct nsvcd__stretch {
-  const nsvcd__rider *a, *b;
+  const nsvcd__moving_tree *a, *b;
   double clearance;
   nsvcd__instant *instants;  // (capacity)
   size_t count, capacity;
@@ -1609,8 +1610,8 @@ static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
          fabs(b->at.z);
 }
 
-static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
-                                        double t) {
+static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
+                                        const nsvcd__moving_tree *b, double t) {
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
@@ -1671,9 +1672,9 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving, const nsvcd__posed *at,
                                   nsvcd__d3 x) {
-  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
 // Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
@@ -1714,19 +1715,19 @@ static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *node
   return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
 }
 
-static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000002 * rider->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * moving->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
-static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *node,
+static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                 nsvcd__d3 axis) {
-  const float *corners = rider->tree->corners + 9 * (size_t)node->first;
+  const float *corners = moving->tree->corners + 9 * (size_t)node->first;
   double square = 0;
   if (node->count > NSVCD__EXACT) {
-    const nsvcd__box *box = &rider->tree->boxes[node->box];
+    const nsvcd__box *box = &moving->tree->boxes[node->box];
     const nsvcd__d3 low = nsvcd__d3_widen(box->low);
     const nsvcd__d3 high = nsvcd__d3_widen(box->high);
     const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
@@ -1741,26 +1742,26 @@ static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *no
     const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
     square = nsvcd__max(square, nsvcd__d3_dot(off, off));
   }
-  return 1.000002 * rider->model.scale * sqrt(square);
+  return 1.000002 * moving->model.scale * sqrt(square);
 }
 
 // By how much the points of a node, at r metres at most, leave their chords along a normal.
-static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
-                                 const nsvcd__posed *at, const nsvcd_deviation *off,
+static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__node *node,
+                                 double r, const nsvcd__posed *at, const nsvcd_deviation *off,
                                  nsvcd__d3 along) {
   double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
   if (off->turn > 0) {
     const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
     const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-    leaves += off->turn * across * nsvcd__node_aside(rider, node, own);
+    leaves += off->turn * across * nsvcd__node_aside(moving, node, own);
   }
   return leaves;
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
-static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                                    nsvcd__d3 along) {
+static int nsvcd__plane_separates_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                        nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
@@ -1835,21 +1836,21 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;
-    const double share = -nsvcd__d3_dot(v, step_to) / square;
-    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(share, 1)), step_to, v);
+    const double fraction = -nsvcd__d3_dot(v, step_to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(fraction, 1)), step_to, v);
   }
   return best;
 }
 
 // A leaf's triangle in the world, as seen from the origin of b.
-static void nsvcd__leaf_corners(const nsvcd__rider *rider, const nsvcd__node *node,
+static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                 const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
-  const float *x = rider->tree->corners + 9 * (size_t)node->first;
+  const float *x = moving->tree->corners + 9 * (size_t)node->first;
   for (size_t k = 0; k < 3; k++)
-    corners[k] = nsvcd__d3_add(nsvcd__turned_by(rider, at, nsvcd__d3_row(x, k)), offset);
+    corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
 }
 
-// Looks for a plane that parts two nodes all the while.
+// Looks for a plane that separates two nodes all the while.
 static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
                               nsvcd__written_normal *normal) {
   const nsvcd__instant *at = nsvcd__stretch_middle(s);
@@ -1867,7 +1868,7 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
   if (!(best.gap > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
-    if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
+    if (nsvcd__plane_separates_nodes(s, nodes, normal->along)) return 1;
   }
   return 0;
 }
@@ -1879,8 +1880,8 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
 #define NSVCD__UNCLEAR 2
 
 // A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                     uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
@@ -1894,8 +1895,10 @@ typedef struct nsvcd__extent {
   double lengths, margin;
 } nsvcd__extent;
 
-static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                        const nsvcd__rider *by, const nsvcd__posed *by_at) {
+static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
+                                        const nsvcd__posed *of_at,
+                                        const nsvcd__moving_tree *by,
+                                        const nsvcd__posed *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));
@@ -1989,9 +1992,9 @@ static int nsvcd__sum_of_closed(const nsvcd_tree *tree, const int32_t *sums) {
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
 //   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
-//             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
-//             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
-//             b, at t = 0: 1 along the last normal, or 0, and a normal
+//             whose box is longer; 11 separated by the last normal; 101 by another, which follows;
+//             100 halve the time. Where the roots are nowhere separated: a ray for each part of a,
+//             then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
@@ -2014,14 +2017,14 @@ typedef struct nsvcd__visit {
 } nsvcd__visit;
 
 typedef struct nsvcd__certifier {
-  nsvcd__rider a, b;
+  nsvcd__moving_tree a, b;
   nsvcd__stretch stretch;
   // the last ones, the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
   size_t capacity, bits;
   uint32_t digest;  // of motions, scales and the clearance
-  int apart;        // 1: the roots have been parted
+  int apart;        // 1: the roots have been separated
   int32_t *sums;    // (vertices)
   nsvcd_certificate *made;
 } nsvcd__certifier;
@@ -2079,16 +2082,16 @@ static double nsvcd__coded_time(uint32_t code) {
 // ---- what meets
 
 // A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                     uint32_t triangle, uint32_t k) {
   const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
   return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
 }
 
 // Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                     const nsvcd__rider *by, const nsvcd__posed *by_at,
+static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                     const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                      uint32_t own, uint32_t other) {
   const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
@@ -2116,8 +2119,8 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
   const double v =
       vw + nsvcd__d3_dot(n, nsvcd__d3_cross(off, nsvcd__d3_sub(t[2], t[0]))) / square;
   const int has_area = square > 0 && v > 0;
-  code[0] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? v : 0) + 0.5);
-  code[1] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? vw / v : 0) + 0.5);
+  code[0] = (uint32_t)(65535 * nsvcd__clamp_fraction(has_area ? v : 0) + 0.5);
+  code[1] = (uint32_t)(65535 * nsvcd__clamp_fraction(has_area ? vw / v : 0) + 0.5);
   const nsvcd__d3 along = nsvcd__d3_fma((double)code[1] / 65535, second, first);
   return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
@@ -2170,17 +2173,18 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 // ---- the walk
 
 // The longest side of a node's box.
-static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return nsvcd__stored(rider->model.scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+  return nsvcd__stored(moving->model.scale *
+                       nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
-static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
+static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                     const nsvcd__posed *at) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
-  return nsvcd__turned_by(rider, at, nsvcd__d3_scale(sum, 0.5));
+  return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
 // The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
@@ -2225,7 +2229,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__WALK_STACK];
   size_t height = 1;
-  int in_doubt = 0;
+  int after_unresolved = 0;
   memset(stack, 0, sizeof *stack);
   stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
   stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
@@ -2245,7 +2249,7 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
+           !nsvcd__plane_separates_nodes(&c->stretch, nodes, c->normals[k]))
       k++;
     if (k < NSVCD__REMEMBERED ||
         nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
@@ -2264,9 +2268,9 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     // they touch, or nearly so: no proof that they are free, but others may still meet
     const int goes_on = nsvcd__divide_visit(c, v);
     height += goes_on ? 1 : (size_t)-1;
-    in_doubt |= !goes_on;
+    after_unresolved |= !goes_on;
   }
-  return in_doubt ? NSVCD_UNDECIDED : NSVCD_FREE;
+  return after_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
 // ---- what is inside
@@ -2288,8 +2292,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 // Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
 // one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
-  const nsvcd__rider *of = whose ? &c->b : &c->a;
-  const nsvcd__rider *by = whose ? &c->a : &c->b;
+  const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
+  const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
   const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
   const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
   const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
@@ -2368,10 +2372,12 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
 }
 
 // Both riders are in c, and all else is 0.
-static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float clearance,
-                                   const nsvcd_certify_options *options, void *workspace,
-                                   size_t workspace_size, uint8_t *bytes, size_t capacity,
-                                   nsvcd_certificate *made) {
+static nsvcd_result nsvcd__write_certificate(nsvcd__certifier *c, size_t instants,
+                                             float clearance,
+                                             const nsvcd_certify_options *options,
+                                             void *workspace, size_t workspace_size,
+                                             uint8_t *bytes, size_t capacity,
+                                             nsvcd_certificate *made) {
   const nsvcd_certify_options defaults = {NULL, 0};
   const nsvcd_certify_options *o = options ? options : &defaults;
   nsvcd_certificate out;
@@ -2428,8 +2434,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size,
-                        bytes, capacity, made);
+  return nsvcd__write_certificate(&c, keyframes + 2, clearance, options, workspace,
+                                  workspace_size, bytes, capacity, made);
 }
 
 static size_t nsvcd__keyframes_of(const nsvcd_question *question) {

@@ -34,7 +34,7 @@
 //     proofs          certificates of pairs
 //     trees           configurations, and the nearest of them
 //     postures        one configuration: gaps and their slopes, a way out, who can meet
-//     ramps           from one state to another, within limits of speed and acceleration
+//     blends          from one state to another, within limits of speed and acceleration
 //     smooth          a way in time, then smooth
 //     route           two trees of proven edges, shortcuts
 //
@@ -42,7 +42,7 @@
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
-//   lever             how far a point of a part can be from a joint's axis
+//   moment arm             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -157,7 +157,7 @@ typedef struct nsvcd_check_answer {
   // or of what is UNDECIDED. NSVCD_NONE where there is none
   size_t pair, piece;
   // of the piece, in [0,1]
-  double share;
+  double fraction;
   // of a HIT, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
   // a joint that leaves its limits somewhere, NSVCD_NONE: none does
@@ -225,9 +225,9 @@ typedef struct nsvcd_gap {
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, of a HIT: a lift of a by this along the contact's normal is proven to part them; hardly
-  // less does, along that normal. HUGE_VALF: none up to options.deepest along each normal was
-  // found, as where one is inside of the other or held from all sides. 0 of all others
+  // metres, of a HIT: a lift of a by this along the contact's normal is proven to separate them;
+  // hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each normal
+  // was found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
   // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
   // lifted, with the lift's direction as the normal
@@ -263,7 +263,7 @@ typedef struct nsvcd_gap_options {
 //   threads    each with a checker of its own, as all of this page
 //   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
-//   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
+//   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
                                  const nsvcd_gap_options *options, nsvcd_gap *gaps,
                                  size_t capacity, size_t *count);
@@ -507,7 +507,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
-// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+// NSVCD_ONE_PATH: nothing may be fused or computed more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
@@ -531,26 +531,26 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 #endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__MERGED static inline __attribute__((always_inline))
+#define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
-#define NSVCD__MERGED static __forceinline
+#define NSVCD__FORCE_INLINE static __forceinline
 #else
-#define NSVCD__MERGED static inline
+#define NSVCD__FORCE_INLINE static inline
 #endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
-#define NSVCD__INLINE NSVCD__MERGED
+#define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__APART __attribute__((noinline))
+#define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
-#define NSVCD__APART __declspec(noinline)
+#define NSVCD__NOINLINE __declspec(noinline)
 #else
-#define NSVCD__APART
+#define NSVCD__NOINLINE
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers
@@ -563,7 +563,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 #ifndef NSVCD__HAS_GROUND_ANGLES
 #define NSVCD__HAS_GROUND_ANGLES
 // In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+// are computed here, for libm's last digit is not the same everywhere; else by libm.
 
 #ifdef NSVCD_ONE_PATH
 // sin x, 0 <= x <= pi / 2, to 1e-15: what is left of the series is less than 2e-18.
@@ -939,7 +939,7 @@ static inline nsvcd__d3 nsvcd__d3_stored(nsvcd__d3 a) {
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
-  NSVCD__MERGED quat quat##_unit(quat q) { \
+  NSVCD__FORCE_INLINE quat quat##_unit(quat q) { \
     return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
   } \
   static inline vec quat##_axis(quat q) { \
@@ -1212,7 +1212,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 //   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
 //   postures    one configuration: what is near, a way out; which pairs can meet
-//   ramps       from one state to another, within limits of speed and acceleration
+//   blends       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts
 //
@@ -1229,7 +1229,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
 #define NSVCD__COARSE 2e-3
-#define NSVCD__STRAY_SHARE 8
+#define NSVCD__STRAY_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_GLANCE 200
@@ -1436,7 +1436,7 @@ static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
 }
 
 // The share of a piece that has gone by at a time.
-static double nsvcd__share_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
+static double nsvcd__fraction_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
   const double start = nsvcd__piece_start(motion, piece);
   if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
   return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
@@ -1464,7 +1464,7 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
 
 // The joints in a piece at a share of it, and, unless NULL, their speeds.
 static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
-                             double share, double *at, double *speeds) {
+                             double fraction, double *at, double *speeds) {
   const size_t degree = motion->degree;
   for (size_t j = 0; j < joints; j++) {
     double p[NSVCD_MAX_DEGREE + 1];
@@ -1474,7 +1474,7 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
         speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
       // both ends exactly
       for (size_t i = 0; i < level; i++)
-        p[i] = share < 1 ? p[i] + share * (p[i + 1] - p[i]) : p[i + 1];
+        p[i] = fraction < 1 ? p[i] + fraction * (p[i + 1] - p[i]) : p[i + 1];
     }
     at[j] = p[0];
   }
@@ -1484,7 +1484,7 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
                               double *out) {
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
   const size_t piece = nsvcd__piece_at(&m, time);
-  nsvcd__joints_at(&m, joints, piece, nsvcd__share_at(&m, piece, time), out, NULL);
+  nsvcd__joints_at(&m, joints, piece, nsvcd__fraction_at(&m, piece, time), out, NULL);
 }
 
 // By how much the speed of a joint jumps where a piece begins.
@@ -1509,8 +1509,9 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   double square = 0;
   const double h = t1 - t0;
   while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
-  const double end = nsvcd__share_at(motion, last, t1);
-  nsvcd__joints_at(motion, joints, first, nsvcd__share_at(motion, first, t0), step->from, v0);
+  const double end = nsvcd__fraction_at(motion, last, t1);
+  nsvcd__joints_at(motion, joints, first, nsvcd__fraction_at(motion, first, t0), step->from,
+                   v0);
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
@@ -1528,7 +1529,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
     double jumps = 0;
     for (size_t piece = first; piece <= last; piece++) {
       double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-      const double s0 = piece == first ? nsvcd__share_at(motion, piece, t0) : 0;
+      const double s0 = piece == first ? nsvcd__fraction_at(motion, piece, t0) : 0;
       const double s1 = piece == last ? end : 1;
       const double steps = h / nsvcd__piece_time(motion, piece);
       nsvcd__joint_points(motion, piece, joints, j, p);
@@ -1575,17 +1576,17 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
 }
 
-// The bound of the banner, from levers r (F) on the path of joints. turn: w.
+// The bound of the banner, from moment arms r (F) on the path of joints. turn: w.
 static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
-                              const double *levers, double turn, double extent) {
+                              const double *moment_arms, double turn, double extent) {
   double bend = 0;
   double second = 0;
   double inner = 0;
   for (; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
     const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
-    bend += step->bend[j] * levers[j];
-    second += step->way[j] * levers[j] * (2 * inner + own);
+    bend += step->bend[j] * moment_arms[j];
+    second += step->way[j] * moment_arms[j] * (2 * inner + own);
     inner += own;
   }
   return (bend + second + turn * turn * extent) / 8;
@@ -1593,8 +1594,8 @@ static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, u
 
 // r of the banner: how far points of a part can be from the axes of the joints on its path, during
 // a step that begins in a configuration; 1 of what slides.
-static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                             const nsvcd__configuration *from, double *levers) {
+static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                                  const nsvcd__configuration *from, double *moment_arms) {
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t path = c->links[link - 1].path;
@@ -1604,12 +1605,13 @@ static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__s
   double moved = 0;  // by joints beyond this one
   for (size_t j = link; j-- > 0;) {
     if (!(path >> j & 1)) continue;
-    levers[j] = 1;
+    moment_arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
-      levers[j] = nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+      moment_arms[j] =
+          nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
     }
-    moved += step->reach[j] * levers[j];
+    moved += step->reach[j] * moment_arms[j];
   }
 }
 
@@ -1618,10 +1620,10 @@ static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__
                               const nsvcd__configuration *from,
                               const nsvcd__configuration *to) {
   const size_t link = c->scene->parts[part].link;
-  double levers[NSVCD_MAX_JOINTS];
+  double moment_arms[NSVCD_MAX_JOINTS];
   const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
-  nsvcd__levers_of(c, part, step, from, levers);
-  return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
+  nsvcd__moment_arms_of(c, part, step, from, moment_arms);
+  return nsvcd__stray_by(c, step, c->links[link - 1].path, moment_arms, turn,
                          c->members[part].extent);
 }
 
@@ -1781,7 +1783,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
     const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
     m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
-    // spheres are reckoned in float
+    // spheres are computed in float
     m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
     m->extent = 1.000001 * scale * (double)facts.extent;
     const nsvcd__d3 low = nsvcd__d3_load(facts.low);
@@ -1819,9 +1821,9 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     c->frames[m->row + k] = frame;
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
-    // some 5e-16 of its lever for each joint
-    const double lever = reach + nsvcd__d3_length(frame.place) + m->extent;
-    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * lever);
+    // some 5e-16 of its moment arm for each joint
+    const double arm = reach + nsvcd__d3_length(frame.place) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
 
@@ -2081,12 +2083,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
           (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
       const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
       const size_t k = spell->first + within;
-      const double share = at - (double)within;
-      const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
+      const double fraction = at - (double)within;
+      const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
-      answer->share = nsvcd__share_at(motion, answer->piece, time);
+      answer->fraction = nsvcd__fraction_at(motion, answer->piece, time);
     }
-    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->share, joints,
+    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
                      NULL);
     result = nsvcd__ask_at(c, pair, joints, options, answer);
     if (answer->verdict == NSVCD_HIT) return result;
@@ -2110,7 +2112,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = nsvcd__piece_at(motion, t0);
-  answer->share = nsvcd__share_at(motion, answer->piece, t0);
+  answer->fraction = nsvcd__fraction_at(motion, answer->piece, t0);
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
   nsvcd__sample(c, motion, steps);
@@ -2154,7 +2156,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     left = kept;
     if (left == 0) break;
     if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
-    allowed = nsvcd__max(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
+    allowed = nsvcd__max(allowed / NSVCD__STRAY_FRACTION, (double)options->finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
@@ -2259,7 +2261,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (result) return result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
-    found.share = 0;
+    found.fraction = 0;
     found.why = NSVCD_WHY_NOTHING;
   }
   *answer = found;
@@ -2276,7 +2278,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can reckon
+// bound of robot/stray is a better one, from where the links are; this one a checker can compute
 // again in a few lines.
 // Source: this library.
 
@@ -2290,18 +2292,18 @@ typedef struct nsvcd__carried {
   size_t base;
 } nsvcd__carried;
 
-static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
+static double nsvcd__keyframe_of(const nsvcd_joint_motion *m, size_t k) {
   const double first = nsvcd__piece_start(m, 0);
   const double whole = nsvcd__piece_start(m, m->pieces) - first;
   return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
 }
 
-static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
+static size_t nsvcd__keyframe_before(const nsvcd_joint_motion *m, double t) {
   size_t low = 0;
   size_t high = m->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__knot_of(m, middle) <= t)
+    if (nsvcd__keyframe_of(m, middle) <= t)
       low = middle;
     else
       high = middle;
@@ -2315,9 +2317,9 @@ static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
 static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
                               double *p) {
   const nsvcd_joint_motion *m = &c->motion;
-  const size_t piece = nsvcd__knot_before(m, 0.5 * (t0 + t1));
-  const double start = nsvcd__knot_of(m, piece);
-  const double whole = nsvcd__knot_of(m, piece + 1) - start;
+  const size_t piece = nsvcd__keyframe_before(m, 0.5 * (t0 + t1));
+  const double start = nsvcd__keyframe_of(m, piece);
+  const double whole = nsvcd__keyframe_of(m, piece + 1) - start;
   const double from = nsvcd__max((t0 - start) / whole, 0);
   const double to = nsvcd__min((t1 - start) / whole, 1);
   double most = 0;
@@ -2356,7 +2358,7 @@ static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
 
 static double nsvcd__carried_next(const void *motion, double t) {
   const nsvcd_joint_motion *m = &((const nsvcd__carried *)motion)->motion;
-  return nsvcd__knot_of(m, nsvcd__knot_before(m, t) + 1);
+  return nsvcd__keyframe_of(m, nsvcd__keyframe_before(m, t) + 1);
 }
 
 // THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
@@ -2409,7 +2411,7 @@ static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
 }
 
 // A digest of what carries a part, and by how much its places can be off: lengths that they are
-// reckoned from.
+// computed from.
 static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_scene *scene = c->checker->scene;
   const nsvcd_part *part = &scene->parts[c->part];
@@ -2451,7 +2453,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
   if (m->pieces < 1 || m->pieces > NSVCD_MAX_POSES) return 0;
   for (size_t i = 0; i <= m->pieces * m->degree; i++) {
     const size_t piece = i > 0 ? (i - 1) / m->degree : 0;
-    const double whole = nsvcd__knot_of(m, piece + 1) - nsvcd__knot_of(m, piece);
+    const double whole = nsvcd__keyframe_of(m, piece + 1) - nsvcd__keyframe_of(m, piece);
     if (!(whole >= 1.001e-9)) return 0;
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];
@@ -2528,13 +2530,13 @@ typedef struct nsvcd__cell {
   uint32_t first, count;
 } nsvcd__cell;
 
-typedef struct nsvcd__tree {
+typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
   double *points;      // (nodes, F)
   uint32_t *parents;   // (nodes): of a root, itself
   uint32_t *next;      // (nodes): in a leaf
   nsvcd__cell *cells;  // (2 nodes)
-} nsvcd__tree;
+} nsvcd__rrt;
 
 static double nsvcd__way2(const double *a, const double *b, size_t joints) {
   double sum = 0;
@@ -2543,7 +2545,7 @@ static double nsvcd__way2(const double *a, const double *b, size_t joints) {
 }
 
 // Cuts a leaf, unless all its points are the same.
-static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
+static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
   nsvcd__cell *cell = &t->cells[index];
   size_t widest = 0;
   double width = 0;
@@ -2583,7 +2585,7 @@ static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
 }
 
 // parent: t->count of a root. Returns the node.
-static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
+static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   const size_t node = t->count++;
   size_t index = 0;
   memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
@@ -2602,8 +2604,8 @@ static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
 }
 
 // Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
-static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
-                              double *off, double off2, size_t *nearest, double *best) {
+static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *at, double *off,
+                              double off2, size_t *nearest, double *best) {
   const nsvcd__cell *cell = &t->cells[index];
   if (!(off2 < *best)) return;
   if (cell->joint == NSVCD_MAX_JOINTS) {
@@ -2626,7 +2628,7 @@ static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *
 }
 
 // The node nearest to a configuration, of a tree that has one.
-static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
+static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
   double off[NSVCD_MAX_JOINTS] = {0};
   double best = HUGE_VAL;
   size_t nearest = 0;
@@ -2645,7 +2647,7 @@ static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
 #define NSVCD__LEAST_SKIN 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: what is looked at to see which faces part last; and the least share of a lift that
-// parts them, of which a slope is told
+// separates them, of which a slope is told
 #define NSVCD__DEPTH_BEYOND 1.01
 #define NSVCD__LEAST_RATE 0.1
 #define NSVCD__FARTHEST_ESCAPE 0.5
@@ -2694,9 +2696,9 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__s
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
-    const nsvcd__d3 lever = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
+    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
     const nsvcd__d3 speed =
-        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], lever);
+        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
     slope[j] += sign * nsvcd__d3_dot(normal, speed);
   }
 }
@@ -2712,13 +2714,13 @@ static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *qu
   return nsvcd_sweep(&asked, c->query, c->query_size, found);
 }
 
-// A lift of a off b that parts them, by the least of some skins, each four times the one before,
-// that is enough. 0: none up to `deepest` is.
-static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question question,
-                                        float deepest, nsvcd__d3 *lift) {
+// A lift of a off b that separates them, by the least of some skins, each four times the one
+// before, that is enough. 0: none up to `deepest` is.
+static nsvcd_result nsvcd__separating_lift(nsvcd_checker *c, nsvcd_question question,
+                                           float deepest, nsvcd__d3 *lift) {
   nsvcd_answer found;
-  for (float share = NSVCD__LEAST_SKIN; share <= 1; share *= 4) {
-    question.skin = share * deepest;
+  for (float fraction = NSVCD__LEAST_SKIN; fraction <= 1; fraction *= 4) {
+    question.skin = fraction * deepest;
     const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     if (result) return result;
     *lift = nsvcd__d3_load(found.lift);
@@ -2740,7 +2742,7 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   double high = 1;
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
+  nsvcd_result result = nsvcd__separating_lift(c, question, o->deepest, &lift);
   const double length = nsvcd__d3_length(lift);
   if (result || !(length > 0)) return result;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {
@@ -3063,7 +3065,7 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
   return placed;
 }
 
-// ------------------------------------------------------------------------------------- robot/ramps
+// ------------------------------------------------------------------------------------ robot/blends
 // In: two states, places and speeds of the joints, and limits of speed and acceleration. Out: a
 // motion from one to the other in the least time of the slowest joint, each of the others with the
 // least acceleration that takes as long.
@@ -3072,11 +3074,11 @@ NSVCDDEF nsvcd_result nsvcd_hand_over(const nsvcd_checker *checker, const double
 // it goes on at the limit. What it does is of degree 2 piece by piece.
 // Source: Hauser and Ng-Thow-Hing (2010).
 
-// of a ramp: each joint has two times at which its acceleration changes
-#define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
+// of a blend: each joint has two times at which its acceleration changes
+#define NSVCD__BLEND_PIECES (2 * NSVCD_MAX_JOINTS + 1)
 // share of the limits of speed and acceleration that is asked for: the rest is for rounding
-#define NSVCD__RAMP_SHARE (1 - 1e-6)
-#define NSVCD__RAMP_MOST (1 - 5e-7)
+#define NSVCD__BLEND_FRACTION (1 - 1e-6)
+#define NSVCD__BLEND_MOST (1 - 5e-7)
 // seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
 // changes no farther apart than that are one
 #define NSVCD__SLIVER 1e-4
@@ -3089,14 +3091,14 @@ static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
   return joint->acceleration > 0 ? joint->acceleration : 1;
 }
 
-// A joint's way in a ramp: acceleration a until t1, none until t2, -a after that.
-typedef struct nsvcd__ramp_joint {
+// A joint's way in a blend: acceleration a until t1, none until t2, -a after that.
+typedef struct nsvcd__blend_joint {
   double a, t1, t2;
-} nsvcd__ramp_joint;
+} nsvcd__blend_joint;
 
 // The least time from place x0 and speed v0 to x1 and v1, both within the limits.
-static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, double speed,
-                               double most) {
+static double nsvcd__blend_time(double x0, double v0, double x1, double v1, double speed,
+                                double most) {
   const double way = x1 - x0;
   // changing speed takes this way: is there more to go, or less?
   const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
@@ -3111,8 +3113,8 @@ static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, doubl
 
 // The way with the least acceleration that takes this time. Returns 0 if there is none within the
 // limits.
-static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double speed,
-                             double most, double time, nsvcd__ramp_joint *out) {
+static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double speed,
+                              double most, double time, nsvcd__blend_joint *out) {
   const double way = x1 - x0;
   const double change = v1 - v0;
   // time^2 a^2 + b a - change^2 = 0: the root of the greater size
@@ -3138,8 +3140,8 @@ static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double 
 }
 
 // Place and speed at a time of a way that begins with x0 and v0.
-static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, double t,
-                           double *x, double *v) {
+static void nsvcd__blend_at(const nsvcd__blend_joint *r, double x0, double v0, double t,
+                            double *x, double *v) {
   const double up = nsvcd__min(t, r->t1);
   const double even = nsvcd__max(nsvcd__min(t, r->t2) - r->t1, 0);
   const double down = nsvcd__max(t - r->t2, 0);
@@ -3149,8 +3151,8 @@ static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, dou
 }
 
 // Does a joint turn round out of its limits on the way? Its ends are within.
-static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint *r, double x0,
-                              double v0, double time) {
+static int nsvcd__blend_leaves(const nsvcd_joint *joint, const nsvcd__blend_joint *r,
+                               double x0, double v0, double time) {
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return 0;
   // where it stands still
   const double turns[2] = {
@@ -3160,40 +3162,40 @@ static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint 
     double x, v;
     const int is_there = k ? turns[k] > r->t2 && turns[k] < time : turns[k] < r->t1;
     if (!is_there || !(turns[k] > 0)) continue;
-    nsvcd__ramp_at(r, x0, v0, turns[k], &x, &v);
+    nsvcd__blend_at(r, x0, v0, turns[k], &x, &v);
     if (x < joint->low || x > joint->high) return 1;
   }
   return 0;
 }
 
-// Writes a ramp of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
-// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no ramp
+// Writes a blend of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
+// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no blend
 // within the limits that takes less than `longest`, or two of its changes nearly coincide.
-static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
-                                double longest, double *points, double *times) {
+static size_t nsvcd__blend_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
+                                 double longest, double *points, double *times) {
   const size_t joints = scene->joint_count;
-  nsvcd__ramp_joint ramps[NSVCD_MAX_JOINTS];
-  double changes[NSVCD__RAMP_PIECES + 1];
+  nsvcd__blend_joint blends[NSVCD_MAX_JOINTS];
+  double changes[NSVCD__BLEND_PIECES + 1];
   size_t count = 0;
   double time = 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    time = nsvcd__max(time,
-                      nsvcd__ramp_time(states[0][j], states[2][j], states[1][j], states[3][j],
-                                       NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
-                                       NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+    time = nsvcd__max(
+        time, nsvcd__blend_time(states[0][j], states[2][j], states[1][j], states[3][j],
+                                NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint),
+                                NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint)));
   }
   if (!(time < longest)) return 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    const double speed = NSVCD__RAMP_SHARE * nsvcd__speed_of(joint);
-    const double most = NSVCD__RAMP_MOST * nsvcd__acceleration_of(joint);
-    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed, most,
-                           time, &ramps[j]))
+    const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint);
+    const double most = NSVCD__BLEND_MOST * nsvcd__acceleration_of(joint);
+    if (!nsvcd__blend_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed,
+                            most, time, &blends[j]))
       return 0;
-    if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
-    changes[count++] = ramps[j].t1;
-    changes[count++] = ramps[j].t2;
+    if (nsvcd__blend_leaves(joint, &blends[j], states[0][j], states[2][j], time)) return 0;
+    changes[count++] = blends[j].t1;
+    changes[count++] = blends[j].t2;
   }
   changes[count++] = time;
   // sorted, by insertion
@@ -3214,9 +3216,9 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
     double *to = points + 2 * pieces * joints;
     for (size_t j = 0; j < joints; j++) {
       double x, v;
-      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], before, &x, &v);
+      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], before, &x, &v);
       to[joints + j] = to[j] + half * v;
-      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], changes[k], &x, &v);
+      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], changes[k], &x, &v);
       to[2 * joints + j] = x;
     }
     times[++pieces] = changes[k];
@@ -3229,7 +3231,7 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
 // In: a way, a polyline that is proven. Out: a motion in time along it, then one that is smooth.
 //
 // Each edge is gone along from rest to rest. Then, again and again, two times are drawn: the motion
-// between them is replaced by a ramp, if that is quicker and proven. Where it still rests, the two
+// between them is replaced by a blend, if that is quicker and proven. Where it still rests, the two
 // times are drawn about that.
 // Source: Hauser and Ng-Thow-Hing (2010).
 
@@ -3240,7 +3242,7 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
 #define NSVCD__WINDOWS 6
 // of the duration without obstacles: there is nothing to win
 #define NSVCD__FAST_ENOUGH 1.001
-// what a ramp is to win, to be worth its proof: a share of its own time, and, unless a rest goes
+// what a blend is to win, to be worth its proof: a share of its own time, and, unless a rest goes
 // with it, of what the motion takes longer than without obstacles
 #define NSVCD__LEAST_GAIN 1e-4
 #define NSVCD__WORTHY_GAIN 0.02
@@ -3269,13 +3271,13 @@ typedef struct nsvcd__router {
   int is_stopped;
   // turns since each tree has grown
   size_t idle[2];
-  nsvcd__tree trees[2];  // from the start, from the goals
+  nsvcd__rrt trees[2];  // from the start, from the goals
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
   double *way;    // (nodes of both trees + shortcuts, F)
   size_t way_count;
-  nsvcd__course course, other, ramp;
+  nsvcd__course course, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
 
@@ -3346,8 +3348,8 @@ static int nsvcd__course_along(nsvcd__router *r) {
       const nsvcd_joint *joint = &r->scene->joints[j];
       const double d = fabs(to[j] - from[j]);
       if (!(d > 0)) continue;
-      speed = nsvcd__min(speed, NSVCD__RAMP_SHARE * nsvcd__speed_of(joint) / d);
-      most = nsvcd__min(most, NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint) / d);
+      speed = nsvcd__min(speed, NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint) / d);
+      most = nsvcd__min(most, NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint) / d);
     }
     if (!(speed < HUGE_VAL)) continue;
     const double up = nsvcd__min(speed / most, sqrt(1 / most));
@@ -3395,8 +3397,8 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
     for (size_t j = 0; j < joints; j++) {
       double points[NSVCD_MAX_DEGREE + 1];
       nsvcd__joint_points(&motion, p, joints, j, points);
-      nsvcd__cut_curve(points, 2, nsvcd__share_at(&motion, p, from),
-                       nsvcd__share_at(&motion, p, to));
+      nsvcd__cut_curve(points, 2, nsvcd__fraction_at(&motion, p, from),
+                       nsvcd__fraction_at(&motion, p, to));
       middle[j] = points[1];
       end[j] = points[2];
     }
@@ -3405,7 +3407,7 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
   return 1;
 }
 
-// Replaces the course from time t0 to t1 by a ramp, if that is quicker by `gain` and proven.
+// Replaces the course from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   double states[4][NSVCD_MAX_JOINTS];
@@ -3413,27 +3415,27 @@ static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, d
   const double times[2] = {t0, t1};
   for (size_t n = 0; n < 2; n++) {
     const size_t piece = nsvcd__piece_at(&motion, times[n]);
-    nsvcd__joints_at(&motion, joints, piece, nsvcd__share_at(&motion, piece, times[n]),
+    nsvcd__joints_at(&motion, joints, piece, nsvcd__fraction_at(&motion, piece, times[n]),
                      states[n], states[n + 2]);
   }
-  nsvcd__course *ramp = &r->ramp;
-  ramp->pieces =
-      nsvcd__ramp_write(r->scene, states, t1 - t0 - gain, ramp->points, ramp->times);
-  if (!ramp->pieces) return NSVCD_OK;
-  // the whole as it would be: what is left of the course, and the ramp between
+  nsvcd__course *blend = &r->blend;
+  blend->pieces =
+      nsvcd__blend_write(r->scene, states, t1 - t0 - gain, blend->points, blend->times);
+  if (!blend->pieces) return NSVCD_OK;
+  // the whole as it would be: what is left of the course, and the blend between
   nsvcd__course *out = &r->other;
   nsvcd__course_begin(out, joints, r->course.points);
   const double end = r->course.times[r->course.pieces];
   if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
-  if (out->pieces + ramp->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
-  for (size_t p = 0; p < ramp->pieces; p++) {
-    const double *middle = ramp->points + (2 * p + 1) * joints;
+  if (out->pieces + blend->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
+  for (size_t p = 0; p < blend->pieces; p++) {
+    const double *middle = blend->points + (2 * p + 1) * joints;
     nsvcd__course_add(out, joints, middle, middle + joints,
-                      ramp->times[p + 1] - ramp->times[p]);
+                      blend->times[p + 1] - blend->times[p]);
   }
   if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
   int is_free;
-  const nsvcd_joint_motion asked = nsvcd__motion_of(ramp);
+  const nsvcd_joint_motion asked = nsvcd__motion_of(blend);
   const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
   if (result || !is_free) return result;
   const nsvcd__course was = r->course;
@@ -3541,7 +3543,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   // what is given is not counted as a node
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
   for (size_t k = 0; k < 2; k++) {
-    nsvcd__tree *t = &r->trees[k];
+    nsvcd__rrt *t = &r->trees[k];
     t->joints = joints;
     t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
     t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
@@ -3554,7 +3556,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
+  nsvcd__course_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -3586,7 +3588,7 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
 // often along a joint, and no other edge of some length is free there.
 static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const size_t joints = r->joints;
-  const nsvcd__tree *t = &r->trees[turn % 2];
+  const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
     const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
@@ -3607,7 +3609,7 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
 // Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
 // `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
 // is the configuration.
-static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *to,
+static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to,
                                 int is_greedy, size_t *node, int *is_there) {
   const size_t joints = r->joints;
   *node = nsvcd__tree_nearest(t, to);
@@ -3637,8 +3639,8 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *
 static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
-  const nsvcd__tree *start = &r->trees[0];
-  const nsvcd__tree *goal = &r->trees[1];
+  const nsvcd__rrt *start = &r->trees[0];
+  const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
   r->way_count = count;
@@ -3661,7 +3663,7 @@ static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
   // which goal it leads to
   if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
   for (int side = 0; side < 2; side++) {
-    nsvcd__tree *t = &r->trees[side];
+    nsvcd__rrt *t = &r->trees[side];
     for (is_free = 1; is_free && first < last;) {
       const double *to = p->guess + (side ? last - 1 : first) * joints;
       const nsvcd_result result =
@@ -3700,8 +3702,8 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     return NSVCD_OK;
   }
   for (size_t turn = 0; !r->is_stopped; turn++) {
-    nsvcd__tree *grown = &r->trees[turn % 2];
-    nsvcd__tree *other = &r->trees[1 - turn % 2];
+    nsvcd__rrt *grown = &r->trees[turn % 2];
+    nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
     int is_there;
@@ -3735,8 +3737,9 @@ static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
   }
   const double *from = r->way + k * joints;
   const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-  const double share = length > 0 ? nsvcd__min(gone / length, 1) : 0;
-  for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
+  const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
+  for (size_t j = 0; j < joints; j++)
+    at[j] = from[j] + fraction * (from[j + joints] - from[j]);
   return k;
 }
 
@@ -3835,7 +3838,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
 }
 
 // Adds a root to a tree, and takes it into the range of all roots.
-static void nsvcd__plant_root(nsvcd__router *r, nsvcd__tree *t, const double *at) {
+static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at) {
   const int is_first = r->trees[0].count == 0;
   for (size_t j = 0; j < r->joints; j++) {
     r->low[j] = is_first ? at[j] : nsvcd__min(r->low[j], at[j]);
@@ -3875,8 +3878,8 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   const double *last = r->way + (r->way_count - 1) * joints;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double time = nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
-                                         nsvcd__acceleration_of(joint));
+    const double time = nsvcd__blend_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                          nsvcd__acceleration_of(joint));
     r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
   }
   int is_free = 0;

@@ -53,7 +53,7 @@ extern "C" {
 // ===================================================== certificate: a proof that others can check
 #include "certificate/tree.h"     // boxes over triangles, components
 #include "certificate/law.h"      // where a body is, how far points leave their chords
-#include "certificate/planes.h"   // one that parts two nodes for a while
+#include "certificate/planes.h"   // one that separates two nodes for a while
 #include "certificate/rays.h"     // what a ray crosses
 #include "certificate/certify.h"  // the walk, and its bits
 

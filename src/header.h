@@ -103,7 +103,7 @@
 //
 // NUMERIC ROBUSTNESS, as measured by `make race`, `make bench`, tests/test_proof.c and
 // tests/bench/extremes.sh
-//   A query reckons in float32, but with couples of triangles and with what is inside of what in
+//   A query computes in float32, but with triangle pairs and with what is inside of what in
 //   double.
 //   Range         coordinates up to NSVCD_MAX_COORDINATE; bodies from NSVCD_MIN_RADIUS, below which
 //                 squares underflow. Proofs are tested from 3e-11 to 3e5 m.
@@ -112,7 +112,7 @@
 //                 involved: 2 um for bodies of 0.3 m, 80 um where one measures 20 m. So much room,
 //                 and little more, must be between surfaces that are to be certified free.
 //   Far away      positions are taken relative to the fixed body first: a scene 10 km from the
-//                 origin loses what its own coordinates lose, about 1 mm. All is reckoned in the
+//                 origin loses what its own coordinates lose, about 1 mm. All is computed in the
 //                 frame of one body, the one that rests or is the larger, in units of its scale.
 //   Resolution    the network's limit: a patch must not be much larger than the clearance in
 //                 question. A body of 5 cm against one of 20 m, with 256 patches each, is judged
@@ -155,7 +155,7 @@
 //   lane, slice       one of 16 numbers that are worked on together; those that fill a register
 //   block             16 segments of a motion, or 16 triangles of a patch, one in each lane
 //   latent            what the encoder makes of a patch: vectors of degree 1 and 2, and scalars
-//   moving, fixed     the bodies of a query: all is reckoned in the frame of the fixed one, which
+//   moving, fixed     the bodies of a query: all is computed in the frame of the fixed one, which
 //                     is also said to rest
 //   segment           a part of the motion, up to 20 degrees of turn; 64 at most. The planner has
 //                     its own: see plan/problem
@@ -167,16 +167,16 @@
 //   candidate         two patches and a contact interval, in which their balls meet
 //   pair              two patches, as the decoder sees them
 //   ranker            the tiny decoder, which chooses the candidates that the chosen one sees
-//   item              two patches that the proof has yet to part in a segment
-//   couple            two listed triangles, one of each body
+//   patch pair        two patches that the proof has yet to separate in a segment
+//   triangle pair     two listed triangles, one of each body
 //   disc              of a patch: what it reaches along a normal, and across
 //   hull, slack       of a patch: 16 vertices at most, and how far the surface sticks out
 //   listing           a triangle, or a part of one, that a patch stores
 //   facets            what a body stores for the proof: discs, hulls, listings
 //   quantum           how far a coarse triangle may be off the mesh's
 //   span              a segment, or a part of one, as the proof bounds its motion
-//   knot, arc         when one of the poses given is reached; the motion from a knot to the next
-//   tick              the unit of a motion's time: every knot is at a whole number of ticks
+//   keyframe, arc     when one of the poses given is reached; the motion from one to the next
+//   tick              the unit of a motion's time: every keyframe is at a whole number of ticks
 //   work              units that a proof takes
 //   twist             how the moving body goes at a time: a velocity and an angular velocity
 #ifndef NEURALSVCD_H
@@ -210,7 +210,7 @@ extern "C" {
 // ====================================================================== ground: numbers and memory
 #include "ground/compiler.h"   // what is asked of the compiler; libc and libm
 #include "ground/strings.h"    // what codes and statuses say
-#include "ground/angles.h"     // sines and angles, by libm or reckoned here
+#include "ground/angles.h"     // sines and angles, by libm or computed here
 #include "ground/bits.h"       // bits and sizes
 #include "ground/valid.h"      // is what a caller hands over in order?
 #include "ground/points.h"     // vectors of three, of floats and of doubles
@@ -271,23 +271,23 @@ extern "C" {
 #include "motion/choice.h"  // which segments a motion is cut into, and a long one which intervals
 
 // ================================================================== search: which patches may meet
-#include "search/apart.h"      // pairs of patches that a plane parts, by their tips
+#include "search/apart.h"      // pairs of patches that a plane separates, by their tips
 #include "search/intervals.h"  // when the balls of two patches meet, for the network
 #include "search/search.h"     // which groups and patches meet, and in which segments
 
 // ==================================================================== proof: whether surfaces meet
-#include "proof/proof.h"      // the theorem; what a proof asks, knows and remembers
-#include "proof/poses.h"      // poses in double
-#include "proof/spans.h"      // a stretch of time, and how far points stray in it
-#include "proof/discs.h"      // planes across discs, of patches and of groups
-#include "proof/hulls.h"      // planes between hulls
-#include "proof/couples.h"    // a triangle of each body, in double
-#include "proof/blocks.h"     // 16 triangles at a time
-#include "proof/manifold.h"   // contact points that hold a body
-#include "proof/witnesses.h"  // two triangles that meet at one time
-#include "proof/items.h"      // an item: parted by planes, or by its triangles, or in contact
+#include "proof/proof.h"           // the theorem; what a proof asks, knows and remembers
+#include "proof/poses.h"           // poses in double
+#include "proof/spans.h"           // a stretch of time, and how far points stray in it
+#include "proof/discs.h"           // planes across discs, of patches and of groups
+#include "proof/hulls.h"           // planes between hulls
+#include "proof/triangle_pairs.h"  // a triangle of each body, in double
+#include "proof/blocks.h"          // 16 triangles at a time
+#include "proof/manifold.h"        // contact points that hold a body
+#include "proof/witnesses.h"       // two triangles that meet at one time
+#include "proof/patch_pairs.h"  // two patches: separated by planes or by triangles, or in contact
 #include "proof/containment.h"  // what is inside of what, exactly
-#include "proof/loop.h"         // the loop: all that a search finds is settled
+#include "proof/loop.h"         // the loop: all that a search finds is resolved
 #include "proof/verdict.h"      // what one search says: do they meet, when first, how near
 #include "proof/long.h"         // the verdict, whatever the length of the motion
 #include "proof/leave.h"        // leaving a contact, and how deep it is

@@ -16,7 +16,7 @@
 //   part, link, piece a body of a scene; what a joint carries; of a motion of joints, one curve
 //   step, sample      of a piece, between two samples; a configuration in which parts are placed
 //   stray             by how much a part leaves, in a step, the line and the slerp between samples
-//   lever             how far a point of a part can be from a joint's axis
+//   moment arm             how far a point of a part can be from a joint's axis
 #ifndef NEURALSVCD_ROBOT_H
 #define NEURALSVCD_ROBOT_H
 #ifndef NEURALSVCD_H  // include it first where it stands elsewhere
@@ -76,7 +76,7 @@ extern "C" {
 #include "robot/proofs.h"    // certificates of pairs
 #include "robot/trees.h"     // configurations, and the nearest of them
 #include "robot/postures.h"  // one configuration: gaps and their slopes, a way out, who can meet
-#include "robot/ramps.h"  // from one state to another, within limits of speed and acceleration
+#include "robot/blends.h"  // from one state to another, within limits of speed and acceleration
 #include "robot/smooth.h"  // a way in time, then smooth
 #include "robot/route.h"   // two trees of proven edges, shortcuts
 

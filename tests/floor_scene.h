@@ -266,7 +266,7 @@ typedef struct floor_tally {
 
 // What is wrong with it, NULL if nothing is. What is left open is not wrong.
 static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer, double *first) {
-  const double hair = 1e-9 * s->lengths;
+  const double epsilon = 1e-9 * s->lengths;
   const double rounded = 1.2e-7 * s->speed;  // a time in float
   const double depth = -s->nearest;
   const double gap = s->nearest - (double)s->question.clearance;
@@ -283,19 +283,20 @@ static const char *floor_fault(const floor_scene *s, const nsvcd_answer *answer,
     const double true_depth = fmax(-floor_height(s, 0), 0);
     return is_free && fabs(tells - true_depth) > 0.05 * true_depth + 1e-6 ? "its depth" : NULL;
   }
-  if (fabs(gap) <= hair || answer->verdict == NSVCD_UNDECIDED) return NULL;
+  if (fabs(gap) <= epsilon || answer->verdict == NSVCD_UNDECIDED) return NULL;
   if ((gap > 0) != (answer->verdict == NSVCD_FREE)) return "verdict";
   if (ask == NSVCD_ASK_DISTANCE && gap > 0) {
     const double low = (double)answer->distance.low;
     const double high = (double)answer->distance.high;
-    if (low > s->nearest + hair || high < s->nearest - hair) return "bracket";
+    if (low > s->nearest + epsilon || high < s->nearest - epsilon) return "bracket";
   }
   if (ask != NSVCD_ASK_FIRST || answer->verdict != NSVCD_HIT) return NULL;
-  if ((double)answer->time.low * s->speed > s->lands * s->speed + rounded + hair) return "too late";
+  if ((double)answer->time.low * s->speed > s->lands * s->speed + rounded + epsilon)
+    return "too late";
   const double high = floor_height(s, (double)answer->time.high);
   const double now = floor_height(s, fmax((double)answer->time.high * (1 - 1.2e-7), 0));
   if (s->lands > 0) *first = high > 0 ? high : now < 0 ? -now : 0;
-  return high > s->to + hair ? "in contact above the floor" : NULL;
+  return high > s->to + epsilon ? "in contact above the floor" : NULL;
 }
 
 // Is all that was asked answered?

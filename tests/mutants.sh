@@ -29,19 +29,19 @@ done
 # motion was found that uses it: what strays most does so at samples, and there axis_bulge is exact.
 cat >$work/list <<'LIST'
 none|||
-hull without deviation|slack * length + nsvcd__deviation(span, normal, lever)|slack * length
+hull without deviation|slack * length + nsvcd__deviation_of(span, normal, arm)|slack * length
 hull without slack|const float slack = slacks + span->rounding + nsvcd__clearance(p);|const float slack = 0 * slacks + span->rounding + nsvcd__clearance(p);
 hull without the slack's scale|p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];|0.1f * p->moving.slacks[i] + p->fixed.slacks[j];
 hull without clearance|slacks + span->rounding + nsvcd__clearance(p);|slacks + span->rounding;
 hull at the start only|const nsvcd__v at_either = nsvcd__v_min(at_start, at_end);|const nsvcd__v at_either = at_start;
 deviation without drift|return drift + turn + across|return 0 * drift + turn + across
-deviation without bulge|+ across * nsvcd__bulge_of(span, lever);|;
+deviation without bulge|+ across * nsvcd__bulge_of(span, arm);|;
 deviation along the axis|return drift + turn + across|return drift + across
-half the distance from the axis|span->bulge * lever.radial +|0.5f * span->bulge * lever.radial +
-an axis that does not waver|lever.radial + span->bulge_along_axis * lever.reach|lever.radial
+half the distance from the axis|span->bulge * arm.radial +|0.5f * span->bulge * arm.radial +
+an axis that does not waver|arm.radial + span->bulge_along_axis * arm.reach|arm.radial
 the axis of the other body|arc->own_axis = nsvcd__dmat3_apply_transpose(\&moving, axis);|arc->own_axis = arc->axis;
-pair at half the distance from the axis|arc->bulge * couple->radial * off_axis|arc->bulge * 0.5 * couple->radial * off_axis
-pair whose axis does not waver|couple->radial += (arc->waver + 1e-6) * couple->reach;|
+pair at half the distance from the axis|arc->bulge * pair->radial * off_axis|arc->bulge * 0.5 * pair->radial * off_axis
+pair whose axis does not waver|pair->radial += (arc->waver + 1e-6) * pair->reach;|
 pair beside an axis that does not waver|across + arc->waver + 1e-6|across + 1e-6
 chords off the axis|nsvcd__v_add(axis_bulge, axis_turn)|axis_turn
 lanes without bulge|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(by_axis, by_way));|return nsvcd__v_fma(turn, nsvcd__v_set(0 * reach), nsvcd__v_min(by_axis, by_way));
@@ -49,34 +49,34 @@ lanes without drift|return nsvcd__v_fma(turn, nsvcd__v_set(reach), nsvcd__v_min(
 disc without across|nsvcd__v_mul(disc->across, across);|nsvcd__v_mul(nsvcd__v_set(0), across);
 group of eight|for (size_t i = first; i < first + NSVCD__GROUP \&\& i < f->body->patches; i++) {\n    if (slab.high|for (size_t i = first; i < first + 8 \&\& i < f->body->patches; i++) {\n    if (slab.high
 group's disc at the start only|nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));|a.at_start;
-held plane without deviation|lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(\&p->moving, i, span));|lowest - slack;
+held plane without deviation|lowest - slack - nsvcd__deviation_of(span, n, nsvcd__patch_arm(\&p->moving, i, span));|lowest - slack;
 groups' spheres without slack|const double radius = (double)f->slacks[i] + rounding;|const double radius = rounding;
 groups' spheres over the first half|for (size_t k = 0; k < count + !count; k++) {|for (size_t k = 0; k < (count + 1) / 2 + !count; k++) {
 held plane without slack|p->fixed.slacks[j] * length - highest;|-highest;
 heights over another plane|above->plane != memo->plane \|\| above->key != key|above->key != key
-pair of coarse copies as if they were the meshes|couple.slack = couple.rounding + nsvcd__off_meshes(p);|couple.slack = couple.rounding;
+pair of coarse copies as if they were the meshes|pair.slack = pair.rounding + nsvcd__off_meshes(p);|pair.slack = pair.rounding;
 round: tangents from the other side|const double fall = -nsvcd__d3_dot(*plane, moved);|const double fall = nsvcd__d3_dot(*plane, moved);
 round: tangents a little too far|const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;|const double until = fall > 0 ? nsvcd__min(end, at + above / fall) : end;
-doubts forgotten|    nsvcd__take_doubt(p, couple, u0, u1);\n    return NSVCD__SETTLED;|    return NSVCD__SETTLED;
+doubts forgotten|    nsvcd__keep_unresolved(p, pair, u0, u1);\n    return NSVCD__RESOLVED;|    return NSVCD__RESOLVED;
 round: edges without length by another pose|if (ends == 2 \&\& !(nsvcd__f3_dot(other, other) > 0))|if (!(nsvcd__f3_dot(other, other) > 0))
 a block of the question before|memo->has_block = 0;|(void)memo->has_block;
 round: segments as points|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 2 : 1;|nsvcd__d3_distance2(t[0], t[1]) > 0 ? 1 : 1;
-pair without bulge|return turn + arc->twist * couple->reach + arc->drift;|return arc->drift;
-pair without drift|return turn + arc->twist * couple->reach + arc->drift;|return turn + arc->twist * couple->reach;
+pair without bulge|return turn + arc->twist * pair->reach + arc->drift;|return arc->drift;
+pair without drift|return turn + arc->twist * pair->reach + arc->drift;|return turn + arc->twist * pair->reach;
 doubt goes on|p->ask.limit = p->work + left;|p->ask.limit = p->ask.limit;
 doubt raises the limit|p->work + left < p->ask.limit|p->work > 0
-pair without clearance|> p->ask.clearance + couple->slack + deviation;|> couple->slack + deviation;
+pair without clearance|> p->ask.clearance + pair->slack + deviation;|> pair->slack + deviation;
 pair at the start only|lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));|(void)at_end;
 block without quanta|nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);|(span->rounding + span->drift) + nsvcd__clearance(p);
 block without clearance|(span->rounding + span->drift) + nsvcd__clearance(p);|(span->rounding + span->drift);
-block without bulge|stays + nsvcd__bulge_of(span, lever)|stays
+block without bulge|stays + nsvcd__bulge_of(span, arm)|stays
 block at the start only|nsvcd__row_left(p, i, j, l, fixed, 2, span, margin)|nsvcd__row_left(p, i, j, l, fixed, 1, span, margin)
 parting plane at the start only|nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met)|nsvcd__left_by_last(p, i, j, l, fixed, 1, span, along, met)
 lanes parted at the start only|nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby)|nsvcd__lanes_left_by_last(p, i, j, fixed, 1, span, margin, nearby)
 lanes parted without the clearance|nsvcd__v_set(margin * nsvcd__f3_length(last) - lowest);|nsvcd__v_set(-lowest);
 rows parted by half the margin|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, margin, met)|met = nsvcd__left_by_last(p, i, j, l, fixed, ends, span, 0.5f * margin, met)
-parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);|quanta + span->rounding + nsvcd__clearance(p);
-parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
+parting plane without deviation|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);|quanta + span->rounding + nsvcd__clearance(p);
+parting plane without quanta|quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);|0 * quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);
 pose of another arc|known->arc == arc->first \&\& known->ticks == arc->ticks \&\& known->u == u|known->ticks == arc->ticks \&\& known->u == u
 first half only|if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);|if (part == NSVCD__TOO_LONG) ends[left - 1] = 0.5 * (u + end);
 a window forgotten|b += NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const|b += 2 * NSVCD__WINDOW * NSVCD__LANES) {\n    nsvcd__window_load(p, j, b);\n    for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {\n      nsvcd__moving_block_load(p, i, a);\n      const
@@ -87,15 +87,15 @@ rays past half the groups|while (!sum.unclear \&\& nsvcd__walk_next(\&walk, \&g)
 block's boxes at the start only|nsvcd__block_box(p, 2);|nsvcd__block_box(p, 1);
 last triangle skipped|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1];|size_t patience) {\n  const size_t moving_end = p->moving.first_triangle[i + 1] - 1;
 containment one way|if (outer->open) return 0;\n  const int is_one|if (outer->open + !e->inner_moves) return 0;\n  const int is_one
-long: an interval passed over|if (is_settled) motion->from = until;|if (is_settled) motion->from = until;\n  if (is_settled \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_knot(motion, until);
-long: a try in vain is believed|is_settled \|\| !is_try, p->work - before|1, p->work - before
+long: an interval passed over|if (is_resolved) motion->from = until;|if (is_resolved) motion->from = until;\n  if (is_resolved \&\& arcs == 1 \&\& until < motion->ticks) motion->from = nsvcd__next_keyframe(motion, until);
+long: a try in vain is believed|is_resolved \|\| !is_try, p->work - before|1, p->work - before
 long: gaps by the first pose|part.count = nsvcd__pose_before(track, until - 1) + 2 - first;|part.count = 1;
-long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__SETTLED;|  return NSVCD__SETTLED;
-long: distance of the last interval|if (is_settled) low = nsvcd__min(low, p->low);|low = p->low;
+long: doubts of one interval forgotten|  p->known = open;\n  p->ask.end = end;\n  return NSVCD__RESOLVED;|  return NSVCD__RESOLVED;
+long: distance of the last interval|if (is_resolved) low = nsvcd__min(low, p->low);|low = p->low;
 long: ends not looked at|!(asked > 0) \&\& nsvcd__meets_at_ends(p, search)|0
-long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& share > 0);|p->known.has_contact;
+long: contacts of a try are the first|p->known.has_contact \&\& !(is_try \&\& fraction > 0);|p->known.has_contact;
 long: poses for work|p->given.grows = q->work == 0;|p->given.grows = 1;
-long: an interval settled from the start|p->known.settled = (double)p->ask.motion->from;|p->known.settled = 0;
+long: an interval settled from the start|p->known.resolved = (double)p->ask.motion->from;|p->known.resolved = 0;
 first arc only|at < last \&\& (double)at < p->ask.end;) {|at < last \&\& at == search->begin[item->segment];) {
 a segment dropped|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);|uint32_t met = nsvcd__group_against_members(search, h, wanted, p->met_in);\n      for (size_t l = 0; l < NSVCD__GROUP; l++) {\n        if (p->met_in[l] \& (p->met_in[l] - 1)) p->met_in[l] \&= p->met_in[l] - 1;\n      }
 a full buffer forgotten|if (!*left) break;|break;
@@ -107,7 +107,7 @@ both turn, no swing|nsvcd__v_fma(fixed_turn, remote, nsvcd__v_add(way, way))|nsv
 arcs of both, twist forgotten|arc->scale * twist;|arc->scale * 0 * twist;
 arcs of both, no swing|(2 * across + angle * swing);|(2 * across);
 arcs of both, half of the way|(2 * across + angle * swing);|(across + angle * swing);
-a leg from its pose|leg->from = (double)(first - begin) * per_tick;|leg->from = 0;
+a leg from its pose|slerp->from = (double)(first - begin) * per_tick;|slerp->from = 0;
 knots of one body only|return after_a < after_b ? after_a : after_b;|return after_a;
 group without scale|  sphere.radius *= search->scale;\n|
 members without scale|nsvcd__v_fma(nsvcd__v_set(scale), radius, deviation);|nsvcd__v_add(radius, deviation);
@@ -124,15 +124,15 @@ clipped too early|(double)search->begin[segment] < p->ask.end;|(double)search->b
 every other segment|s += few) {|s += 2 * few) {
 contacts end too much|p->ask.end = p->known.found.tick - p->ask.first;|p->ask.end = 0.9 * p->known.found.tick - p->ask.first;
 a start that is not asked|known.has_contact \&\& nsvcd__clear_until(p) <= 0 \&\& known.found.tick > 0|known.has_contact \&\& known.found.tick < 0
-a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
+a doubt taken for free|nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved), p->known.lost|nsvcd__min(p->ask.end, p->known.lost
 half the first distance|const double apart = 1.0001 * nsvcd__vertices_apart(|const double apart = 0.5 * nsvcd__vertices_apart(
 distance without tolerance|p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);|p->ask.clearance = nsvcd__max(p->low, p->high * 1.01);
 exact poses not lifted|at.position = nsvcd__d3_add(at.position, arc->lift);|at.position = nsvcd__d3_add(at.position, nsvcd__d3_scale(arc->lift, 0));
 lift the wrong way|if (lacks > 0)\n        lift = nsvcd__d3_add(|if (lacks > 0)\n        lift = nsvcd__d3_sub(
 a window of another patch|p->memo.window > 0 \&\& p->fixed_blocks[0].first == first|p->memo.window > 0
 tile: every other group|nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group|nsvcd__walk_next(walk, \&g) \&\& nsvcd__walk_next(walk, \&g)) {\n    const nsvcd__sphere group
-tile: the first only|outcome == NSVCD__SETTLED \&\& nsvcd__search_next_tile(search));|0);
-tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__SETTLED : NSVCD__SPENT|p->work < 0 ? NSVCD__SETTLED : NSVCD__SPENT
+tile: the first only|outcome == NSVCD__RESOLVED \&\& nsvcd__search_next_tile(search));|0);
+tile: skins of the first only|p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED|p->work < 0 ? NSVCD__RESOLVED : NSVCD__EXHAUSTED
 tile: way without reach|nsvcd__f3_sub(nsvcd__f3_min(start, end), around);\n    const nsvcd__f3 high|nsvcd__f3_min(start, end);\n    const nsvcd__f3 high
 tile: approached in the first segment|wanted \&\& nearby \& ~met; wanted \&= wanted - 1) {|wanted \&\& nearby \& ~met; wanted = 0) {
 level: near groups as dipoles|#define NSVCD__DIPOLE 3.0f|#define NSVCD__DIPOLE 0.8f
@@ -151,15 +151,15 @@ round: a point on either|    contact->point[k] += gap * contact->normal[k];|
 round: a run short of its last|for (size_t k = 0; k < count; k++) {\n    if (k == end)|for (size_t k = 0; k + 1 < count; k++) {\n    if (k == end)
 round: not scaled|*round *= scale;|
 two patches by a plane of any triangle|if (height > highest) top = b;|if (height > highest) top = fixed_first;
-two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+two patches, but the last triangle|for (size_t a = moving_first; a < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);|for (size_t a = moving_first; a + 1 < moving_end; a++) { const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
 asks: a contact before the start|nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);|nsvcd__min(nsvcd__clear_until(p), found->tick);
 asks: proven by parts to the end, but not free|double end = p->ask.end; double from = 0;|double end = nsvcd__min(p->ask.end, ticks); double from = 0;
-pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_parts(p, couple, u0, all, *plane)|u0 < all \&\& nsvcd__plane_parts(p, couple, u0, u0, *plane)
-exact: pairs without slack|> p->ask.clearance + couple->slack + deviation;|> p->ask.clearance + deviation;
+pair's last plane at the start alone|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, all, *plane)|u0 < all \&\& nsvcd__plane_separates(p, pair, u0, u0, *plane)
+exact: pairs without slack|> p->ask.clearance + pair->slack + deviation;|> p->ask.clearance + deviation;
 exact: pairs without rounding|NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));|0;
 exact: a ratio of scales in float|motion->ratio = (double)nsvcd__scale_of(moving) / (double)motion->unit;|motion->ratio = (double)(nsvcd__scale_of(moving) / motion->unit);
-turning contacts that are too near|distance <= p->ask.clearance + couple->rounding|distance <= p->ask.clearance + couple->close
-exact: straight contacts that are too near|if (above <= couple->rounding) {|if (above <= couple->close) {
+turning contacts that are too near|distance <= p->ask.clearance + pair->rounding|distance <= p->ask.clearance + pair->close
+exact: straight contacts that are too near|if (above <= pair->rounding) {|if (above <= pair->close) {
 exact: planes of nearest points alone|for (size_t k = 0; k < 17; k++) {\n    const nsvcd__d3 *of|for (size_t k = 17; k < 17; k++) {\n    const nsvcd__d3 *of
 exact: no planes of faces|n = k < 2 ? nsvcd__face_direction(of)|n = k < 2 ? guess
 exact: no planes across edges|: nsvcd__across_edges(posed, fixed, k - 8);|: guess;
@@ -169,11 +169,11 @@ pieces by their stored corners|} else if (f->cut_count > 0) {|} else if (0) {
 a piece of the triangle before|if (f->cut[first + half] <= number) first += half;|if (f->cut[first + half] < number) first += half;
 floor: nearest times on the other side|if (slope < 0)\n      u0 = middle;|if (slope > 0)\n      u0 = middle;
 asks: parts of the time that were lost|if (part->lost) return end;|
-asks: what no part settled|known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));|known.lost = 0;
+asks: what no part settled|known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));|known.lost = 0;
 long: gaps by other poses|part.poses += first;|
 long: gaps without the lift|- p->given.lengths - lifted;|- p->given.lengths;
-long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_settled|!is_open \&\& !is_settled
-long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__SETTLED;|outcome = NSVCD__SETTLED;
+long: a try that found nothing ends what is proven|!is_open \&\& !is_try \&\& !is_resolved|!is_open \&\& !is_resolved
+long: an interval that forgets nothing|nsvcd__proof_restart(p);\n    outcome = NSVCD__RESOLVED;|outcome = NSVCD__RESOLVED;
 long: work of the first interval for all|if (p->given.grows) p->ask.most = p->work + p->given.work;|
 solids: corners that are not joined|const double widest = nsvcd__join_corners(m, arena->allocator);|const double widest = 0;
 solids: corners joined from afar|#define NSVCD__JOINED 1e-4|#define NSVCD__JOINED 1e-3
@@ -199,8 +199,8 @@ asks: pushed through one face only|n, t->ways[0]) > -0.3 \|\| nsvcd__d3_dot(n, t
 asks: a lift that is not tried|    still->lift = nsvcd__f3_round(lift);|    return 0;
 asks: ends not looked at|is_brief \&\& p->work + NSVCD__LONG < limit;|0;
 asks: the start only|if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK))|if (!at_end \&\& nsvcd__meets_at(p, search, at_end, NSVCD__LOOK))
-asks: a bracket lost|if (pass != NSVCD__SPENT) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
-asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
+asks: a bracket lost|if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;|p->low = 0;\n  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
+asks: a gap lost|p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);|p->low = 0;
 asks: a bracket as wide as may be|while (!p->wide \&\& p->ask.measure > finest) {|while (0 \&\& !p->wide) {
 asks: triangles not named|p->given.tells \&\& nsvcd__meets_at(|0 \&\& nsvcd__meets_at(
 asks: metres without the way|return arc->speed + arc->turn|return arc->turn
@@ -230,8 +230,8 @@ asks: contacts of one normal|int tries = nsvcd__manifold_normals(p, \&found, \&t
 asks: all of a short way|fmax(0.25 * whole,|fmax(whole,
 asks: nothing between the directions|area > NSVCD__SLIM * square) return 0;|area >= 0) return 0;
 asks: few places looked at|if (looks == NSVCD__HOLDS|if (looks == 3
-robot: joints that do not bend|bend += step->bend[j] * levers[j];|(void)bend;
-robot: half the bend|bend += step->bend[j] * levers[j];|bend += 0.5 * step->bend[j] * levers[j];
+robot: joints that do not bend|bend += step->bend[j] * moment_arms[j];|(void)bend;
+robot: half the bend|bend += step->bend[j] * moment_arms[j];|bend += 0.5 * step->bend[j] * moment_arms[j];
 robot: joints that do not turn each other|(2 * inner + own)|(own)
 robot: joints that turn each other once|(2 * inner + own)|(inner + own)
 robot: joints without a square|(2 * inner + own)|(2 * inner)
@@ -339,10 +339,10 @@ verify: no knots|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->m
 verify: knots of a alone|t = verify__min(r->a->next(r->a->motion, t), r->b->next(r->b->motion, t));|t = r->a->next(r->a->motion, t);
 verify: vertices at one place are two|weld[v] = same ? weld[m->part[i - 1]] : v;|weld[v] = v; (void)same;
 verify: quaternions of other sides|dot < 0 ? -sqrt(square_b) : sqrt(square_b)|sqrt(square_b)
-verify: joints without a bend|stray[k] += 0.1250001 * bend * lever[k];|
-verify: joints that do not turn each other|(2 * outer[k] + speed * lever[k])|(speed * lever[k])
-verify: joints without their own turn|(2 * outer[k] + speed * lever[k])|(2 * outer[k])
-verify: levers without offsets|outer[k] += speed * lever[k];\n    }\n    reach += verify__offset(joint->origin) +|outer[k] += speed * lever[k];\n    }\n    reach +=
+verify: joints without a bend|stray[k] += 0.1250001 * bend * arm[k];|
+verify: joints that do not turn each other|(2 * outer[k] + speed * arm[k])|(speed * arm[k])
+verify: joints without their own turn|(2 * outer[k] + speed * arm[k])|(2 * outer[k])
+verify: levers without offsets|outer[k] += speed * arm[k];\n    }\n    reach += verify__offset(joint->origin) +|outer[k] += speed * arm[k];\n    }\n    reach +=
 verify: levers without slides|reach += verify__offset(joint->origin) + (joint->slides ? most : 0);\n  }\n}|reach += verify__offset(joint->origin);\n  }\n}
 verify: pieces as one|return m->pieces > 0 ? verify__piece_end(m, verify__piece(m, t) + 1) : 1;|return 1;
 verify: other points of a motion|d = verify__hash_double(d, *value);|

@@ -114,7 +114,7 @@ static void asks_skin_lifts_what_stands(void) {
   const double table_hair = (double)nsvcd_body_describe(tables[0]).quantum;
   for (int n = 0; n < 3 * STANDING; n++) {
     const nsvcd_body *body = asks_standing(n % STANDING, &rng);
-    const double hair = 2 * (table_hair + (double)nsvcd_body_describe(body).quantum);
+    const double epsilon = 2 * (table_hair + (double)nsvcd_body_describe(body).quantum);
     for (int trial = 0; trial < 4 * 8; trial++) {
       const int k = trial % 8;
       const double depth = k < 7 ? depths[k] : 1.7 * skin;
@@ -135,11 +135,11 @@ static void asks_skin_lifts_what_stands(void) {
       CHECK_EQ(answer.verdict == NSVCD_FREE, k < 7);
       CHECK_NEAR(answer.lift[2], k < 7 ? skin : 0, 1e-6);
       CHECK_NEAR(asks_length(answer.lift), k < 7 ? skin : 0, 1e-6);
-      if (k < 7) CHECK_NEAR(answer.depth, fmax(depth, 0), 0.01 * fmax(depth, 0) + hair);
+      if (k < 7) CHECK_NEAR(answer.depth, fmax(depth, 0), 0.01 * fmax(depth, 0) + epsilon);
       // it is set down to a little above the table
       if (k < 7)
         CHECK_NEAR(answer.safe.a.position[2], fmax(-depth, 0),
-                   1.1 * fmax(0.02 * skin, 2 * hair) + 0.01 * skin);
+                   1.1 * fmax(0.02 * skin, 2 * epsilon) + 0.01 * skin);
       if (k == 7) CHECK_EQ(answer.depth, HUGE_VALF);
       const nsvcd_mover mover = question.a;
       question.a = question.b;
@@ -221,7 +221,7 @@ static void asks_skin_in_a_corner(void) {
     memset(&shape, 0, sizeof shape);
     shapes_box(&shape, 0.1, 0.1, 0.1, fine ? 16 : 1);
     const nsvcd_body *box = asks_body(&shape, 0);
-    const double hair =
+    const double epsilon =
         4 * (double)(nsvcd_body_describe(corner).quantum + nsvcd_body_describe(box).quantum);
     for (int k = 0; k < 4; k++) {
       const double in = 0.2 * k * skin;
@@ -234,12 +234,12 @@ static void asks_skin_in_a_corner(void) {
       CHECK_NEAR(answer.lift[1], -skin, 0.02 * skin);
       CHECK_NEAR(answer.lift[2], skin, 0.02 * skin);
       // each wall by its own depth
-      CHECK_NEAR(answer.depth, sqrt(3) * in, 0.01 * in + hair);
+      CHECK_NEAR(answer.depth, sqrt(3) * in, 0.01 * in + epsilon);
       asks_check_safe(&question, &answer);
       const nsvcd_pose lower = asks_pose(0.25, 0.25 + in, 0.05 - in, 0);
       question.a.poses = &lower;
       const nsvcd_answer uneven = asks(&question);
-      CHECK_NEAR(uneven.depth, sqrt(2) * in, 0.01 * in + hair);
+      CHECK_NEAR(uneven.depth, sqrt(2) * in, 0.01 * in + epsilon);
       asks_check_safe(&question, &uneven);
       question.a.poses = &pose;
     }
@@ -543,10 +543,10 @@ static void asks_first_keeps_what_is_proven(void) {
   for (int start = 0; start < 2; start++) {
     nsvcd_pose path[33];
     float until = 0;
-    const double hair = 0.5 * (double)facts.quantum;
+    const double epsilon = 0.5 * (double)facts.quantum;
     for (int n = 0; n < 33; n++) {
       const double down = start ? fmax(0, 0.2 - 0.02 * n) : 0;  // set down, or there already
-      path[n] = asks_pose(-0.4 + 0.8 * fmax(0, (n - 12) / 20.0), 0, hair + down, 0);
+      path[n] = asks_pose(-0.4 + 0.8 * fmax(0, (n - 12) / 20.0), 0, epsilon + down, 0);
     }
     nsvcd_question question = question_of(box, path, 33, table, NULL, NULL);
     const nsvcd_answer plain = asks(&question);
@@ -706,7 +706,7 @@ static double asks_way(const nsvcd_pose *path, double turn, double rises) {
 static void asks_check_first(const nsvcd_question *question, const nsvcd_answer *answer,
                              double way) {
   const double late = (double)answer->time.high - (double)answer->time.low;
-  const double share = (double)answer->safe.time;
+  const double fraction = (double)answer->safe.time;
   CHECK_EQ(answer->verdict, NSVCD_HIT);
   // flat on flat it is wider than by its own measure, by what triangles are stored to
   CHECK(answer->why != NSVCD_WHY_WORK);
@@ -726,7 +726,7 @@ static void asks_check_first(const nsvcd_question *question, const nsvcd_answer 
     const nsvcd_pose *last = mover->poses + mover->count - 1;
     for (int i = 0; i < 3; i++) {
       const double from = (double)mover->poses->position[i];
-      const double place = from + share * ((double)last->position[i] - from);
+      const double place = from + fraction * ((double)last->position[i] - from);
       CHECK_NEAR((double)safe->position[i], place, 1e-6);
     }
   }
@@ -1134,23 +1134,23 @@ static void asks_first_of_short_ways(void) {
     const nsvcd_body *table = asks_table(0, n % 2 ? 16 : 1);
     const nsvcd_body *box = asks_standing(8 + n % 8, &rng);
     // what is told in float is off by 1.2e-7 of all lengths
-    const double hair = 2.4e-7;
-    const double way = hair * pow(10, shapes_uniform(&rng, 0.7, 2.5));
-    const double share = shapes_uniform(&rng, 0.3, 0.9);
-    const nsvcd_pose path[2] = {asks_pose(0.05, 0.02, 0.002 + share * way, 0.3),
-                                asks_pose(0.05, 0.02, 0.002 - (1 - share) * way, 0.3)};
+    const double epsilon = 2.4e-7;
+    const double way = epsilon * pow(10, shapes_uniform(&rng, 0.7, 2.5));
+    const double fraction = shapes_uniform(&rng, 0.3, 0.9);
+    const nsvcd_pose path[2] = {asks_pose(0.05, 0.02, 0.002 + fraction * way, 0.3),
+                                asks_pose(0.05, 0.02, 0.002 - (1 - fraction) * way, 0.3)};
     const nsvcd_question question = {.a = {box, path, 2, NULL, 0},
                                      .b = {table, NULL, 0, NULL, 0},
                                      .ask = NSVCD_ASK_FIRST,
                                      .to = 1e-4f,
                                      .clearance = 0.002f};
     const nsvcd_answer answer = asks(&question);
-    const double off = 1.5 * hair / way;
+    const double off = 1.5 * epsilon / way;
     CHECK_EQ(answer.verdict, NSVCD_HIT);
-    CHECK_LE((double)answer.time.low, share + off);
-    CHECK_GE((double)answer.time.high, share - off);
-    if (way * share > 4 * hair) CHECK_EQ(answer.depth, 0);
-    if (way > 16 * hair) CHECK_LE((double)(answer.time.high - answer.time.low), 0.2501 + off);
+    CHECK_LE((double)answer.time.low, fraction + off);
+    CHECK_GE((double)answer.time.high, fraction - off);
+    if (way * fraction > 4 * epsilon) CHECK_EQ(answer.depth, 0);
+    if (way > 16 * epsilon) CHECK_LE((double)(answer.time.high - answer.time.low), 0.2501 + off);
     if (way > 1e-5) asks_check_safe(&question, &answer);
     nsvcd_body_free(table, NULL);
     nsvcd_body_free(box, NULL);

@@ -25,7 +25,7 @@ static void search(const nsvcd_body *moving, const nsvcd_body *fixed, nsvcd__mot
                    nsvcd__search *space, nsvcd__candidate *found, size_t limit,
                    nsvcd__candidates *kept) {
   nsvcd__cut_motion(motion, moving->extent + fixed->extent, space);
-  nsvcd__sheets_begin(space, swollen);
+  nsvcd__plane_cache_begin(space, swollen);
   int more = nsvcd__search_begin(moving, fixed, ~(uint64_t)0, space);
   nsvcd__candidates_start(kept, found, limit);
   while (more) more = nsvcd__search_step(space, kept);
@@ -105,8 +105,8 @@ static int hulls_meet(double (*a)[3], double (*b)[3], double reach) {
       back -= way[k] * x[k];
     }
     if (!(back > 0) || !(square > 0)) return 1;
-    const double share = fmin(back / square, 1);
-    for (int k = 0; k < 3; k++) x[k] += share * way[k];
+    const double fraction = fmin(back / square, 1);
+    for (int k = 0; k < 3; k++) x[k] += fraction * way[k];
   }
   return 1;
 }

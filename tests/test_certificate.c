@@ -507,10 +507,10 @@ static void cert_law_holds(const nsvcd_verify_mover *mover, double t0, double t1
   const double any = stray[0] + stray[1] * oracle_length(scaled);
   const double turn = stray[2] * oracle_length(aside);
   for (int k = 0; k < count; k++) {
-    const double share = (double)k / (count - 1);
+    const double fraction = (double)k / (count - 1);
     double off[3], placed_at[3];
     for (int i = 0; i < 3; i++)
-      off[i] = true_at[k][i] - (1 - share) * true_at[0][i] - share * true_at[count - 1][i];
+      off[i] = true_at[k][i] - (1 - fraction) * true_at[0][i] - fraction * true_at[count - 1][i];
     for (int i = 0; i < 4; i++) {  // along the way off, and along the axes of the world
       double n[3] = {i == 0, i == 1, i == 2};
       double across[3];
@@ -522,7 +522,7 @@ static void cert_law_holds(const nsvcd_verify_mover *mover, double t0, double t1
       CHECK_LE(along, most + 1e-9);
       if (most > 1e-6) *tightest = fmax(*tightest, along / most);
     }
-    mover->place(mover->motion, t0 + share * (t1 - t0), &place);
+    mover->place(mover->motion, t0 + fraction * (t1 - t0), &place);
     oracle_rotate(place.turn, scaled, placed_at);
     for (int i = 0; i < 3; i++) off[i] = placed_at[i] + place.at[i] - true_at[k][i];
     CHECK_LE(oracle_length(off), 1e-10 * (1 + oracle_length(true_at[k]) + mover->reach));

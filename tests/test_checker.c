@@ -452,14 +452,14 @@ static void checker_knows_neighbours_of_knots(void) {
     s.paths[0].times = timed ? s.times[0] : NULL;
     CHECK(!scene_init(&s));
     const nsvcd_verify_mover *m = &s.movers[0];
-    const double knot = m->next(m->motion, 0);
-    CHECK_NEAR(knot, timed ? 0.25 : 0.5, 1e-6);
+    const double keyframe = m->next(m->motion, 0);
+    CHECK_NEAR(keyframe, timed ? 0.25 : 0.5, 1e-6);
     for (int steps = 1; steps < 6; steps++) {
-      double before = knot, stray[6] = {0};
+      double before = keyframe, stray[6] = {0};
       for (int k = 0; k < steps; k++) before = nextafter(before, 0);
-      CHECK_EQ(m->next(m->motion, before), knot);
-      m->stray(m->motion, before, knot, stray);
-      const double turn = 3.141592653589793 * (knot - before) / knot;
+      CHECK_EQ(m->next(m->motion, before), keyframe);
+      m->stray(m->motion, before, keyframe, stray);
+      const double turn = 3.141592653589793 * (keyframe - before) / keyframe;
       CHECK_GE(stray[0] + fmax(stray[1], stray[2]) + 1e-6 * VERIFY__MARGIN, turn * turn / 8);
       m->stray(m->motion, 0, before, stray);
       CHECK_GE(stray[2], 3.141592653589793 * 3.141592653589793 / 8);
@@ -484,10 +484,10 @@ static void checker_comes_by_knots_once(void) {
     s.paths[0].poses = poses;
     s.paths[0].count = count;
     CHECK(!scene_init(&s));
-    size_t knots = 1;
-    for (double t = 0; t < 1 && knots <= count; knots++)
+    size_t keyframes = 1;
+    for (double t = 0; t < 1 && keyframes <= count; keyframes++)
       t = s.movers[0].next(s.movers[0].motion, t);
-    CHECK_EQ(knots, count);
+    CHECK_EQ(keyframes, count);
     begin(&w, s.movers, 0, NSVCD_VERIFY_FREE);
     put_plane(&w, -1, 0, 0);
     CHECK(nsvcd_verify(&s.movers[0], &s.movers[1], 0, w.bytes, (w.bits + 7) / 8, workspace,

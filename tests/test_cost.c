@@ -59,7 +59,7 @@ static size_t cost_search(const query_scene *s) {
   nsvcd__motion_init(&question.a, &question.b, &motion);
   nsvcd__candidates_start(&kept, query->kept, 32);
   nsvcd__cut_motion(&motion, s->moving->extent + s->fixed->extent, &query->broad_phase);
-  nsvcd__sheets_begin(&query->broad_phase, 0);
+  nsvcd__plane_cache_begin(&query->broad_phase, 0);
   int more = nsvcd__search_begin(s->moving, s->fixed, ~(uint64_t)0, &query->broad_phase);
   while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
   return query->broad_phase.segments;
@@ -357,7 +357,7 @@ static void cost_is_bounded(void) {
   const size_t pairs[4] = {1, 3, 8, NSVCD_MAX_PAIRS};
   size_t most_ranked = 0;
   size_t most_judged = 0;
-  double share = 0;
+  double fraction = 0;
   for (uint64_t seed = 1; seed <= 150; seed++) {
     query_scene s;
     query_scene_open(&s, seed);
@@ -370,7 +370,7 @@ static void cost_is_bounded(void) {
     const size_t segments = cost_search(&s);
     const size_t bound = 18 * segments * groups + 3 * segments;
     CHECK_GE(bound, tally.tests);
-    share = fmax(share, (double)tally.tests / (double)bound);
+    fraction = fmax(fraction, (double)tally.tests / (double)bound);
     for (size_t n = 0; n < 12; n++) {
       const size_t k = pairs[n / 3];
       nsvcd_question options = query_options(k, models[n % 3], seed % 2 ? 0.9999f : 0);
@@ -387,8 +387,8 @@ static void cost_is_bounded(void) {
     query_scene_close(&s);
   }
   printf("  of the bound: %.0f %% of the tests, %zu of 96 pairs ranked, %zu of 8 judged\n",
-         100 * share, most_ranked, most_judged);
-  CHECK_GE(share, 0.8);  // else the bound says little, or the worst case is not here
+         100 * fraction, most_ranked, most_judged);
+  CHECK_GE(fraction, 0.8);  // else the bound says little, or the worst case is not here
   CHECK_GE(most_ranked, 48);
   CHECK_EQ(most_judged, 8);
 }

@@ -310,13 +310,13 @@ static const char *edge_fault(const edge_scene *s, const nsvcd_answer *answer) {
 // Of DISTANCE: the bracket holds it.
 static const char *edge_distance_fault(const edge_scene *s, const nsvcd_answer *answer, double to) {
   const double distance = fmax(s->near.metres - s->limits[0] - s->limits[1], 0);
-  const double hair = 10 * SAME * s->lengths;
+  const double epsilon = 10 * SAME * s->lengths;
   const double low = (double)answer->distance.low;
   const double high = (double)answer->distance.high;
   if (answer->verdict == NSVCD_HIT)
-    return high > (double)s->clearance * (1 + FLOATS) + hair ? "distance.high of a HIT" : NULL;
-  if (low > distance + hair) return "distance.low";
-  if (high < distance - hair) return "distance.high";
+    return high > (double)s->clearance * (1 + FLOATS) + epsilon ? "distance.high of a HIT" : NULL;
+  if (low > distance + epsilon) return "distance.low";
+  if (high < distance - epsilon) return "distance.high";
   return high - low > to + FLOATS * high + CLOSE * s->lengths ? "a wide bracket" : NULL;
 }
 

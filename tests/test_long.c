@@ -346,10 +346,10 @@ static void long_lifts_are_kept(void) {
   CHECK_EQ(nsvcd_encode_sphere(1, NULL, &bodies[1]), NSVCD_OK);
   for (size_t n = 0; n < 1501; n++) {
     const double at = n < 1000 ? 0 : (double)(n - 1000) / 100;
-    const size_t leg = at < 5 ? (size_t)at : 4;
-    const double u = at - (double)leg;
-    const double *from = corners[leg];
-    const double *to = corners[leg + 1];
+    const size_t slerp = at < 5 ? (size_t)at : 4;
+    const double u = at - (double)slerp;
+    const double *from = corners[slerp];
+    const double *to = corners[slerp + 1];
     memset(&poses[n], 0, sizeof poses[n]);
     poses[n].position[0] = (float)((1 - u) * from[0] + u * to[0]);
     poses[n].position[1] = n < 1000 && n % 2 ? 0.4f : 0;
@@ -385,9 +385,9 @@ static void long_open_intervals_stay(void) {
     nsvcd__proof_begin(query);
     nsvcd__proof *p = query->proof;
     p->given.work = p->ask.limit = p->ask.most = units;
-    p->given.aside = units / NSVCD__IN_DOUBT;
-    const nsvcd__verdict verdict = nsvcd__prove(p, &query->broad_phase);
-    CHECK_EQ(verdict, trial / 2 ? NSVCD__MEETS : NSVCD__UNDECIDED);
+    p->given.aside = units / NSVCD__AFTER_UNRESOLVED;
+    const nsvcd__finding verdict = nsvcd__prove(p, &query->broad_phase);
+    CHECK_EQ(verdict, trial / 2 ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_NEITHER);
     CHECK_LE(nsvcd__clear_until(p), 0.2 * (double)p->ask.motion->ticks);
     if (trial / 2) CHECK_GE(p->known.found.tick, 0.99 * (double)p->ask.motion->ticks);
     CHECK_LE((double)p->work, 64 * 200);

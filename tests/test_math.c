@@ -46,7 +46,7 @@ static void math_numbers_by_their_bits(void) {
 }
 
 // What floats keep of a place, side by side: where gcc 12 would like to skip the rounding.
-static NSVCD__APART void math_keep_floats(const nsvcd__d3 *in, nsvcd__d3 *out) {
+static NSVCD__NOINLINE void math_keep_floats(const nsvcd__d3 *in, nsvcd__d3 *out) {
   *out = nsvcd__d3_widen(nsvcd__f3_round(*in));
 }
 

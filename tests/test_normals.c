@@ -378,14 +378,14 @@ static void normals_known(void) {
     for (int way = 0; way < 64; way++) {
       const int swapped = way & 1;
       const int goes_back = (way & 8) && !(way & 32);
-      const double share = way & 2 ? way & 4 ? 1 : 0.4 : 0;  // of the way that b goes
+      const double fraction = way & 2 ? way & 4 ? 1 : 0.4 : 0;  // of the way that b goes
       nsvcd_pose poses[2][3];
       nsvcd_question q;
       memset(&q, 0, sizeof q);
       for (int k = 0; k < 6; k++) {
         oracle_pose pose;
         const double gone = k % 3 == 0 ? 0 : goes_back ? (k % 3 == 1 ? 1.003 : 0.5) : k % 3;
-        const double by = k < 3 ? 1 - share : -share;
+        const double by = k < 3 ? 1 - fraction : -fraction;
         oracle_axis_angle(c->turns[k / 3], c->turns[k / 3][3], pose.rotation);
         for (int i = 0; i < 3; i++)
           pose.position[i] = (k < 3 ? c->from[i] : 0) + by * gone * c->way[i];

@@ -123,7 +123,7 @@ static uint64_t plan_decisive(nsvcd__planner *p, const nsvcd__stage *stage, cons
   nsvcd__cost_of(p, stage, control, INFINITY, NULL, 0);  // p->poses
   for (uint32_t k = 0; k < p->problem->pair_count; k++) {
     for (size_t s = 0; s + 1 < stage->moments; s++) {
-      const nsvcd_answer answer = nsvcd__ask(p, k, s, 1, 0, NULL);
+      const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, 1, 0, NULL);
       if (logit_of(&answer) <= -p->options.margin) continue;
       hash = (hash ^ (k * 4096 + s)) * 1099511628211u;
       hash = (hash ^ (answer.opinion.patch_a * 512 + answer.opinion.patch_b)) * 1099511628211u;
@@ -714,11 +714,11 @@ static double plan_exact_stray(const plan_scene *s, const plan_outcome *out, siz
     const shapes_mesh *mesh = &plan_shapes[shapes[pair.a]];
     for (size_t n = 0; n < check * parts; n++) {
       const double begin = (double)(n / parts) / (double)check;
-      const double share = (double)(n % parts) / (double)parts;
+      const double fraction = (double)(n % parts) / (double)parts;
       const oracle_pose from = plan_seen(s, out, pair, begin);
       const oracle_pose to = plan_seen(s, out, pair, begin + 1.0 / (double)check);
-      const oracle_pose checked = oracle_pose_between(&from, &to, share);
-      const oracle_pose is = plan_seen(s, out, pair, begin + share / (double)check);
+      const oracle_pose checked = oracle_pose_between(&from, &to, fraction);
+      const oracle_pose is = plan_seen(s, out, pair, begin + fraction / (double)check);
       for (size_t v = 0; v < mesh->vertices; v++) {
         double x[3], y[3], d[3];
         oracle_transform(&checked, mesh->positions + 3 * v, x);
@@ -1281,7 +1281,7 @@ static void plan_culling_misses_nothing(void) {
       for (size_t stride = 0; stride < 2; stride++) {
         nsvcd__find_meetings(p, &s.problem.pairs[k], samples, stride);
         for (size_t i = 0; i + stride < samples; i++) {
-          const nsvcd_answer answer = nsvcd__ask(p, k, i, stride, 0, NULL);
+          const nsvcd_answer answer = nsvcd__ask_segments(p, k, i, stride, 0, NULL);
           const int certain = status_of(&answer) == STATUS_CERTIFIED_FREE;
           segments++;
           uncertain += !certain;
@@ -1348,24 +1348,24 @@ static void plan_cost_is_the_sum_over_segments(void) {
         size_t length = 0;
         while (length < 8 && i + length + 1 < stage->moments && meets[i + length]) length++;
         if (length > 1) {
-          const nsvcd_answer run = nsvcd__ask(p, k, i, length, 0, NULL);
+          const nsvcd_answer run = nsvcd__ask_segments(p, k, i, length, 0, NULL);
           memset(runs + i, logit_of(&run) <= -p->options.margin, length);
         }
         i += length ? length : 1;
       }
       for (size_t i = 0; i + 1 < stage->moments; i++) {
-        const nsvcd_answer answer = nsvcd__ask(p, k, i, 1, 0, NULL);
-        const double share =
+        const nsvcd_answer answer = nsvcd__ask_segments(p, k, i, 1, 0, NULL);
+        const double fraction =
             (double)nsvcd__cost_of_logit(logit_of(&answer), p->options.margin, &slope);
-        sum += share;
+        sum += fraction;
         collides_at_all |= collides_of(&answer);
-        costly += share > 0;
-        if (!meets[i]) CHECK_EQ(share, 0);
+        costly += fraction > 0;
+        if (!meets[i]) CHECK_EQ(fraction, 0);
         if (runs[i]) {
-          without += share;
-          dropped += share > 0;
+          without += fraction;
+          dropped += fraction > 0;
           dropped_hits += collides_of(&answer);
-          dropped_here += share > 0;
+          dropped_here += fraction > 0;
         } else {
           collides |= collides_of(&answer);
         }

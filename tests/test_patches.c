@@ -40,8 +40,8 @@ static void mesh_samples_are_uniform(void) {
   }
   double total = 0.02 + 0.06 + 0.03;  // of the three products of half extents
   for (size_t f = 0; f < 6; ++f) {
-    double share = (f < 2 ? 0.06 : f < 4 ? 0.03 : 0.02) / (2 * total);
-    CHECK_NEAR(face[f], (double)S * share, 1.01);  // stratified: to one sample at each end
+    double fraction = (f < 2 ? 0.06 : f < 4 ? 0.03 : 0.02) / (2 * total);
+    CHECK_NEAR(face[f], (double)S * fraction, 1.01);  // stratified: to one sample at each end
     for (size_t k = 0; k < 2; ++k) CHECK_NEAR(mean[f][k] / face[f], 0, 0.02);
   }
   nsvcd_mesh_free(&mesh, NULL);

@@ -418,9 +418,9 @@ static void postures_far_from_their_origins(void) {
     robot_open(&r);
     oracle_sub(centres[1], centres[0], off);
     const double across = off[1] * off[1] + off[2] * off[2];
-    const double share = out * pow(10, shapes_uniform(&rng, -3, 0));
+    const double fraction = out * pow(10, shapes_uniform(&rng, -3, 0));
     for (int is_apart = 0; is_apart < 2; is_apart++) {
-      const double far = reach + (is_apart ? 2e-6 * out : -1e-7 * share);
+      const double far = reach + (is_apart ? 2e-6 * out : -1e-7 * fraction);
       nsvcd_gap gap;
       nsvcd_check_answer answer;
       size_t count = 0;

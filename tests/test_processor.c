@@ -21,9 +21,9 @@ typedef struct processor_set {
 } processor_set;
 
 static const processor_set processor_sets[3] = {
-    {"SSE2", nsvcd__sweep_size, nsvcd__sweep_batch, nsvcd__sweep_gradient},
-    {"AVX2", nsvcd__sweep_size_avx2, nsvcd__sweep_batch_avx2, nsvcd__sweep_gradient_avx2},
-    {"AVX-512", nsvcd__sweep_size_avx512, nsvcd__sweep_batch_avx512, nsvcd__sweep_gradient_avx512}};
+    {"SSE2", nsvcd__sweep_size, nsvcd__run_batch, nsvcd__run_gradient},
+    {"AVX2", nsvcd__sweep_size_avx2, nsvcd__run_batch_avx2, nsvcd__run_gradient_avx2},
+    {"AVX-512", nsvcd__sweep_size_avx512, nsvcd__run_batch_avx512, nsvcd__run_gradient_avx512}};
 
 // How many of them this processor has.
 static size_t processor_count(void) {
@@ -158,8 +158,8 @@ static void processor_sizes_are_the_same(void) {
 
 // Each reckons rightly; and the public function asks the best.
 static void processor_self_tests(void) {
-  nsvcd_result (*const tests[3])(void) = {nsvcd__self_test, nsvcd__self_test_avx2,
-                                          nsvcd__self_test_avx512};
+  nsvcd_result (*const tests[3])(void) = {nsvcd__run_self_test, nsvcd__run_self_test_avx2,
+                                          nsvcd__run_self_test_avx512};
   for (size_t n = 0; n < processor_count(); n++) CHECK_EQ(tests[n](), NSVCD_OK);
   int failed = 0;
   for (int n = 0; n < 100; n++) failed += nsvcd_self_test() != NSVCD_OK;

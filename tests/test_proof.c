@@ -642,9 +642,9 @@ static void proof_check_manifold(attack *a, const nsvcd_question *asked) {
     radii[k] = scales[k] * (double)facts.radius;
     quanta += scales[k] * (double)facts.quantum;
   }
-  const double hair = quanta + moved;
+  const double epsilon = quanta + moved;
   const double to = (double)NSVCD_DEFAULT_TO * fmin(radii[0], radii[1]);
-  const double reach = 1.001 * fmax(to, 4 * quanta) + hair;
+  const double reach = 1.001 * fmax(to, 4 * quanta) + epsilon;
   CHECK_EQ(memcmp(&alone.nearest, &w->nearest, sizeof w->nearest), 0);
   CHECK_EQ(memcmp(&alone.safe, &w->safe, sizeof w->safe), 0);
   CHECK_EQ(memcmp(&alone.time, &w->time, sizeof w->time), 0);
@@ -658,7 +658,7 @@ static void proof_check_manifold(attack *a, const nsvcd_question *asked) {
                            proof_triangle_distance(&y, &point)};
     const double normal[3] = {(double)c->normal[0], (double)c->normal[1], (double)c->normal[2]};
     if (w->contact_count > 1) CHECK_NEAR(oracle_length(normal), 1, 1e-6);
-    CHECK_LE(fmin(off[0], off[1]), hair);
+    CHECK_LE(fmin(off[0], off[1]), epsilon);
     CHECK_LE(fmax(off[0], off[1]), reach);
     CHECK_LE(c->gap, reach);
     CHECK_LE(proof_triangle_distance(&x, &y), (double)c->gap + reach);
@@ -742,12 +742,12 @@ static int proof_corner_through(shapes_rng *rng, double a[3][3], double b[3][3],
 static int proof_middles_meet(shapes_rng *rng, double a[3][3], double b[3][3], double depth,
                               oracle_pose *pose) {
   const int edge = shapes_pick(rng, 3);
-  const double share = shapes_uniform(rng, 0, 1);
+  const double fraction = shapes_uniform(rng, 0, 1);
   double m[9], x[3], y[3], turned[3], inwards[3];
   shapes_quaternion(rng, pose->rotation);
   oracle_matrix(pose->rotation, m);
   proof_point_in(rng, a, x);
-  for (int k = 0; k < 3; k++) y[k] = b[edge][k] + share * (b[(edge + 1) % 3][k] - b[edge][k]);
+  for (int k = 0; k < 3; k++) y[k] = b[edge][k] + fraction * (b[(edge + 1) % 3][k] - b[edge][k]);
   oracle_sub(b[(edge + 2) % 3], y, inwards);
   const double length = oracle_length(inwards);
   if (!(length > 0)) return 0;
@@ -943,8 +943,8 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
                              shapes_rng *rng) {
   double worst = 0;
   for (int k = 0; k < 6; k++) {
-    const double share = k == 0 ? 0 : k == 1 ? 1 : shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + share * (span->t_end - span->t_start);
+    const double fraction = k == 0 ? 0 : k == 1 ? 1 : shapes_uniform(rng, 0, 1);
+    const double t = span->t_start + fraction * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
     double x[3], place[3], off[3];
     shapes_direction(rng, x);
@@ -960,10 +960,10 @@ static double proof_span_use(const proof_motion *m, const nsvcd__span *span, dou
       double end = (double)p1[i];
       for (int j = 0; j < 3; j++) start += (double)m0[3 * i + j] * x[j];
       for (int j = 0; j < 3; j++) end += (double)m1[3 * i + j] * x[j];
-      off[i] = place[i] - start - share * (end - start);
+      off[i] = place[i] - start - fraction * (end - start);
     }
     // At the ends there is no bulge: what is off there is rounding.
-    const double bulge = share > 0 && share < 1 ? (double)span->bulge * length : 0;
+    const double bulge = fraction > 0 && fraction < 1 ? (double)span->bulge * length : 0;
     worst = fmax(worst, (oracle_length(off) - bulge) / (double)(span->rounding + span->drift));
   }
   return worst;
@@ -1089,8 +1089,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
   const double own_axis[3] = {(double)own.x, (double)own.y, (double)own.z};
   double worst = 0;
   for (int k = 0; k < 8; k++) {
-    const double share = shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + share * (span->t_end - span->t_start);
+    const double fraction = shapes_uniform(rng, 0, 1);
+    const double t = span->t_start + fraction * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
     const nsvcd__f3 special[3] = {span->axis, span->way, nsvcd__f3_cross(span->axis, span->way)};
     double x[3], aside[3], place[3], n[3];
@@ -1104,8 +1104,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
       x[i] = slim < 1 ? slim * reach * x[i] + sqrt(1 - slim * slim) * side * own_axis[i]
                       : reach * x[i];
     oracle_cross(x, own_axis, aside);
-    const nsvcd__lever lever = {1.000001f * (float)oracle_length(x),
-                                1.000001f * (float)oracle_length(aside)};
+    const nsvcd__arm arm = {1.000001f * (float)oracle_length(x),
+                            1.000001f * (float)oracle_length(aside)};
     if (k < 3) {
       const double wobble = k == 0 ? 0 : 0.01;
       n[0] = (double)special[k].x + wobble * n[0];
@@ -1124,13 +1124,13 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
       double end = (double)p1[i];
       for (int j = 0; j < 3; j++) start += (double)m0[3 * i + j] * x[j];
       for (int j = 0; j < 3; j++) end += (double)m1[3 * i + j] * x[j];
-      off += n[i] / length * (place[i] - start - share * (end - start));
+      off += n[i] / length * (place[i] - start - fraction * (end - start));
     }
     const nsvcd__f3 unit =
         nsvcd__f3_of((float)(n[0] / length), (float)(n[1] / length), (float)(n[2] / length));
-    const double allowed = (double)span->rounding + (double)nsvcd__deviation(span, unit, lever);
+    const double allowed = (double)span->rounding + (double)nsvcd__deviation_of(span, unit, arm);
     const nsvcd__v_span spans = nsvcd__v_span_set(span);
-    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), lever.reach);
+    const nsvcd__v lanes = nsvcd__v_deviation(&spans, nsvcd__v3_set(unit), arm.reach);
     const double in_lanes = (double)span->rounding + (double)nsvcd__v_least(lanes);
     worst = fmax(worst, fabs(off) / fmin(allowed, in_lanes));
   }
@@ -1142,8 +1142,8 @@ static double proof_direction_use(const proof_motion *m, const nsvcd__span *span
 static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, shapes_rng *rng) {
   double worst = 0;
   for (int k = 0; k < 8; k++) {
-    const double share = shapes_uniform(rng, 0, 1);
-    const double t = span->t_start + share * (span->t_end - span->t_start);
+    const double fraction = shapes_uniform(rng, 0, 1);
+    const double t = span->t_start + fraction * (span->t_end - span->t_start);
     const proof_place at = proof_place_at(m, t);
     const double axis[3] = {(double)span->axis.x, (double)span->axis.y, (double)span->axis.z};
     const double zero[3] = {0, 0, 0};
@@ -1159,7 +1159,7 @@ static double proof_turn_use(const proof_motion *m, const nsvcd__span *span, sha
       for (int i = 0; i < 3; i++) {
         const double start = (double)(&span->start.rotation.x.x)[3 * i + j];
         const double end = (double)(&span->end.rotation.x.x)[3 * i + j];
-        off[j] += n[i] * (column[i] - origin[i] - start - share * (end - start));
+        off[j] += n[i] * (column[i] - origin[i] - start - fraction * (end - start));
       }
     }
     oracle_cross(n, axis, across);
@@ -1297,12 +1297,12 @@ static void proof_wheels_motion(shapes_rng *rng, proof_motion *m) {
 // for along a direction; 0 where nothing bends.
 static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes_rng *rng) {
   static nsvcd__proof proof;
-  nsvcd__couple couple;
-  double share, ends[3][3], n[3], x[3];
+  nsvcd__triangle_pair pair;
+  double fraction, ends[3][3], n[3], x[3];
   proof.ask.motion = motion;
   proof.arc.ticks = 0;
   const uint32_t first =
-      nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &share);
+      nsvcd__arc_of(motion, shapes_uniform(rng, 0, 1) * (double)motion->ticks, &fraction);
   const nsvcd__arc *arc = nsvcd__arc_at(&proof, first);
   const double length = pow(2, -shapes_pick(rng, 8));
   const double u0 = shapes_uniform(rng, 0, 1 - length);
@@ -1312,7 +1312,7 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   shapes_direction(rng, x);
   shapes_direction(rng, n);
   for (int k = 0; k < 3; k++) x[k] = slim * x[k] + (1 - slim) * (&arc->own_axis.x)[k];
-  for (int k = 0; k < 3; k++) couple.moving[k] = nsvcd__d3_of(x[0], x[1], x[2]);
+  for (int k = 0; k < 3; k++) pair.moving[k] = nsvcd__d3_of(x[0], x[1], x[2]);
   const int looks = shapes_pick(rng, 4);
   if (looks == 0) memcpy(n, &arc->axis.x, sizeof n);
   if (looks == 1) {  // where it is off the most, if both turn about one axis
@@ -1333,14 +1333,13 @@ static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes
   double off = 0;
   for (int k = 0; k < 3; k++)
     off += n[k] / size * (ends[1][k] - (1 - within) * ends[0][k] - within * ends[2][k]);
-  nsvcd__couple_reaches(arc, &couple);
+  nsvcd__pair_reaches(arc, &pair);
   const nsvcd__d3 unit = nsvcd__d3_of(n[0] / size, n[1] / size, n[2] / size);
-  const double allowed = length * length * nsvcd__off_chord_along(arc, &couple, unit);
+  const double allowed = length * length * nsvcd__off_chord_along(arc, &pair, unit);
   const double lengths = 1 + oracle_length(ends[0]) + oracle_length(ends[2]);
   const nsvcd__span span = nsvcd__span_of_arc(&proof, first, u0, u0 + length);
-  const nsvcd__lever lever =
-      nsvcd__lever_of(nsvcd__d3_narrow(couple.moving[0]), 0, nsvcd__own_axis(&span));
-  const double by_span = (double)nsvcd__deviation(&span, nsvcd__d3_narrow(unit), lever);
+  const nsvcd__arm arm = nsvcd__arm_of(nsvcd__d3_narrow(pair.moving[0]), 0, nsvcd__own_axis(&span));
+  const double by_span = (double)nsvcd__deviation_of(&span, nsvcd__d3_narrow(unit), arm);
   const double use = fabs(off) / (by_span + 2e-6 * lengths);
   return fmax(use, fabs(off) / (allowed + 1e-12 * lengths));
 }
@@ -1389,11 +1388,11 @@ static double proof_track_rate(const proof_track *m, double size, double t, doub
 
 // The first time from which it cannot be said that surfaces are farther apart than `clearance`:
 // they come within that and `hair` more. 2 if they never do.
-static double proof_first_approach(const attack *a, double clearance, double hair) {
+static double proof_first_approach(const attack *a, double clearance, double epsilon) {
   for (double t = 0; t <= 1;) {
     double next, fixed_next;
     const double room = proof_distance_at(a, t) - clearance;
-    if (room <= hair) return t;
+    if (room <= epsilon) return t;
     if (t >= 1) break;
     const double rate = proof_track_rate(&a->motion.moving, a->moving->size, t, &next) +
                         proof_track_rate(&a->motion.fixed, a->fixed->size, t, &fixed_next);
@@ -1407,17 +1406,17 @@ static double proof_first_approach(const attack *a, double clearance, double hai
 // Is there a time before `until` at which surfaces are within the clearance by more than `hair`?
 // From the first approach on at many times, not all. `from`: that time, proof_first_approach.
 static int proof_is_within(const attack *a, double clearance, double from, double until,
-                           double hair) {
+                           double epsilon) {
   for (int k = 0; k <= 100 && from < until; k++) {
     const double t = from + (until - from) * k / 100;
     const double distance = proof_distance_at(a, t);
-    if (clearance > 0 ? distance < clearance - hair : !(distance > 0)) return 1;
+    if (clearance > 0 ? distance < clearance - epsilon : !(distance > 0)) return 1;
   }
   return 0;
 }
 
-static int proof_comes_within(const attack *a, double clearance, double hair) {
-  return proof_is_within(a, clearance, proof_first_approach(a, clearance, hair), 1, hair);
+static int proof_comes_within(const attack *a, double clearance, double epsilon) {
+  return proof_is_within(a, clearance, proof_first_approach(a, clearance, epsilon), 1, epsilon);
 }
 
 typedef struct timing_sum {
@@ -1893,17 +1892,17 @@ static void proof_check_depth(const attack *a, const double *lift, size_t *too_s
                               size_t *too_long) {
   const double length = oracle_length(lift);
   const double depth = (double)a->answer.depth;
-  const double hair = 1.2e-7 * (a->moving->size + a->fixed->size) + 0.005 * depth;
+  const double epsilon = 1.2e-7 * (a->moving->size + a->fixed->size) + 0.005 * depth;
   double way[3];
   int apart = 1;
   for (int n = 0; n <= 20 && apart; n++) {
-    const double beyond = fmin(depth + hair + 0.05 * n * (length - depth - hair), length);
+    const double beyond = fmin(depth + epsilon + 0.05 * n * (length - depth - epsilon), length);
     for (int k = 0; k < 3; k++) way[k] = lift[k] / length * beyond;
     apart = proof_lifted_distance(a, way, 0) > 0;
   }
   *too_short += !apart;
-  for (int k = 0; k < 3; k++) way[k] = lift[k] / length * (depth - hair);
-  *too_long += depth > hair && proof_lifted_distance(a, way, 0) > hair;
+  for (int k = 0; k < 3; k++) way[k] = lift[k] / length * (depth - epsilon);
+  *too_long += depth > epsilon && proof_lifted_distance(a, way, 0) > epsilon;
 }
 
 // Any bodies that touch at the start: what is said to be free is free when lifted, and the lift is
@@ -3040,9 +3039,9 @@ static status proof_swing(double scale, double angle, double depth, size_t count
   memset(&fixed, 0, sizeof fixed);
   memcpy(fixed.rotation, still, sizeof still);
   for (size_t n = 0; n < count; n++) {
-    const double share = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
+    const double fraction = count > 1 ? (double)n / (double)(count - 1) - 0.5 : 0;
     poses[n] = fixed;
-    oracle_axis_angle(axis, angle * share, poses[n].rotation);
+    oracle_axis_angle(axis, angle * fraction, poses[n].rotation);
     poses[n].position[0] = 0.013 * scale;
     poses[n].position[1] = 0.007 * scale;
     poses[n].position[2] = (0.05 + 0.25 * (1 - depth)) * scale;

@@ -361,7 +361,8 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   static nsvcd__candidate items[NSVCD_MAX_PAIRS];
   nsvcd__candidates kept;
   float least = HUGE_VALF;
-  CHECK_EQ(nsvcd__check(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)), NSVCD_OK);
+  CHECK_EQ(nsvcd__answer_question(question, query_workspace(), nsvcd_sweep_workspace_size(NULL)),
+           NSVCD_OK);
   nsvcd__query *query = nsvcd__query_open(question, query_workspace());
   nsvcd__task *task = &query->task;
   CHECK_EQ(nsvcd__settings_of(&question->network, task->moving->patches, task->fixed->patches,
@@ -371,7 +372,7 @@ static float query_least_of_all(const nsvcd_question *question, size_t *count) {
   *count = 0;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return least;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  nsvcd__sheets_begin(&query->broad_phase, 1);
+  nsvcd__plane_cache_begin(&query->broad_phase, 1);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, &query->broad_phase);
   while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
   *count = kept.total;
@@ -1256,9 +1257,9 @@ static void query_thresholds_are_interpolated(void) {
       const double next = (double)rows[row + 1][k];
       double before = at;
       for (size_t between = size + 1; between < 2 * size; between++) {
-        const double share = log2((double)between / (double)size);
+        const double fraction = log2((double)between / (double)size);
         const double found = query_threshold(model, k, between, between);
-        CHECK_NEAR(found, at + share * (next - at), 1e-5);
+        CHECK_NEAR(found, at + fraction * (next - at), 1e-5);
         CHECK_GE((found - before) * (next - at), 0);
         before = found;
       }

@@ -297,8 +297,8 @@ static void regions_are_alike(void) {
         regions_corners(&region.mesh, t, corners);
         own += regions_area(corners);
       }
-      const double share = (double)region.mesh.triangle_count / (double)r.triangle_count;
-      most = fmax(most, 0.5 * (own / area + share) * (double)r.count);
+      const double fraction = (double)region.mesh.triangle_count / (double)r.triangle_count;
+      most = fmax(most, 0.5 * (own / area + fraction) * (double)r.count);
       nsvcd__region_end(&r, &region);
     }
     worst = fmax(worst, most);

@@ -48,8 +48,9 @@ static double robot_off(const robot *r, size_t part, const placed *at, const ora
 static void joints_at_time(const nsvcd_joint_motion *motion, size_t joints, double t, double *out) {
   size_t p = 0;
   while (p + 1 < motion->pieces && motion->times[p + 1] <= t) p++;
-  const double share = (t - motion->times[p]) / (motion->times[p + 1] - motion->times[p]);
-  joints_of_piece(motion->points + p * motion->degree * joints, motion->degree, joints, share, out);
+  const double fraction = (t - motion->times[p]) / (motion->times[p + 1] - motion->times[p]);
+  joints_of_piece(motion->points + p * motion->degree * joints, motion->degree, joints, fraction,
+                  out);
 }
 
 // A ball on a random robot passes another one, that rests or is on another link, at a distance that
@@ -152,7 +153,7 @@ static void robot_grazes(void) {
     if (least < reach - 1e-6) CHECK(answer.verdict != NSVCD_FREE);
     if (least > reach + 1e-6) CHECK(answer.verdict != NSVCD_HIT);
     if (answer.verdict == NSVCD_HIT)
-      CHECK_LE(robot_balls_apart(&r, flat, degree, answer.share), reach + 2e-6);
+      CHECK_LE(robot_balls_apart(&r, flat, degree, answer.fraction), reach + 2e-6);
     // a doubt is about what is nearer than two parts may stray at the finest
     if (answer.verdict == NSVCD_UNDECIDED) CHECK_NEAR(least, reach, 1e-4);
     free_count += answer.verdict == NSVCD_FREE;
@@ -292,7 +293,7 @@ static void robot_verdicts_are_right(void) {
       if (answer.verdict == NSVCD_HIT) {
         double q[6];
         const size_t order = motion.pieces ? degree : 0;
-        joints_of_piece(flat + 6 * answer.piece * degree, order, 6, answer.share, q);
+        joints_of_piece(flat + 6 * answer.piece * degree, order, 6, answer.fraction, q);
         still_hits += motion.pieces == 0;
         CHECK_LE(robot_apart(&r, &r.pairs[answer.pair], q, 0.1), (double)options.clearance + 2e-5);
       }
@@ -901,9 +902,9 @@ static void robot_strays_no_farther(void) {
       const double from = shapes_uniform(&rng, -2, 2);
       const double to = shapes_pick(&rng, 4) ? from + size * shapes_normal(&rng) : from;
       for (size_t i = 0; i <= pieces * degree; i++) {
-        const double share = (double)i / (double)(pieces * degree);
+        const double fraction = (double)i / (double)(pieces * degree);
         double *at = &flat[i * joints + j];
-        *at = from + share * (to - from) + size * bends * shapes_normal(&rng);
+        *at = from + fraction * (to - from) + size * bends * shapes_normal(&rng);
         if (i < 2 || i % degree != 1 % degree || jumps == 2) continue;
         const size_t p = (i - 1) / degree;
         const double way = *(at - joints) - *(at - 2 * joints);
@@ -975,7 +976,7 @@ static void robot_levers_reach(void) {
     nsvcd__step step;
     nsvcd__configuration from;
     double flat[2 * NSVCD_MAX_JOINTS];
-    double levers[NSVCD_MAX_JOINTS] = {0};
+    double moment_arms[NSVCD_MAX_JOINTS] = {0};
     robot_random(&r, &rng);
     robot_open(&r);
     const size_t joints = r.scene.joint_count;
@@ -989,7 +990,7 @@ static void robot_levers_reach(void) {
     memcpy(from.joints, flat, joints * sizeof *flat);
     nsvcd__place_links(r.checker, &from);
     const size_t part = joints - 1;
-    nsvcd__levers_of(r.checker, part, &step, &from, levers);
+    nsvcd__moment_arms_of(r.checker, part, &step, &from, moment_arms);
     for (int k = 0; k <= 20; k++) {
       double q[NSVCD_MAX_JOINTS];
       joints_of_piece(flat, 1, joints, k / 20.0, q);
@@ -1009,9 +1010,10 @@ static void robot_levers_reach(void) {
           oracle_sub(x, frame.p, off);
           oracle_cross(turned, off, across);
           const double far = oracle_length(across) / oracle_length(turned);
-          CHECK_LE(far, levers[link - 1]);
+          CHECK_LE(far, moment_arms[link - 1]);
           // where joints beyond have brought it there
-          if (k > 0 && size > 0.5 && link + 1 < joints) most = fmax(most, far / levers[link - 1]);
+          if (k > 0 && size > 0.5 && link + 1 < joints)
+            most = fmax(most, far / moment_arms[link - 1]);
         }
       }
     }
@@ -1029,7 +1031,7 @@ static void robot_trees_find_the_nearest(void) {
   static nsvcd__cell cells[2 * NODES];
   shapes_rng rng = {81};
   for (size_t joints = 1; joints <= 7; joints += 3) {
-    nsvcd__tree tree = {joints, 0, 0, &points[0][0], parents, next, cells};
+    nsvcd__rrt tree = {joints, 0, 0, &points[0][0], parents, next, cells};
     for (size_t n = 0; n < NODES; n++) {
       double at[NSVCD_MAX_JOINTS];
       for (size_t j = 0; j < joints; j++) {
@@ -1052,29 +1054,29 @@ static void robot_trees_find_the_nearest(void) {
 // on without a jump.
 static void robot_ramps_are_quickest(void) {
   shapes_rng rng = {82};
-  size_t ramps = 0;
+  size_t blends = 0;
   for (int trial = 0; trial < 20000; trial++) {
     const double speed = pow(10, shapes_uniform(&rng, -1, 1));
     const double most = pow(10, shapes_uniform(&rng, -1, 1));
     const double x1 = shapes_pick(&rng, 5) ? shapes_normal(&rng) : 0;
     const double v0 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
     const double v1 = shapes_pick(&rng, 3) ? speed * shapes_uniform(&rng, -1, 1) : 0;
-    const double time = nsvcd__ramp_time(0, v0, x1, v1, speed, most);
-    nsvcd__ramp_joint r;
+    const double time = nsvcd__blend_time(0, v0, x1, v1, speed, most);
+    nsvcd__blend_joint r;
     double x, v;
     if (!(time > 1e-3)) continue;
-    CHECK(nsvcd__ramp_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
-    nsvcd__ramp_at(&r, 0, v0, time, &x, &v);
+    CHECK(nsvcd__blend_solve(0, v0, x1, v1, speed * (1 + 1e-9), most * (1 + 1e-9), time, &r));
+    nsvcd__blend_at(&r, 0, v0, time, &x, &v);
     CHECK_NEAR(x, x1, 1e-9 * (1 + fabs(x1) + speed * time));
     CHECK_NEAR(v, v1, 1e-9 * (speed + most * time));
     // never faster than the limit, and not quicker with less time
-    nsvcd__ramp_at(&r, 0, v0, r.t1, &x, &v);
+    nsvcd__blend_at(&r, 0, v0, r.t1, &x, &v);
     CHECK_LE(fabs(v), speed * (1 + 1e-8));
-    const int sooner = nsvcd__ramp_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
+    const int sooner = nsvcd__blend_solve(0, v0, x1, v1, speed, most, time * (1 - 1e-3), &r);
     CHECK(!sooner);
-    ramps++;
+    blends++;
   }
-  CHECK_GE(ramps, 19000);
+  CHECK_GE(blends, 19000);
 }
 
 void test_robot(void) {

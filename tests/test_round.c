@@ -273,8 +273,8 @@ static void round_bodies_are_exact(void) {
       // not so much of a turn that it is all of the motion; of every third, none
       for (int i = 0; i < 4 && k % 2; i++) {
         float *to = poses[k / 2][1].rotation;
-        const float share = n / (KINDS * KINDS) % 3 ? 0.3f : 0;
-        to[i] = share * to[i] + (1 - share) * poses[k / 2][0].rotation[i];
+        const float fraction = n / (KINDS * KINDS) % 3 ? 0.3f : 0;
+        to[i] = fraction * to[i] + (1 - fraction) * poses[k / 2][0].rotation[i];
       }
       float *r = poses[k / 2][k % 2].rotation;
       const float length = sqrtf(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);

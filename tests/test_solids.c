@@ -123,11 +123,11 @@ static uint32_t solids_copy(shapes_mesh *mesh, shapes_rng *rng, size_t t, size_t
   for (int i = 0; i < 3; i++) x[i] = solids_corner(mesh, t, k)[i] + shapes_uniform(rng, -off, off);
   return shapes_vertex(mesh, x[0], x[1], x[2]);
 }
-static uint32_t solids_between(shapes_mesh *mesh, size_t t, size_t k, double share) {
+static uint32_t solids_between(shapes_mesh *mesh, size_t t, size_t k, double fraction) {
   double x[3];
   for (int i = 0; i < 3; i++)
-    x[i] =
-        solids_corner(mesh, t, k)[i] * (1 - share) + solids_corner(mesh, t, (k + 1) % 3)[i] * share;
+    x[i] = solids_corner(mesh, t, k)[i] * (1 - fraction) +
+           solids_corner(mesh, t, (k + 1) % 3)[i] * fraction;
   return shapes_vertex(mesh, x[0], x[1], x[2]);
 }
 
@@ -359,8 +359,8 @@ static void solids_sheet(int kind, shapes_mesh *mesh, shapes_rng *rng, double *a
   double low[3], high[3];
   shapes_bounds(mesh, low, high);
   for (int k = 0; k < 3 && kind >= BIN && kind <= TENT; k++) at[k] = 0.5 * (low[k] + high[k]);
-  const double share = kind == FLAT_BOWL ? 0.6 : kind == BOWL ? 0.45 : 0.999;
-  if (kind >= BIN && kind <= TENT) solids_open_top(mesh, low[2] + share * (high[2] - low[2]));
+  const double fraction = kind == FLAT_BOWL ? 0.6 : kind == BOWL ? 0.45 : 0.999;
+  if (kind >= BIN && kind <= TENT) solids_open_top(mesh, low[2] + fraction * (high[2] - low[2]));
   if (kind == FLAT_BOWL || kind == BOWL) at[2] = low[2] + 0.3;
   if (kind >= TUBE && kind < HALF_PIPE) {
     for (size_t i = 0; i < mesh->vertices; i++) mesh->positions[3 * i + 2] *= -1;

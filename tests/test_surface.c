@@ -138,9 +138,9 @@ static int hull_reaches(const vec *points, size_t count, vec x, double reach) {
     const vec d = vec_sub(points[to], points[from]);
     const double way = -vec_dot(v, d) / vec_dot(d, d);
     if (!(way > 0)) break;
-    const double share = fmin(way, weights[from]);
-    weights[from] -= share;
-    weights[to] += share;
+    const double fraction = fmin(way, weights[from]);
+    weights[from] -= fraction;
+    weights[to] += fraction;
     v = vec_of(0, 0, 0);
     for (size_t i = 0; i < count; i++) v = vec_add(v, vec_scale(vec_sub(points[i], x), weights[i]));
   }
@@ -347,8 +347,8 @@ static void check_points(const reader *r, shapes_rng *rng, size_t random) {
     vec c[3];
     for (size_t i = 0; i < 3; i++) c[i] = surface_corner(r->mesh, t, i);
     for (size_t i = 0; i < 3; i++) {
-      const double share = shapes_uniform(rng, 0, 1);
-      const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), share);
+      const double fraction = shapes_uniform(rng, 0, 1);
+      const vec along = vec_scale(vec_sub(c[(i + 1) % 3], c[i]), fraction);
       check_point(r, t, c[i], &m);
       check_point(r, t, vec_add(c[i], along), &m);
     }
@@ -544,12 +544,12 @@ static void surface_of_a_fine_mesh(void) {
   double thickness = 0;
   double radius = 0;
   for (size_t i = 0; i < s->count; i++) {
-    const double share = 1 / (double)s->count;
+    const double fraction = 1 / (double)s->count;
     const double own = (double)s->balls[i].radius;
     const double thick = (double)(s->discs[i].high - s->discs[i].low);
-    slack += share * (double)s->slacks[i] / own;
-    thickness += share * thick / own;
-    radius += share * own;
+    slack += fraction * (double)s->slacks[i] / own;
+    thickness += fraction * thick / own;
+    radius += fraction * own;
   }
   CHECK_LE((double)s->listed, 1.15 * (double)mesh.triangle_count);
   CHECK_LE(slack, 0.03);

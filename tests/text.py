@@ -6,6 +6,7 @@ and how much text there is; exit status 1 if something is not. That a room uses 
   functions  80 lines at most
   statements one a line: none joined by commas, but in the head of a for loop
   width      a line of code has 40 characters at most, on average, its indentation left out
+  names      no private name is a public one but for an underscore
   paths      the files that it names are there, of .md files too
   links      of .md files: the file is there, and so is the heading that is named behind a #
   counts     the lines of the checker are as many as README says, to a hundred
@@ -172,6 +173,13 @@ def cut_rows(lines: list[str]) -> list[str]:
     return faults
 
 
+def twins(texts: list[str]) -> list[str]:
+    """Private names of functions, types and constants that are public ones but for an underscore."""
+    names = {name for text in texts for name in re.findall(r"\b(?:nsvcd|NSVCD)_\w+", re.sub(r"//.*", "", text))}
+    private = {name for name in names if re.match(r"nsvcd__|NSVCD__", name)}
+    return sorted(name for name in private if name.replace("__", "_", 1) in names)
+
+
 def main() -> int:
     broken = False
     code: list[str] = []
@@ -197,6 +205,9 @@ def main() -> int:
         for fault in faults:
             print(f"{name}:{fault}")
         broken = broken or bool(faults)
+    for name in twins([path.read_text(encoding="ascii") for path in [*SRC.glob("*.h"), *rooms]]):
+        print(f"src: {name} is a public name but for an underscore")
+        broken = True
     for fault in miscounted():
         print(f"README.md: {fault}")
         broken = True

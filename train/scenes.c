@@ -394,12 +394,12 @@ static size_t body_of_family(shapes_rng *rng, family family) {
 }
 
 // Where the moving body's path is, and the unit vector along which it is moved.
-typedef struct placement {
+typedef struct transform {
   double offset[3], direction[3];
-} placement;
+} transform;
 
 // Moves the path by the offset and so much along the direction.
-static void put_at(problem *p, const double *path, const placement *place, double along) {
+static void put_at(problem *p, const double *path, const transform *place, double along) {
   double offset[3];
   for (int k = 0; k < 3; k++) offset[k] = place->offset[k] + along * place->direction[k];
   put(p, path, offset);
@@ -452,7 +452,7 @@ static int problem_draw(problem *p, shapes_rng *rng, const model *const *models,
 
 // A path, somewhere about the other body or above it, and a direction in which to go from there.
 static void problem_place(problem *p, shapes_rng *rng, double length, double angle, double *path,
-                          placement *place) {
+                          transform *place) {
   const model *other = p->models[1];
   double low[3], high[3];
   shapes_direction(rng, place->direction);
@@ -477,7 +477,7 @@ static void problem_place(problem *p, shapes_rng *rng, double length, double ang
 
 // Goes along the direction until the bodies are free of each other and nearly touch. On success
 // *answer is about that, with the least distance.
-static int problem_touch(problem *p, worker *w, placement *place, nsvcd_answer *answer) {
+static int problem_touch(problem *p, worker *w, transform *place, nsvcd_answer *answer) {
   // along the direction: free, and not free
   double out = 0;
   double in = 0;
@@ -549,7 +549,7 @@ static double problem_margin(const problem *p, shapes_rng *rng, int hit) {
 
 // Of a hit that went beyond contact by `depth`: the shortest way back after which it is free. That
 // is less where there is room on the way, as in what is hollow.
-static double way_out(problem *p, worker *w, const placement *place, double depth, double gap) {
+static double way_out(problem *p, worker *w, const transform *place, double depth, double gap) {
   const double pressed = -depth - gap;
   double in = 0;
   double out = depth;
@@ -572,7 +572,7 @@ static double way_out(problem *p, worker *w, const placement *place, double dept
 static int problem_make(problem *p, worker *w, const model *const *models, const size_t *body_sizes,
                         int hit) {
   double length, angle;
-  placement place;
+  transform place;
   nsvcd_answer answer;
   if (!problem_draw(p, &w->rng, models, body_sizes, &length, &angle)) return 0;
   problem_place(p, &w->rng, length, angle, w->path, &place);
@@ -634,12 +634,12 @@ static size_t pairs_write(problem *p, worker *w, const size_t *first_patch, cons
   q.method = NSVCD_METHOD_NETWORK;
   nsvcd__candidate items[PAIRS];
   nsvcd__candidates kept;
-  if (nsvcd__check(&q, w->workspace, w->workspace_size)) return 0;
+  if (nsvcd__answer_question(&q, w->workspace, w->workspace_size)) return 0;
   nsvcd__query *query = nsvcd__query_open(&q, w->workspace);
   nsvcd__task *task = &query->task;
   if (nsvcd__motion_gap(&task->motion) > task->lengths) return 0;
   nsvcd__cut_motion(&task->motion, task->lengths, &query->broad_phase);
-  nsvcd__sheets_begin(&query->broad_phase, (float)p->swell);
+  nsvcd__plane_cache_begin(&query->broad_phase, (float)p->swell);
   nsvcd__candidates_start(&kept, items, PAIRS);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, &query->broad_phase);
   while (more) more = nsvcd__search_step(&query->broad_phase, &kept);
@@ -789,10 +789,10 @@ static void *work(void *data) {
       continue;
     }
     w.rng.state = (j->seed << 32) + n;
-    size_t share = n * 100 / j->meshes;
+    size_t fraction = n * 100 / j->meshes;
     int f = 0;
     // families lie side by side, so that each has its share, however few the meshes are
-    while (share >= shares[f]) share -= shares[f], f++;
+    while (fraction >= shares[f]) fraction -= shares[f], f++;
     j->family[n] = (family)f;
     while (!model_make(&j->models[n], &w.rng, (family)f)) shapes_free(&j->models[n].shape);
   }

@@ -165,7 +165,7 @@ static const neuralsvcd_layout layouts[] = {
     STRUCT(check_options), FIELD(check_options, clearance), FIELD(check_options, finest),
     FIELD(check_options, work), FIELD(check_options, stop), FIELD(check_options, user),
     STRUCT(check_answer), FIELD(check_answer, verdict), FIELD(check_answer, why),
-    FIELD(check_answer, pair), FIELD(check_answer, piece), FIELD(check_answer, share),
+    FIELD(check_answer, pair), FIELD(check_answer, piece), FIELD(check_answer, fraction),
     FIELD(check_answer, contact), FIELD(check_answer, joint), FIELD(check_answer, placed),
     FIELD(check_answer, sweeps),
     STRUCT(route_problem), FIELD(route_problem, start), FIELD(route_problem, goals),

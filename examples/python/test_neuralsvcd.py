@@ -1054,7 +1054,7 @@ class Robots(unittest.TestCase):
         # ends that are free, and a post between; the arm's tip goes by it at 0.75 m
         edge = self.robot.check([[0, 0], [0, 3]])
         self.assertEqual((edge.verdict, edge.piece), ("hit", 0))
-        self.assertTrue(0 < edge.share < 1)
+        self.assertTrue(0 < edge.fraction < 1)
         self.assertEqual(self.robot.check([[2, 0], [2, 3]], clearance=0.5).verdict, "free")
         self.assertEqual(self.robot.check([[0, 0], [0, 0.3], [0, 0.5]], degree=2, times=[0, 2]).verdict, "free")
         self.assertEqual(self.robot.check([0, 3.1]).joint, 1)

@@ -69,9 +69,9 @@ SHAPES_DEF void level_pillar(shapes_mesh *mesh, double radius, double height, in
   double profile[515][2];
   if (cells > 512) cells = 512;
   for (int i = 0; i <= cells; i++) {
-    const double share = (double)i / cells;
-    profile[i + 1][0] = radius * (1 + 0.1 * sin(12 * share));
-    profile[i + 1][1] = height * share;
+    const double fraction = (double)i / cells;
+    profile[i + 1][0] = radius * (1 + 0.1 * sin(12 * fraction));
+    profile[i + 1][1] = height * fraction;
   }
   profile[0][0] = profile[cells + 2][0] = 0;
   profile[0][1] = 0;

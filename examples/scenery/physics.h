@@ -514,26 +514,26 @@ PHYSICS_DEF nsvcd_pose physics_aim(const physics_thing *t, float seconds) {
 
 // The share of the way that all answers leave free, and who ends it.
 PHYSICS_DEF float physics_share(const physics_world *w, size_t *by) {
-  float share = 1;
+  float fraction = 1;
   *by = PHYSICS_NOTHING;
   for (size_t k = 0; k < w->near_count; k++) {
     const nsvcd_answer *answer = &w->answers[k];
-    if (answer->verdict == NSVCD_FREE || (*by != PHYSICS_NOTHING && answer->safe.time >= share))
+    if (answer->verdict == NSVCD_FREE || (*by != PHYSICS_NOTHING && answer->safe.time >= fraction))
       continue;
-    share = answer->safe.time;
+    fraction = answer->safe.time;
     *by = k;
   }
-  return share;
+  return fraction;
 }
 
 // What stopped a thing, or was about to, is now touched.
-PHYSICS_DEF void physics_meet(physics_world *w, size_t i, float share) {
+PHYSICS_DEF void physics_meet(physics_world *w, size_t i, float fraction) {
   physics_thing *t = &w->things[i];
   int is_pressed = 0;
   for (size_t k = 0; k < w->near_count; k++) {
     const nsvcd_answer *answer = &w->answers[k];
     w->counts.undecided += answer->verdict == NSVCD_UNDECIDED;
-    if (answer->verdict != NSVCD_FREE && answer->safe.time <= share + 0.02f)
+    if (answer->verdict != NSVCD_FREE && answer->safe.time <= fraction + 0.02f)
       physics_touch_of(w, i, w->near_things[k], answer);
     is_pressed |=
         !(answer->time.low > 0) && (!(answer->time.high > 0) || answer->verdict == NSVCD_UNDECIDED);
@@ -549,11 +549,11 @@ PHYSICS_DEF float physics_go(physics_world *w, size_t i, const nsvcd_pose *to,
   size_t by;
   *normal = physics_of(0, 0, 0);
   if (!physics_look(w, i, to)) return 0;
-  const float share = physics_share(w, &by);
+  const float fraction = physics_share(w, &by);
   w->things[i].pose = by == PHYSICS_NOTHING ? *to : w->answers[by].safe.a;
   if (by != PHYSICS_NOTHING) *normal = physics_from(w->answers[by].nearest.normal);
-  physics_meet(w, i, share);
-  return share;
+  physics_meet(w, i, fraction);
+  return fraction;
 }
 
 // A way off all that a thing touches nearer than things rest.
@@ -593,11 +593,11 @@ PHYSICS_DEF void physics_move(physics_world *w, size_t i, float seconds) {
     }
     if (turn > 2.5f) t->spin = physics_times(2.5f / turn, t->spin);
     nsvcd_pose to = physics_aim(t, left);
-    const float share = physics_go(w, i, &to, &normal);
-    left *= 1 - share;
-    if (share >= 1) return;
+    const float fraction = physics_go(w, i, &to, &normal);
+    left *= 1 - fraction;
+    if (fraction >= 1) return;
     physics_solve(w, i, seconds);
-    if (share > 0.01f) continue;
+    if (fraction > 0.01f) continue;
     to = physics_off(w, i);
     physics_go(w, i, &to, &normal);
   }

@@ -34,10 +34,10 @@ PHYSICS_DEF void physics_shove(physics_world *w, const physics_walker *walker, p
     const physics_seen s = physics_see(w, &w->touches[k]);
     if (w->touches[k].a != walker->thing || !(s.b->inverse_mass > 0)) continue;
     const float into = -physics_dot(physics_minus(speed, s.b->velocity), s.normal);
-    const float share = 1 / (1 + 1 / (walker->strength * s.b->inverse_mass));
+    const float fraction = 1 / (1 + 1 / (walker->strength * s.b->inverse_mass));
     if (!(into > 0)) continue;
     physics_wake(s.b);
-    s.b->velocity = physics_plus(s.b->velocity, -into * share, s.normal);
+    s.b->velocity = physics_plus(s.b->velocity, -into * fraction, s.normal);
   }
 }
 
@@ -47,11 +47,11 @@ PHYSICS_DEF int physics_slide(physics_world *w, physics_walker *walker, physics_
   int met = 0;
   for (int round = 0; round < 3; round++) {
     physics_vec normal;
-    const float share = physics_cast(w, walker->thing, way, &normal);
-    if (share >= 1 || !(physics_length(normal) > 0)) return met;
+    const float fraction = physics_cast(w, walker->thing, way, &normal);
+    if (fraction >= 1 || !(physics_length(normal) > 0)) return met;
     met = 1;
     physics_shove(w, walker, speed);
-    way = physics_times(1 - share, way);
+    way = physics_times(1 - fraction, way);
     normal.z = 0;
     const float length = physics_length(normal);
     if (!(length > 1e-3f)) return met;
@@ -82,22 +82,22 @@ PHYSICS_DEF int physics_stride(physics_world *w, physics_walker *walker, physics
   physics_slide(w, walker, way, speed);
   const nsvcd_pose above = t->pose;
   const float drop = rise + walker->fall * seconds + 2e-3f;
-  const float share = physics_cast(w, walker->thing, physics_of(0, 0, -drop), &normal);
+  const float fraction = physics_cast(w, walker->thing, physics_of(0, 0, -drop), &normal);
   const nsvcd_pose landed = t->pose;
-  int stands = share < 1 && normal.z >= walker->slope;
-  if (share < 1 && !stands && rise > 0) {
+  int stands = fraction < 1 && normal.z >= walker->slope;
+  if (fraction < 1 && !stands && rise > 0) {
     t->pose = above;
     stands = physics_is_stair(w, walker, way);
     t->pose = landed;
     if (!stands && landed.position[2] > height + 0.01f) return 0;
   }
-  if (share < 1 && !stands) {  // down along what is too steep to stand on
-    const float left = fmaxf((1 - share) * drop, 1e-3f);
+  if (fraction < 1 && !stands) {  // down along what is too steep to stand on
+    const float left = fmaxf((1 - fraction) * drop, 1e-3f);
     const physics_vec down = physics_of(left * normal.z * normal.x, left * normal.z * normal.y,
                                         left * (normal.z * normal.z - 1));
     physics_cast(w, walker->thing, down, &normal);
   }
-  if (share >= 1 && walker->stands) {  // down a stair, if there is one
+  if (fraction >= 1 && walker->stands) {  // down a stair, if there is one
     const float more = physics_cast(w, walker->thing, physics_of(0, 0, -walker->step), &normal);
     stands = more < 1;
     if (!stands) t->pose = landed;

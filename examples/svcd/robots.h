@@ -176,8 +176,8 @@ static void write_samples(const robot_task *task, const nsvcd_route_answer *answ
                           size_t samples, FILE *out) {
   for (size_t k = 0; k < samples; k++) {
     double q[NSVCD_MAX_JOINTS];
-    const double share = (double)k / (double)(samples - 1);
-    nsvcd_motion_at(&answer->motion, joints, answer->duration * share, q);
+    const double fraction = (double)k / (double)(samples - 1);
+    nsvcd_motion_at(&answer->motion, joints, answer->duration * fraction, q);
     fprintf(out, "%s\t%zu", task->id, k);
     for (size_t j = 0; j < joints; j++) fprintf(out, "\t%.17g", q[j]);
     fprintf(out, "\n");
@@ -296,7 +296,7 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
     json_text(&j, "id", task->id);
     json_text(&j, "verdict", nsvcd_verdict_string(answer.verdict));
     if (!is_free) json_count(&j, "edge", edge);
-    if (!is_free) json_float(&j, "time", answer.share);
+    if (!is_free) json_float(&j, "time", answer.fraction);
     if (pair) json_text(&j, "a", names[0]);
     if (pair) json_text(&j, "b", names[1]);
     json_digits(&j, "microseconds", mean, 4);
@@ -308,7 +308,7 @@ static int path_one(const robot_in_room *in, const robot_task *task, const setti
   if (is_free)
     printf("-1\tnan");
   else
-    printf("%zu\t%.9g", edge, answer.share);
+    printf("%zu\t%.9g", edge, answer.fraction);
   printf("\t%s\t%s\t%.2f\n", names[0], names[1], mean);
   fflush(stdout);
   return 1;

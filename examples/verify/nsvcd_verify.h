@@ -245,7 +245,7 @@ static inline const char *verify__walk(verify__reader *r) {
 
 // Bytes of the workspace that nsvcd_verify takes, for motions of so many knots together, ends
 // included.
-#define NSVCD_VERIFY_WORKSPACE_BYTES(knots) ((knots) * sizeof(verify__instant))
+#define NSVCD_VERIFY_WORKSPACE_BYTES(keyframes) ((keyframes) * sizeof(verify__instant))
 
 // Eight or 16 bits of a digest.
 static inline uint32_t verify__fold(uint32_t digest, int bits) {

@@ -153,7 +153,7 @@ static inline void verify__part_stray(const void *motion, double t0, double t1, 
   stray[0] = stray[1] = 0;
   for (uint32_t link = part->link; link != part->base; link = m->joints[link - 1].parent) {
     const nsvcd_verify_joint *joint = &m->joints[link - 1];
-    const double lever[2] = {joint->slides ? 1 : reach, joint->slides ? 0.0 : 1.0};
+    const double arm[2] = {joint->slides ? 1 : reach, joint->slides ? 0.0 : 1.0};
     double p[NSVCD_VERIFY_DEGREE + 1];
     double most = 0, speed = 0, bend = 0;
     const double off = verify__curve(m, link - 1, piece, t0, t1, p);
@@ -166,9 +166,9 @@ static inline void verify__part_stray(const void *motion, double t0, double t1, 
     speed += off;
     bend += off;
     for (int k = 0; k < 2; k++) {
-      stray[k] += 0.1250001 * bend * lever[k];
-      if (!joint->slides) stray[k] += 0.1250001 * speed * (2 * outer[k] + speed * lever[k]);
-      outer[k] += speed * lever[k];
+      stray[k] += 0.1250001 * bend * arm[k];
+      if (!joint->slides) stray[k] += 0.1250001 * speed * (2 * outer[k] + speed * arm[k]);
+      outer[k] += speed * arm[k];
     }
     reach += verify__offset(joint->origin) + (joint->slides ? most : 0);
   }

@@ -289,8 +289,9 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
                                      size_t *farthest) {
   const nsvcd__sphere guess = nsvcd__sphere_of(all, *farthest);
   // less by more than the roundings: the farthest is never passed over
-  const float share = 0.999998f;
-  float least = share * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
+  const float fraction = 0.999998f;
+  float least =
+      fraction * (nsvcd__f3_length(nsvcd__f3_sub(guess.centre, centre)) + guess.radius);
   float reach = 0;
   for (size_t first = 0; first < count; first += NSVCD__GROUP) {
     const size_t left = count - first;
@@ -303,7 +304,7 @@ static float nsvcd__reach_of_spheres(nsvcd__spheres all, size_t count, nsvcd__f3
       if (to > reach) *farthest = i;
       reach = to > reach ? to : reach;
     }
-    least = share * reach > least ? share * reach : least;
+    least = fraction * reach > least ? fraction * reach : least;
   }
   return reach;
 }

@@ -259,7 +259,7 @@ static size_t nsvcd__patches_for(const nsvcd_mesh *mesh, float patch_radius, dou
 }
 
 // Checks options and mesh, and fills in the defaults.
-static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
+static nsvcd_result nsvcd__encode_resolve(const nsvcd_mesh *mesh, nsvcd_encode_options *o) {
 #ifdef NSVCD_NO_PROOF
   o->no_triangles = 1;
 #endif
@@ -289,16 +289,17 @@ static nsvcd_result nsvcd__encode_settle(const nsvcd_mesh *mesh, nsvcd_encode_op
 
 // nsvcd_encode of a mesh, or of a cloud that has been checked: a mesh without indices, of which
 // triangle t is point t.
-static nsvcd_result nsvcd__encode(const nsvcd_mesh *mesh, const nsvcd_encode_options *options,
-                                  const nsvcd_allocator *allocator, void *memory,
-                                  size_t capacity, const nsvcd_body **body) {
+static nsvcd_result nsvcd__encode_mesh(const nsvcd_mesh *mesh,
+                                       const nsvcd_encode_options *options,
+                                       const nsvcd_allocator *allocator, void *memory,
+                                       size_t capacity, const nsvcd_body **body) {
   if (!body) return NSVCD_ERROR_ARGUMENT;
   if (memory && !nsvcd__is_aligned(memory)) return NSVCD_ERROR_WORKSPACE;
   nsvcd_encode_options o;
   memset(&o, 0, sizeof o);
   if (options) o = *options;
   nsvcd__parts parts;
-  nsvcd_result result = nsvcd__encode_settle(mesh, &o);
+  nsvcd_result result = nsvcd__encode_resolve(mesh, &o);
   if (!result) result = nsvcd__parts_build(mesh, &o, allocator, &parts);
   if (result) return result;
 
@@ -324,7 +325,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
                                    const nsvcd_allocator *allocator, void *memory,
                                    size_t capacity, const nsvcd_body **body) {
   if (!mesh || !mesh->indices) return nsvcd__mesh_check(mesh);
-  return nsvcd__encode(mesh, options, allocator, memory, capacity, body);
+  return nsvcd__encode_mesh(mesh, options, allocator, memory, capacity, body);
 }
 
 NSVCDDEF void nsvcd_body_free(const nsvcd_body *body, const nsvcd_allocator *allocator) {

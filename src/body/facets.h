@@ -414,7 +414,7 @@ typedef struct nsvcd__hulls {
   float spheres[4][NSVCD__HULLS];  // x, y, z, r
 } nsvcd__hulls;
 
-static void nsvcd__gather_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
+static void nsvcd__collect_hulls(const nsvcd__facets *f, size_t g, nsvcd__hulls *out) {
   const size_t end = NSVCD__GROUP * (g + 1);
   out->count = 0;
   for (size_t i = end - NSVCD__GROUP; i < end && i < f->body->patches; i++) {
@@ -451,7 +451,7 @@ static void nsvcd__facets_finish(nsvcd_body *b, float off) {
     nsvcd__sphere over = {{0, 0, 0}, NSVCD__NOWHERE};
     nsvcd__hulls hulls;
     if (g < groups.count) {
-      nsvcd__gather_hulls(&f, g, &hulls);
+      nsvcd__collect_hulls(&f, g, &hulls);
       over = nsvcd__cover_spheres(nsvcd__hull_spheres(&hulls), hulls.count);
     }
     nsvcd__sphere_store(over, out, groups.slots, g);

@@ -10,7 +10,7 @@ static nsvcd_result nsvcd__encode_round(const nsvcd_mesh *mesh, float round,
   nsvcd_encode_options options;
   memset(&options, 0, sizeof options);
   options.round = round;
-  return nsvcd__encode(mesh, &options, allocator, NULL, 0, body);
+  return nsvcd__encode_mesh(mesh, &options, allocator, NULL, 0, body);
 }
 
 NSVCDDEF nsvcd_result nsvcd_encode_sphere(float radius, const nsvcd_allocator *allocator,

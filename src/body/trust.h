@@ -198,7 +198,7 @@ static int nsvcd__triangles_are_sound(const nsvcd_body *b, size_t size) {
 
   for (size_t g = 0; g < groups; g++) {
     nsvcd__hulls hulls;
-    nsvcd__gather_hulls(&f, g, &hulls);
+    nsvcd__collect_hulls(&f, g, &hulls);
     const nsvcd__spheres all = nsvcd__hull_spheres(&hulls);
     const nsvcd__sphere over = nsvcd__sphere_of(nsvcd__groups_of(b), g);
     if (!nsvcd__covers(over, all, hulls.count)) return 0;

@@ -3,9 +3,9 @@
 //   all       version 1 (6 bits), kind (2), digests of both meshes (8 each), of motions, scales and
 //             the clearance (16)
 //   FREE      the walk, a code a visit, as examples/verify/nsvcd_verify.h has it: 0 open the node
-//             whose box is longer; 11 parted by the last normal; 101 by another, which follows; 100
-//             halve the time. Where the roots are nowhere parted: a ray for each part of a, then of
-//             b, at t = 0: 1 along the last normal, or 0, and a normal
+//             whose box is longer; 11 separated by the last normal; 101 by another, which follows;
+//             100 halve the time. Where the roots are nowhere separated: a ray for each part of a,
+//             then of b, at t = 0: 1 along the last normal, or 0, and a normal
 //   others    the time (32), then HIT: two triangles (32 each), whose edge (1), which (2); NEAR:
 //             two triangles, a point on each (16, 16); INSIDE: whose corner (1), which (32), a
 //             normal
@@ -31,14 +31,14 @@ typedef struct nsvcd__visit {
 } nsvcd__visit;
 
 typedef struct nsvcd__certifier {
-  nsvcd__rider a, b;
+  nsvcd__moving_tree a, b;
   nsvcd__stretch stretch;
   // the last ones, the last first
   nsvcd__d3 normals[NSVCD__REMEMBERED];
   uint8_t *bytes;
   size_t capacity, bits;
   uint32_t digest;  // of motions, scales and the clearance
-  int apart;        // 1: the roots have been parted
+  int apart;        // 1: the roots have been separated
   int32_t *sums;    // (vertices)
   nsvcd_certificate *made;
 } nsvcd__certifier;
@@ -96,16 +96,16 @@ static double nsvcd__coded_time(uint32_t code) {
 // ---- what meets
 
 // A triangle's corner k in another body's frame.
-static nsvcd__d3 nsvcd__corner_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+static nsvcd__d3 nsvcd__corner_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                     uint32_t triangle, uint32_t k) {
   const uint32_t vertex = of->tree->mesh.indices[3 * (size_t)triangle + k];
   return nsvcd__vertex_seen(of, of_at, by, by_at, vertex);
 }
 
 // Does an edge of a triangle of one pass through one of the other? Which.
-static uint32_t nsvcd__piercing_edge(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                     const nsvcd__rider *by, const nsvcd__posed *by_at,
+static uint32_t nsvcd__piercing_edge(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                     const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                      uint32_t own, uint32_t other) {
   const nsvcd__extent e = nsvcd__extent_seen(of, of_at, by, by_at);
   for (uint32_t k = 0; k < 3; k++) {
@@ -133,8 +133,8 @@ static nsvcd__d3 nsvcd__point_code(const nsvcd__d3 *t, nsvcd__d3 x, uint32_t *co
   const double v =
       vw + nsvcd__d3_dot(n, nsvcd__d3_cross(off, nsvcd__d3_sub(t[2], t[0]))) / square;
   const int has_area = square > 0 && v > 0;
-  code[0] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? v : 0) + 0.5);
-  code[1] = (uint32_t)(65535 * nsvcd__clamp_share(has_area ? vw / v : 0) + 0.5);
+  code[0] = (uint32_t)(65535 * nsvcd__clamp_fraction(has_area ? v : 0) + 0.5);
+  code[1] = (uint32_t)(65535 * nsvcd__clamp_fraction(has_area ? vw / v : 0) + 0.5);
   const nsvcd__d3 along = nsvcd__d3_fma((double)code[1] / 65535, second, first);
   return nsvcd__d3_fma((double)code[0] / 65535, along, t[0]);
 }
@@ -187,17 +187,18 @@ static int nsvcd__meet_at(nsvcd__certifier *c, double when, uint32_t ta, uint32_
 // ---- the walk
 
 // The longest side of a node's box.
-static double nsvcd__node_side(const nsvcd__rider *rider, const nsvcd__node *node) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+static double nsvcd__node_side(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sides = nsvcd__d3_sub(nsvcd__d3_widen(box->high), nsvcd__d3_widen(box->low));
-  return nsvcd__stored(rider->model.scale * nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
+  return nsvcd__stored(moving->model.scale *
+                       nsvcd__max(nsvcd__max(sides.x, sides.y), sides.z));
 }
 
-static nsvcd__d3 nsvcd__node_middle(const nsvcd__rider *rider, const nsvcd__node *node,
+static nsvcd__d3 nsvcd__node_middle(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                     const nsvcd__posed *at) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__d3 sum = nsvcd__d3_add(nsvcd__d3_widen(box->low), nsvcd__d3_widen(box->high));
-  return nsvcd__turned_by(rider, at, nsvcd__d3_scale(sum, 0.5));
+  return nsvcd__turned_by(moving, at, nsvcd__d3_scale(sum, 0.5));
 }
 
 // The way of one node's middle as the other's sees it, over the stretch, from instant to instant.
@@ -242,7 +243,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__WALK_STACK];
   size_t height = 1;
-  int in_doubt = 0;
+  int after_unresolved = 0;
   memset(stack, 0, sizeof *stack);
   stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
   stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
@@ -262,7 +263,7 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     if (!nsvcd__stretch_to(&c->stretch, v->t0, v->t1)) return NSVCD_UNDECIDED;
     size_t k = 0;
     while (k < NSVCD__REMEMBERED &&
-           !nsvcd__plane_parts_nodes(&c->stretch, nodes, c->normals[k]))
+           !nsvcd__plane_separates_nodes(&c->stretch, nodes, c->normals[k]))
       k++;
     if (k < NSVCD__REMEMBERED ||
         nsvcd__find_normal(&c->stretch, nodes, c->normals[0], &normal)) {
@@ -281,9 +282,9 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     // they touch, or nearly so: no proof that they are free, but others may still meet
     const int goes_on = nsvcd__divide_visit(c, v);
     height += goes_on ? 1 : (size_t)-1;
-    in_doubt |= !goes_on;
+    after_unresolved |= !goes_on;
   }
-  return in_doubt ? NSVCD_UNDECIDED : NSVCD_FREE;
+  return after_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
 // ---- what is inside
@@ -305,8 +306,8 @@ static nsvcd__written_normal nsvcd__ray_to_try(size_t k, uint64_t *random) {
 // Rays from all parts of one body, at t = 0, that show them outside. FREE: all are written; HIT:
 // one shows a corner inside, and the certificate is written; UNDECIDED: of a part none is clear.
 static nsvcd_verdict nsvcd__cast_all(nsvcd__certifier *c, int whose) {
-  const nsvcd__rider *of = whose ? &c->b : &c->a;
-  const nsvcd__rider *by = whose ? &c->a : &c->b;
+  const nsvcd__moving_tree *of = whose ? &c->b : &c->a;
+  const nsvcd__moving_tree *by = whose ? &c->a : &c->b;
   const nsvcd__posed of_at = nsvcd__posed_at(of, 0);
   const nsvcd__posed by_at = nsvcd__posed_at(by, 0);
   const nsvcd__extent e = nsvcd__extent_seen(of, &of_at, by, &by_at);
@@ -385,10 +386,12 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
 }
 
 // Both riders are in c, and all else is 0.
-static nsvcd_result nsvcd__certify(nsvcd__certifier *c, size_t instants, float clearance,
-                                   const nsvcd_certify_options *options, void *workspace,
-                                   size_t workspace_size, uint8_t *bytes, size_t capacity,
-                                   nsvcd_certificate *made) {
+static nsvcd_result nsvcd__write_certificate(nsvcd__certifier *c, size_t instants,
+                                             float clearance,
+                                             const nsvcd_certify_options *options,
+                                             void *workspace, size_t workspace_size,
+                                             uint8_t *bytes, size_t capacity,
+                                             nsvcd_certificate *made) {
   const nsvcd_certify_options defaults = {NULL, 0};
   const nsvcd_certify_options *o = options ? options : &defaults;
   nsvcd_certificate out;
@@ -445,8 +448,8 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  return nsvcd__certify(&c, keyframes + 2, clearance, options, workspace, workspace_size,
-                        bytes, capacity, made);
+  return nsvcd__write_certificate(&c, keyframes + 2, clearance, options, workspace,
+                                  workspace_size, bytes, capacity, made);
 }
 
 static size_t nsvcd__keyframes_of(const nsvcd_question *question) {

@@ -12,13 +12,13 @@ typedef struct nsvcd__posed {
 } nsvcd__posed;
 
 // A mesh that moves.
-typedef struct nsvcd__rider {
+typedef struct nsvcd__moving_tree {
   const nsvcd_tree *tree;
   nsvcd_motion_model model;
-} nsvcd__rider;
+} nsvcd__moving_tree;
 
-static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
-  const nsvcd_placement at = rider->model.place(rider->model.motion, t);
+static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
+  const nsvcd_placement at = moving->model.place(moving->model.motion, t);
   nsvcd__posed out;
   memcpy(&out.turn, at.rotation, sizeof out.turn);
   memcpy(&out.at, at.position, sizeof out.at);
@@ -27,7 +27,7 @@ static nsvcd__posed nsvcd__posed_at(const nsvcd__rider *rider, double t) {
 
 // ---- of poses: nsvcd_mover
 
-static double nsvcd__mover_knot(const nsvcd_mover *mover, size_t k) {
+static double nsvcd__mover_keyframe(const nsvcd_mover *mover, size_t k) {
   if (mover->times) return (double)mover->times[k];
   return nsvcd__stored((double)k / (double)(mover->count - 1));
 }
@@ -38,7 +38,7 @@ static size_t nsvcd__mover_pose(const nsvcd_mover *mover, double t) {
   size_t high = mover->count - 1;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__mover_knot(mover, middle) <= t)
+    if (nsvcd__mover_keyframe(mover, middle) <= t)
       low = middle;
     else
       high = middle;
@@ -91,8 +91,8 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
                                nsvcd__d3_load(mover->poses->position));
   const size_t k = nsvcd__mover_pose(mover, t);
   const nsvcd_pose *a = &mover->poses[k];
-  const double from = nsvcd__mover_knot(mover, k);
-  const double u = (t - from) / (nsvcd__mover_knot(mover, k + 1) - from);
+  const double from = nsvcd__mover_keyframe(mover, k);
+  const double u = (t - from) / (nsvcd__mover_keyframe(mover, k + 1) - from);
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   double before = 1 - u;
   double after = u;
@@ -109,7 +109,7 @@ static nsvcd_placement nsvcd__mover_place(const void *motion, double t) {
 
 static double nsvcd__mover_next(const void *motion, double t) {
   const nsvcd_mover *mover = (const nsvcd_mover *)motion;
-  return mover->count > 1 ? nsvcd__mover_knot(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
+  return mover->count > 1 ? nsvcd__mover_keyframe(mover, nsvcd__mover_pose(mover, t) + 1) : 1;
 }
 
 // A turn by h at a constant rate about an axis a has a second derivative of h^2 a x (a x y) at y,
@@ -121,7 +121,7 @@ static nsvcd_deviation nsvcd__mover_deviation(const void *motion, double t0, dou
   if (mover->count == 1) return out;
   const size_t k = nsvcd__mover_pose(mover, 0.5 * (t0 + t1));
   const nsvcd_pose *a = &mover->poses[k];
-  const double whole = nsvcd__mover_knot(mover, k + 1) - nsvcd__mover_knot(mover, k);
+  const double whole = nsvcd__mover_keyframe(mover, k + 1) - nsvcd__mover_keyframe(mover, k);
   const nsvcd__turning arc = nsvcd__turning_of(a, a + 1);
   const double h = 2 * arc.half_angle * (t1 - t0) / whole;
   const nsvcd__d3 none = nsvcd__d3_of(0, 0, 0);

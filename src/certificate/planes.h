@@ -1,4 +1,4 @@
-// In: two nodes, and a stretch of time. Out: a plane that parts them all the while, by a normal
+// In: two nodes, and a stretch of time. Out: a plane that separates them all the while, by a normal
 // that takes a few bits; or none.
 #pragma once
 #include "../ground/triangles.h"
@@ -10,20 +10,20 @@
 #define NSVCD__EXACT 24
 #define NSVCD__NORMAL_STEPS 12    // of Gilbert's iteration
 #define NSVCD__NORMAL_ENOUGH 0.8  // of the best distance that a normal may show
-// of both lengths: nodes that come as near are opened, not parted
+// of both lengths: nodes that come as near are opened, not separated
 #define NSVCD__NORMAL_GIVE_UP 1e-3
 
 // A time, where both bodies are then, and by how much points leave their chords to the next one.
 typedef struct nsvcd__instant {
   double t;
   nsvcd__posed a, b;
-  double lengths;  // of both places, and what they are reckoned from
+  double lengths;  // of both places, and what they are computed from
   nsvcd_deviation off_a, off_b;
 } nsvcd__instant;
 
-// A stretch of time: both ends, and all knots between.
+// A stretch of time: both ends, and all keyframes between.
 typedef struct nsvcd__stretch {
-  const nsvcd__rider *a, *b;
+  const nsvcd__moving_tree *a, *b;
   double clearance;
   nsvcd__instant *instants;  // (capacity)
   size_t count, capacity;
@@ -50,8 +50,8 @@ static double nsvcd__lengths_at(const nsvcd__posed *a, const nsvcd__posed *b) {
          fabs(b->at.z);
 }
 
-static nsvcd__instant nsvcd__instant_at(const nsvcd__rider *a, const nsvcd__rider *b,
-                                        double t) {
+static nsvcd__instant nsvcd__instant_at(const nsvcd__moving_tree *a,
+                                        const nsvcd__moving_tree *b, double t) {
   nsvcd__instant at;
   memset(&at, 0, sizeof at);
   at.t = t;
@@ -112,9 +112,9 @@ static nsvcd__d3 nsvcd__farthest(const nsvcd_tree *tree, const nsvcd__node *node
   return nsvcd__d3_row(corners, farthest);
 }
 
-static nsvcd__d3 nsvcd__turned_by(const nsvcd__rider *rider, const nsvcd__posed *at,
+static nsvcd__d3 nsvcd__turned_by(const nsvcd__moving_tree *moving, const nsvcd__posed *at,
                                   nsvcd__d3 x) {
-  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), rider->model.scale);
+  return nsvcd__d3_scale(nsvcd__dmat3_apply(&at->turn, x), moving->model.scale);
 }
 
 // Of all points of two nodes, one of each, the difference a - b that goes least along a direction.
@@ -155,19 +155,19 @@ static double nsvcd__gap_along(const nsvcd__stretch *s, const nsvcd__nodes *node
   return nsvcd__d3_dot(along, nsvcd__d3_sub(at->a.at, at->b.at)) - (a + b);
 }
 
-static double nsvcd__node_radius(const nsvcd__rider *rider, const nsvcd__node *node) {
-  const nsvcd__box *box = &rider->tree->boxes[node->box];
+static double nsvcd__node_radius(const nsvcd__moving_tree *moving, const nsvcd__node *node) {
+  const nsvcd__box *box = &moving->tree->boxes[node->box];
   const nsvcd__f3 corner = nsvcd__f3_max(box->high, nsvcd__f3_scale(box->low, -1));
-  return 1.000002 * rider->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
+  return 1.000002 * moving->model.scale * nsvcd__d3_length(nsvcd__d3_widen(corner));
 }
 
 // No point of a node is farther from the line through its body's origin along a unit axis.
-static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *node,
+static double nsvcd__node_aside(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                 nsvcd__d3 axis) {
-  const float *corners = rider->tree->corners + 9 * (size_t)node->first;
+  const float *corners = moving->tree->corners + 9 * (size_t)node->first;
   double square = 0;
   if (node->count > NSVCD__EXACT) {
-    const nsvcd__box *box = &rider->tree->boxes[node->box];
+    const nsvcd__box *box = &moving->tree->boxes[node->box];
     const nsvcd__d3 low = nsvcd__d3_widen(box->low);
     const nsvcd__d3 high = nsvcd__d3_widen(box->high);
     const nsvcd__d3 half = nsvcd__d3_scale(nsvcd__d3_sub(high, low), 0.5);
@@ -182,26 +182,26 @@ static double nsvcd__node_aside(const nsvcd__rider *rider, const nsvcd__node *no
     const nsvcd__d3 off = nsvcd__d3_cross(nsvcd__d3_row(corners, i), axis);
     square = nsvcd__max(square, nsvcd__d3_dot(off, off));
   }
-  return 1.000002 * rider->model.scale * sqrt(square);
+  return 1.000002 * moving->model.scale * sqrt(square);
 }
 
 // By how much the points of a node, at r metres at most, leave their chords along a normal.
-static double nsvcd__node_leaves(const nsvcd__rider *rider, const nsvcd__node *node, double r,
-                                 const nsvcd__posed *at, const nsvcd_deviation *off,
+static double nsvcd__node_leaves(const nsvcd__moving_tree *moving, const nsvcd__node *node,
+                                 double r, const nsvcd__posed *at, const nsvcd_deviation *off,
                                  nsvcd__d3 along) {
   double leaves = nsvcd__d3_length(along) * (off->base + off->per_metre * r);
   if (off->turn > 0) {
     const nsvcd__d3 own = nsvcd__d3_of(off->axis[0], off->axis[1], off->axis[2]);
     const nsvcd__d3 axis = nsvcd__dmat3_apply(&at->turn, own);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(along, axis));
-    leaves += off->turn * across * nsvcd__node_aside(rider, node, own);
+    leaves += off->turn * across * nsvcd__node_aside(moving, node, own);
   }
   return leaves;
 }
 
 // Does a plane of this normal part two nodes, at all instants and between them?
-static int nsvcd__plane_parts_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
-                                    nsvcd__d3 along) {
+static int nsvcd__plane_separates_nodes(const nsvcd__stretch *s, const nsvcd__nodes *nodes,
+                                        nsvcd__d3 along) {
   const double length = nsvcd__d3_length(along);
   const double ra = nodes->radius_a;
   const double rb = nodes->radius_b;
@@ -276,21 +276,21 @@ static nsvcd__best nsvcd__gilbert(const nsvcd__stretch *s, const nsvcd__nodes *n
     const nsvcd__d3 step_to = nsvcd__d3_sub(w, v);
     const double square = nsvcd__d3_dot(step_to, step_to);
     if (!(square > 0)) break;
-    const double share = -nsvcd__d3_dot(v, step_to) / square;
-    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(share, 1)), step_to, v);
+    const double fraction = -nsvcd__d3_dot(v, step_to) / square;
+    v = nsvcd__d3_fma(nsvcd__max(0, nsvcd__min(fraction, 1)), step_to, v);
   }
   return best;
 }
 
 // A leaf's triangle in the world, as seen from the origin of b.
-static void nsvcd__leaf_corners(const nsvcd__rider *rider, const nsvcd__node *node,
+static void nsvcd__leaf_corners(const nsvcd__moving_tree *moving, const nsvcd__node *node,
                                 const nsvcd__posed *at, nsvcd__d3 offset, nsvcd__d3 *corners) {
-  const float *x = rider->tree->corners + 9 * (size_t)node->first;
+  const float *x = moving->tree->corners + 9 * (size_t)node->first;
   for (size_t k = 0; k < 3; k++)
-    corners[k] = nsvcd__d3_add(nsvcd__turned_by(rider, at, nsvcd__d3_row(x, k)), offset);
+    corners[k] = nsvcd__d3_add(nsvcd__turned_by(moving, at, nsvcd__d3_row(x, k)), offset);
 }
 
-// Looks for a plane that parts two nodes all the while.
+// Looks for a plane that separates two nodes all the while.
 static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvcd__d3 last,
                               nsvcd__written_normal *normal) {
   const nsvcd__instant *at = nsvcd__stretch_middle(s);
@@ -308,7 +308,7 @@ static int nsvcd__find_normal(nsvcd__stretch *s, const nsvcd__nodes *nodes, nsvc
   if (!(best.gap > s->clearance)) return 0;
   for (int bits = 8; bits <= 24; bits += 8) {
     *normal = nsvcd__normal_of(best.along, bits);
-    if (nsvcd__plane_parts_nodes(s, nodes, normal->along)) return 1;
+    if (nsvcd__plane_separates_nodes(s, nodes, normal->along)) return 1;
   }
   return 0;
 }

@@ -6,8 +6,8 @@
 #define NSVCD__UNCLEAR 2
 
 // A vertex of one body in the frame of another, in units of that one's scale.
-static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                    const nsvcd__rider *by, const nsvcd__posed *by_at,
+static nsvcd__d3 nsvcd__vertex_seen(const nsvcd__moving_tree *of, const nsvcd__posed *of_at,
+                                    const nsvcd__moving_tree *by, const nsvcd__posed *by_at,
                                     uint32_t vertex) {
   const nsvcd__d3 x = nsvcd__d3_row(of->tree->mesh.positions, vertex);
   const nsvcd__d3 offset = nsvcd__d3_sub(of_at->at, by_at->at);
@@ -21,8 +21,10 @@ typedef struct nsvcd__extent {
   double lengths, margin;
 } nsvcd__extent;
 
-static nsvcd__extent nsvcd__extent_seen(const nsvcd__rider *of, const nsvcd__posed *of_at,
-                                        const nsvcd__rider *by, const nsvcd__posed *by_at) {
+static nsvcd__extent nsvcd__extent_seen(const nsvcd__moving_tree *of,
+                                        const nsvcd__posed *of_at,
+                                        const nsvcd__moving_tree *by,
+                                        const nsvcd__posed *by_at) {
   const nsvcd__node root = {0, 0, 1};
   const double radii = nsvcd__node_radius(of, &root) + nsvcd__node_radius(by, &root);
   const double apart = nsvcd__d3_length(nsvcd__d3_sub(of_at->at, by_at->at));

@@ -3,12 +3,12 @@
 //
 //   tree        boxes, and components
 //   law         where a body is at a time, and how far points leave their chords
-//   planes      one that parts two nodes over a stretch of time; its normal in a few bits
+//   planes      one that separates two nodes over a stretch of time; its normal in a few bits
 //   rays        what is inside of what at one time
 //   certify     the walk that a certificate is
 //
-// What is built and reckoned here examples/verify builds and reckons again, by code of its own: the
-// rules by which nodes are cut and opened, and the form of the bits, are the same in both.
+// What is built and computed here examples/verify builds and computes again, by code of its own:
+// the rules by which nodes are cut and opened, and the form of the bits, are the same in both.
 #pragma once
 #include "../ground/digests.h"
 #include "../ground/valid.h"

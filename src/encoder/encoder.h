@@ -147,15 +147,15 @@ static void nsvcd__context(const nsvcd__encoded *patch, nsvcd__channels *out) {
     m2[2] = nsvcd__f5_add(m2[2], f.qnn);
     m2[3] = nsvcd__f5_add(m2[3], nsvcd__f5_scale(f.qun, f.un));
   }
-  const float share = 1 / (float)patch->count;
+  const float fraction = 1 / (float)patch->count;
   for (size_t c = 0; c < NSVCD_W_CONTEXT; c++) {
     nsvcd__f3 c1 = {0, 0, 0};
     nsvcd__f5 c2 = {{0, 0, 0, 0, 0}};
     for (size_t m = 0; m < 4; m++) {
       const float w1 = nsvcd_w_context1[m * NSVCD_W_CONTEXT + c];
       const float w2 = nsvcd_w_context2[m * NSVCD_W_CONTEXT + c];
-      c1 = nsvcd__f3_fma(share, nsvcd__f3_scale(m1[m], w1), c1);
-      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), share));
+      c1 = nsvcd__f3_fma(fraction, nsvcd__f3_scale(m1[m], w1), c1);
+      c2 = nsvcd__f5_add(c2, nsvcd__f5_scale(nsvcd__f5_scale(m2[m], w2), fraction));
     }
     out->degree1[NSVCD_W_POOLED + c] = c1;
     out->degree2[NSVCD_W_POOLED + c] = c2;
@@ -235,7 +235,7 @@ static void nsvcd__finish_latent(const nsvcd__channels *a, float *latent) {
 // CHANNELS), scalars.
 static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
   const size_t pooled = NSVCD_W_POOLED;
-  const float share = 1 / (float)patch->count;
+  const float fraction = 1 / (float)patch->count;
   nsvcd__channels all;
   memset(&all, 0, sizeof all);
   nsvcd__context(patch, &all);
@@ -250,11 +250,11 @@ static void nsvcd__encode_patch(const nsvcd__encoded *patch, float *latent) {
       nsvcd__f5 a2 = nsvcd__f5_scale(f.quu, gate[2 * pooled]);
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qun, gate[3 * pooled]));
       a2 = nsvcd__f5_add(a2, nsvcd__f5_scale(f.qnn, gate[4 * pooled]));
-      all.degree1[c] = nsvcd__f3_fma(share, a1, all.degree1[c]);
-      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, share));
+      all.degree1[c] = nsvcd__f3_fma(fraction, a1, all.degree1[c]);
+      all.degree2[c] = nsvcd__f5_add(all.degree2[c], nsvcd__f5_scale(a2, fraction));
     }
     for (size_t c = 0; c < NSVCD_W_POOLED_SCALARS; c++)
-      all.scalars[c] += gates[5 * pooled + c] * share;
+      all.scalars[c] += gates[5 * pooled + c] * fraction;
   }
   nsvcd__finish_latent(&all, latent);
 }

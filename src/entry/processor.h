@@ -129,7 +129,7 @@ static nsvcd__isa nsvcd__isa_at_hand(void) {
 // ---- what is asked, handed to the best of them
 
 NSVCDDEF nsvcd_result nsvcd_self_test(void) {
-  return NSVCD__BEST(self_test)();
+  return NSVCD__BEST(run_self_test)();
 }
 
 NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
@@ -139,20 +139,20 @@ NSVCDDEF size_t nsvcd_sweep_workspace_size(const nsvcd_question *question) {
 NSVCDDEF nsvcd_result nsvcd_sweep(const nsvcd_question *question, void *workspace,
                                   size_t workspace_size, nsvcd_answer *answer) {
   if (!question) return NSVCD_ERROR_ARGUMENT;
-  return NSVCD__BEST(sweep_batch)(question, 1, workspace, workspace_size, answer);
+  return NSVCD__BEST(run_batch)(question, 1, workspace, workspace_size, answer);
 }
 
 NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t count,
                                         void *workspace, size_t workspace_size,
                                         nsvcd_answer *answers) {
-  return NSVCD__BEST(sweep_batch)(questions, count, workspace, workspace_size, answers);
+  return NSVCD__BEST(run_batch)(questions, count, workspace, workspace_size, answers);
 }
 
 #ifndef NSVCD_NO_GRADIENT
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b) {
-  return NSVCD__BEST(sweep_gradient)(question, workspace, workspace_size, answer, gradient_a,
-                                     gradient_b);
+  return NSVCD__BEST(run_gradient)(question, workspace, workspace_size, answer, gradient_a,
+                                   gradient_b);
 }
 #endif

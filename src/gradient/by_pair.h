@@ -75,8 +75,9 @@ NSVCD__INLINE nsvcd__v nsvcd__weights_at(const nsvcd__layer *layer, size_t i, si
 
 // The derivative of an output of a decoder by its inputs: x, by_x (DECODER_IN). A ReLU's derivative
 // at 0 is 0.
-static NSVCD__APART void nsvcd__decoder_gradient(const nsvcd__decoder *decoder, size_t output,
-                                                 const float *x, float *by_x) {
+static NSVCD__NOINLINE void nsvcd__decoder_gradient(const nsvcd__decoder *decoder,
+                                                    size_t output, const float *x,
+                                                    float *by_x) {
   // what comes out of the layers, but for the last
   float values[5][NSVCD__WIDEST];
   float by[NSVCD__MOST_INPUTS] = {0};
@@ -344,9 +345,10 @@ static nsvcd__f3 nsvcd__by_gap(const nsvcd__gap_pair *pair, nsvcd__f3 u, float t
 
 // The adjoint of nsvcd__tell_gaps, and of the facts about normals: by (FACTS), added to `out` and,
 // by axis 1, to `seen`. view: lane 0 of views. moves: 0 at rest, else 1.
-static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__views *views,
-                                        const nsvcd__view *view, float moves, const float *by,
-                                        nsvcd__by_pair *out, nsvcd__by_view *seen) {
+static NSVCD__NOINLINE void nsvcd__by_gaps(const nsvcd__pairs *pairs,
+                                           const nsvcd__views *views, const nsvcd__view *view,
+                                           float moves, const float *by, nsvcd__by_pair *out,
+                                           nsvcd__by_view *seen) {
   const nsvcd__f3 fixed = nsvcd__first_f3(pairs->normal[1]);
   nsvcd__gap_pair pair;
   nsvcd__gap_axes axes;
@@ -362,7 +364,7 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
   nsvcd__first_lanes(&pairs->r2, 1, &pair.radii[1]);
   nsvcd__first_lanes(&pairs->rotation, 9, &pair.rotation);
   nsvcd__gap_axes_of(pairs, views, &axes);
-  nsvcd__tips_gather(pairs, 1, tips);
+  nsvcd__tips_collect(pairs, 1, tips);
   memset(by_u, 0, sizeof by_u);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const float tau = view->time * ((float)m - 1);
@@ -412,8 +414,8 @@ static NSVCD__APART void nsvcd__by_gaps(const nsvcd__pairs *pairs, const nsvcd__
 
 // The adjoint of nsvcd__invariants for the pair in lane 0. x, by_x (DECODER_IN). The unit of length
 // is constant.
-static NSVCD__APART void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
-                                              const float *by_x, nsvcd__by_pair *by) {
+static NSVCD__NOINLINE void nsvcd__by_invariants(const nsvcd__pairs *pairs, const float *x,
+                                                 const float *by_x, nsvcd__by_pair *by) {
   nsvcd__views views;
   nsvcd__view view;
   nsvcd__views_of(pairs, &views);

@@ -114,10 +114,10 @@ static float nsvcd__by_instant(const nsvcd__motion *motion, nsvcd__instants *at,
   const nsvcd__world_pose fixed = nsvcd__track_pose_at(&motion->fixed, t);
   const nsvcd__mat3 axes = nsvcd__mat3_of(fixed.rotation);
   const nsvcd__f3 arm = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-  const nsvcd__f3 lever = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
+  const nsvcd__f3 moment = nsvcd__f3_cross(nsvcd__lane_of(at->arm, l), force);
   const nsvcd__f3 seen = nsvcd__mat3_apply(&axes, force);
   const nsvcd__f3 push = nsvcd__f3_of(seen.x / unit, seen.y / unit, seen.z / unit);
-  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, lever));
+  const nsvcd__f3 turn = nsvcd__mat3_apply(&axes, nsvcd__f3_add(torque, moment));
   const nsvcd__f3 back = nsvcd__f3_scale(push, -1);
   const nsvcd__f3 turn_back = nsvcd__f3_sub(nsvcd__f3_cross(arm, back), turn);
   const float by_moving = nsvcd__by_poses(&motion->moving, t, push, turn, out[0]);
@@ -199,14 +199,14 @@ static void nsvcd__gradient(const nsvcd__task *task, const nsvcd__decisive *deci
 }
 
 // As nsvcd_sweep_gradient.
-static nsvcd_result nsvcd__sweep_gradient(const nsvcd_question *question, void *workspace,
-                                          size_t workspace_size, nsvcd_answer *answer,
-                                          float *gradient_a, float *gradient_b) {
+static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *workspace,
+                                        size_t workspace_size, nsvcd_answer *answer,
+                                        float *gradient_a, float *gradient_b) {
   if (!question || !answer || (!gradient_a && !gradient_b)) return NSVCD_ERROR_ARGUMENT;
   if (question->method == NSVCD_METHOD_PROOF) return NSVCD_ERROR_METHOD;
   nsvcd_question by_network = *question;
   by_network.method = NSVCD_METHOD_NETWORK;
-  const nsvcd_result result = nsvcd__check(&by_network, workspace, workspace_size);
+  const nsvcd_result result = nsvcd__answer_question(&by_network, workspace, workspace_size);
   if (result) return result;
   nsvcd__query *query = nsvcd__query_open(&by_network, workspace);
   nsvcd__task *task = &query->task;

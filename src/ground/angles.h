@@ -1,5 +1,5 @@
 // In: angles up to a quarter turn, and lengths. Out: sines, and angles. With NSVCD_ONE_PATH they
-// are reckoned here, for libm's last digit is not the same everywhere; else by libm.
+// are computed here, for libm's last digit is not the same everywhere; else by libm.
 #pragma once
 #include "compiler.h"
 

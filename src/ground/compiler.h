@@ -13,7 +13,7 @@
 #ifndef NSVCD_NO_STDIO
 #include <stdio.h>
 #endif
-// NSVCD_ONE_PATH: nothing may be fused or reckoned more exactly than it is written.
+// NSVCD_ONE_PATH: nothing may be fused or computed more exactly than it is written.
 #ifdef NSVCD_ONE_PATH
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
@@ -37,26 +37,26 @@
 #endif
 // Functions that take more of the stack, and of flash, called than merged into their callers.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__MERGED static inline __attribute__((always_inline))
+#define NSVCD__FORCE_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
-#define NSVCD__MERGED static __forceinline
+#define NSVCD__FORCE_INLINE static __forceinline
 #else
-#define NSVCD__MERGED static inline
+#define NSVCD__FORCE_INLINE static inline
 #endif
 // Functions whose loops over constant arguments must be unrolled: left to its own measure, gcc may
 // not inline them, and the decoder takes four times as long (tests/bench/PERFORMANCE.md).
 #ifdef __OPTIMIZE_SIZE__
 #define NSVCD__INLINE static inline
 #else
-#define NSVCD__INLINE NSVCD__MERGED
+#define NSVCD__INLINE NSVCD__FORCE_INLINE
 #endif
 // Functions that must not be inlined: what they take of the stack would add up.
 #if defined(__GNUC__) || defined(__clang__)
-#define NSVCD__APART __attribute__((noinline))
+#define NSVCD__NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
-#define NSVCD__APART __declspec(noinline)
+#define NSVCD__NOINLINE __declspec(noinline)
 #else
-#define NSVCD__APART
+#define NSVCD__NOINLINE
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #define NSVCD__UNROLL _Pragma("GCC unroll 8")  // at -O2 too, so that sums stay in registers

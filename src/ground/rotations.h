@@ -26,7 +26,7 @@
     const quat out = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z, a.w + s * b.w}; \
     return out; \
   } \
-  NSVCD__MERGED quat quat##_unit(quat q) { \
+  NSVCD__FORCE_INLINE quat quat##_unit(quat q) { \
     return quat##_scale(q, 1 / sqrt(quat##_dot(q, q))); \
   } \
   static inline vec quat##_axis(quat q) { \

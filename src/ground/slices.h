@@ -8,7 +8,7 @@
 
 #define NSVCD__LANES 16
 // Radius of padding: meets nothing, and its square is still finite. A float to the last digit, for
-// it is looked for in blobs, also where constants are reckoned in double (FLT_EVAL_METHOD).
+// it is looked for in blobs, also where constants are computed in double (FLT_EVAL_METHOD).
 #define NSVCD__NOWHERE (-999999986991104.0f)
 #define NSVCD__HULL NSVCD__LANES  // vertices of a patch's hull, at most
 // What the triangle of a listing belongs to: a sheet; a closed surface, by how often it winds; one

@@ -23,7 +23,7 @@ typedef struct nsvcd__nearest {
   nsvcd__d3 on_a, on_b;
 } nsvcd__nearest;
 
-static double nsvcd__clamp_share(double x) {
+static double nsvcd__clamp_fraction(double x) {
   return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
@@ -49,9 +49,10 @@ static void nsvcd__edges_nearest(nsvcd__d3 a0, nsvcd__d3 a1, nsvcd__d3 b0, nsvcd
   const double vw = nsvcd__d3_dot(v, w);
   const double determinant = uu * vv - uv * uv;
   double s = 0;
-  if (determinant > 1e-14 * uu * vv) s = nsvcd__clamp_share((uv * vw - uw * vv) / determinant);
-  const double t = vv > 0 ? nsvcd__clamp_share((uv * s + vw) / vv) : 0;
-  s = uu > 0 ? nsvcd__clamp_share((uv * t - uw) / uu) : 0;
+  if (determinant > 1e-14 * uu * vv)
+    s = nsvcd__clamp_fraction((uv * vw - uw * vv) / determinant);
+  const double t = vv > 0 ? nsvcd__clamp_fraction((uv * s + vw) / vv) : 0;
+  s = uu > 0 ? nsvcd__clamp_fraction((uv * t - uw) / uu) : 0;
   nsvcd__keep_nearer(best, nsvcd__d3_mix(a0, a1, s), nsvcd__d3_mix(b0, b1, t));
 }
 

@@ -13,9 +13,9 @@ typedef struct nsvcd_gap {
   nsvcd_why why;
   // metres: no less than `low`, no more than `high`
   nsvcd_range distance;
-  // metres, of a HIT: a lift of a by this along the contact's normal is proven to part them; hardly
-  // less does, along that normal. HUGE_VALF: none up to options.deepest along each normal was
-  // found, as where one is inside of the other or held from all sides. 0 of all others
+  // metres, of a HIT: a lift of a by this along the contact's normal is proven to separate them;
+  // hardly less does, along that normal. HUGE_VALF: none up to options.deepest along each normal
+  // was found, as where one is inside of the other or held from all sides. 0 of all others
   float depth;
   // where they are nearest, as nsvcd_answer.nearest has it; of a HIT, where they are once they are
   // lifted, with the lift's direction as the normal
@@ -51,7 +51,7 @@ typedef struct nsvcd_gap_options {
 //   threads    each with a checker of its own, as all of this page
 //   errors     ARGUMENT, VALUE (joints not finite or beyond NSVCD_MAX_COORDINATE), WITHIN, TO;
 //              POSE, SCALE (a part is, or is carried, beyond NSVCD_MAX_COORDINATE)
-//   source     this library; slopes by the product of the axis and the lever, as any Jacobian's
+//   source     this library; slopes as any Jacobian's, by the product of axis and moment arm
 NSVCDDEF nsvcd_result nsvcd_gaps(nsvcd_checker *checker, const double *joints,
                                  const nsvcd_gap_options *options, nsvcd_gap *gaps,
                                  size_t capacity, size_t *count);

@@ -55,9 +55,10 @@ typedef struct nsvcd_network_options {
   nsvcd_precision precision;
   // share of collisions that it is to find: 0 (balanced errors), 0.99f, 0.999f or 0.9999f
   float recall;
-  // Patches swell by this share of their radii before planes part them, so that patches which only
-  // come near are looked at too: the logit rises before contact, and has a gradient there. It calls
-  // more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked for, 1
+  // Patches swell by this share of their radii before planes separate them, so that patches which
+  // only come near are looked at too: the logit rises before contact, and has a gradient there. It
+  // calls more of what is near a hit. 0: as much as `recall` needs, or, where a distance is asked
+  // for, 1
   float swell;
 } nsvcd_network_options;
 
@@ -393,14 +394,14 @@ NSVCDDEF nsvcd_result nsvcd_sweep_batch(const nsvcd_question *questions, size_t 
 //   errors     those of nsvcd_sweep
 //   source     reverse mode; this library
 //
-// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is
-// the gradient of the pair and the stretch of time that decided: its logit is the greatest of
-// several, and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and
-// where a flat patch does not turn. At rest it is the mean of both sides. The ends of the
-// stretch move with the poses, but for those at t = 0 or 1 and where a segment of the search
-// begins or ends. The unit of length, and the spheres' allowance for what the motion does
-// between its knots, are taken as constant. In int8 arithmetic it is the derivative of the float
-// decoder, or, without that, of the function that the int8 one rounds.
+// Zero where no decoder was needed, and for poses that the decisive pair does not pass. It is the
+// gradient of the pair and the stretch of time that decided: its logit is the greatest of several,
+// and so has kinks, also where the network (ReLU) and the frame of a pair have theirs, and where a
+// flat patch does not turn. At rest it is the mean of both sides. The ends of the stretch move with
+// the poses, but for those at t = 0 or 1 and where a segment of the search begins or ends. The unit
+// of length, and the spheres' allowance for what the motion does between its keyframes, are taken
+// as constant. In int8 arithmetic it is the derivative of the float decoder, or, without that, of
+// the function that the int8 one rounds.
 NSVCDDEF nsvcd_result nsvcd_sweep_gradient(const nsvcd_question *question, void *workspace,
                                            size_t workspace_size, nsvcd_answer *answer,
                                            float *gradient_a, float *gradient_b);

@@ -127,7 +127,7 @@ typedef enum nsvcd_result {
   NSVCD_ERROR_PLAN,
 
   // ---- this build
-  // the compiler, or its flags, made a program that reckons wrongly
+  // the compiler, or its flags, made a program that computes wrongly
   NSVCD_ERROR_BUILD
 } nsvcd_result;
 
@@ -135,7 +135,7 @@ typedef enum nsvcd_result {
 // at fault, as it is called here.
 NSVCDDEF const char *nsvcd_result_string(nsvcd_result result);
 
-// Does this build reckon rightly, on this processor? Certificates of one that does not are false.
+// Does this build compute rightly, on this processor? Certificates of one that does not are false.
 // To be called once, at the start, where the compiler is not gcc, clang or MSVC, or where its flags
 // are unusual. It looks at how structs and floats are passed, at vectors, rotations, the test that
 // certificates rest on, and two triangles. What it does not look at may be wrong still.

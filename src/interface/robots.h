@@ -99,7 +99,7 @@ typedef struct nsvcd_check_answer {
   // or of what is UNDECIDED. NSVCD_NONE where there is none
   size_t pair, piece;
   // of the piece, in [0,1]
-  double share;
+  double fraction;
   // of a HIT, as nsvcd_answer.nearest has it; its time is 0
   nsvcd_contact contact;
   // a joint that leaves its limits somewhere, NSVCD_NONE: none does

@@ -20,8 +20,8 @@ NSVCDDEF nsvcd_result nsvcd_mesh_parse(const void *data, size_t size,
   const nsvcd_mesh_format format = options ? options->format : NSVCD_MESH_ANY;
   const int stl = format == NSVCD_MESH_ANY && data && nsvcd__is_stl(data, size);
   if (stl || format == NSVCD_MESH_STL)
-    return nsvcd__stl_parse(data, size, options, allocator, mesh, error_line);
-  return nsvcd__obj_parse((const char *)data, size, options, allocator, mesh, error_line);
+    return nsvcd__stl_read(data, size, options, allocator, mesh, error_line);
+  return nsvcd__obj_read((const char *)data, size, options, allocator, mesh, error_line);
 }
 
 #ifndef NSVCD_NO_STDIO

@@ -295,10 +295,10 @@ static nsvcd_result nsvcd__obj_faces(nsvcd__obj *obj, const nsvcd_mesh *mesh,
 }
 
 // As nsvcd_obj_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
-                                     const nsvcd_mesh_options *options,
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line) {
+static nsvcd_result nsvcd__obj_read(const char *text, size_t size,
+                                    const nsvcd_mesh_options *options,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                    size_t *error_line) {
   if (error_line) *error_line = 0;
   if (!mesh || !text) return NSVCD_ERROR_ARGUMENT;
   nsvcd_mesh parsed;
@@ -345,6 +345,6 @@ static nsvcd_result nsvcd__obj_parse(const char *text, size_t size,
 NSVCDDEF nsvcd_result nsvcd_obj_parse(const char *text, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd__obj_parse(text, size, NULL, allocator, mesh, error_line);
+  return nsvcd__obj_read(text, size, NULL, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_OBJ

@@ -137,10 +137,10 @@ static void nsvcd__stl_weld(nsvcd_mesh *mesh, nsvcd__stl_places *places) {
 }
 
 // As nsvcd_stl_parse. options: NULL, or what the caller gave.
-static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
-                                     const nsvcd_mesh_options *options,
-                                     const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
-                                     size_t *error_line) {
+static nsvcd_result nsvcd__stl_read(const void *data, size_t size,
+                                    const nsvcd_mesh_options *options,
+                                    const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
+                                    size_t *error_line) {
   const unsigned char *bytes = (const unsigned char *)data;
   if (error_line) *error_line = 0;
   if (!mesh || !data) return NSVCD_ERROR_ARGUMENT;
@@ -201,6 +201,6 @@ static nsvcd_result nsvcd__stl_parse(const void *data, size_t size,
 NSVCDDEF nsvcd_result nsvcd_stl_parse(const void *data, size_t size,
                                       const nsvcd_allocator *allocator, nsvcd_mesh *mesh,
                                       size_t *error_line) {
-  return nsvcd__stl_parse(data, size, NULL, allocator, mesh, error_line);
+  return nsvcd__stl_read(data, size, NULL, allocator, mesh, error_line);
 }
 #endif  // NSVCD_NO_OBJ

@@ -1,8 +1,9 @@
 // In: a motion. Out: its segments: how many, and when they begin. A motion that is too long for one
 // search is cut into *intervals*, each of which is searched anew with segments of its own: else
 // segments would hold hundreds of poses, or turn by hundreds of degrees, and part nothing. An
-// interval begins at a knot. It has as many arcs as there is room for, a segment each, or several
-// where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is easy.
+// interval begins at a keyframe. It has as many arcs as there is room for, a segment each, or
+// several where an arc turns a lot. A *try* is a larger one: a few units tell whether all of it is
+// easy.
 #pragma once
 #include "segments.h"
 
@@ -124,7 +125,7 @@ static void nsvcd__choose_in_interval(nsvcd__motion *motion, nsvcd__search *sear
     const uint32_t from = search->begin[segments];
     uint32_t to = from;
     for (uint32_t n = 0; n < motion->arcs && to < motion->ticks; n++)
-      to = nsvcd__next_knot(motion, to);
+      to = nsvcd__next_keyframe(motion, to);
     const float turn = nsvcd__turn_within(&motion->moving, from, to) +
                        nsvcd__turn_within(&motion->fixed, from, to);
     const float steps = ceilf(turn / step - 0.1f);
@@ -160,8 +161,8 @@ static void nsvcd__choose_all(nsvcd__motion *motion, nsvcd__search *search) {
 }
 
 #ifndef NSVCD_NO_PROOF
-// No more knots than this come after a tick.
-static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
+// No more keyframes than this come after a tick.
+static size_t nsvcd__keyframes_after(const nsvcd__motion *motion, uint32_t tick) {
   const size_t moving = motion->moving.count - 1 - nsvcd__pose_before(&motion->moving, tick);
   const size_t fixed = motion->fixed.count - 1 - nsvcd__pose_before(&motion->fixed, tick);
   return moving + fixed;
@@ -172,7 +173,7 @@ static size_t nsvcd__knots_after(const nsvcd__motion *motion, uint32_t tick) {
 static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t from,
                                    uint32_t arcs) {
   const size_t most = search->most_segments;
-  const size_t left = (nsvcd__knots_after(motion, from) + most - 1) / most;
+  const size_t left = (nsvcd__keyframes_after(motion, from) + most - 1) / most;
   motion->from = from;
   motion->arcs = arcs < left ? arcs : (uint32_t)left;
   nsvcd__choose_segments(motion, search);
@@ -181,10 +182,10 @@ static void nsvcd__choose_interval(nsvcd__motion *motion, nsvcd__search *search,
 // Is a motion too long for one search? The segments of one that is not are chosen.
 static int nsvcd__is_long(nsvcd__motion *motion, nsvcd__search *search) {
   const size_t most = search->most_segments;
-  const size_t knots = nsvcd__knots_after(motion, 0);
-  if (knots <= most) {
+  const size_t keyframes = nsvcd__keyframes_after(motion, 0);
+  if (keyframes <= most) {
     nsvcd__choose_all(motion, search);
-    if (knots < 2 || search->segments < most) return 0;
+    if (keyframes < 2 || search->segments < most) return 0;
   }
   nsvcd__choose_interval(motion, search, 0, 1);
   if (search->begin[search->segments] < motion->ticks) return 1;
@@ -214,8 +215,8 @@ static float nsvcd__interval_gap(const nsvcd__motion *motion, uint32_t from, uin
 #endif
 
 #ifndef NSVCD_NO_NETWORK
-static NSVCD__APART void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
-                                           nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__cut_motion(nsvcd__motion *motion, float lengths,
+                                              nsvcd__search *search) {
   nsvcd__choose_all(motion, search);
   nsvcd__cut_segments(motion, lengths, 0, search);
 }

@@ -7,8 +7,8 @@
 //
 // Time is counted in *ticks*, of which a motion has a whole number, and so has each body between
 // two of its poses: the least common multiple. Where poses have times of their own, 2^31 or more,
-// and each of these is at the nearest. A *knot* is a tick at which a pose of either is. Between two
-// knots both motions are smooth.
+// and each of these is at the nearest. A *keyframe* is a tick at which a pose of either is. Between
+// two keyframes both motions are smooth.
 #pragma once
 #include "../ground/valid.h"
 #include "../interface/queries.h"
@@ -103,8 +103,8 @@ static nsvcd__track nsvcd__track_of(const nsvcd_mover *mover) {
   return track;
 }
 
-// The motion's ticks as if all poses were uniform, `parts` times as many as its knots need. No more
-// than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where knots are few.
+// The motion's ticks as if all poses were uniform, `parts` times as many as its keyframes need. No
+// more than 65,535 * 65,534, which 32 bits hold, for parts is 1 but where keyframes are few.
 static void nsvcd__motion_set_ticks(nsvcd__motion *motion, uint32_t parts) {
   const uint32_t a = motion->moving.count > 1 ? (uint32_t)(motion->moving.count - 1) : 1;
   const uint32_t b = motion->fixed.count > 1 ? (uint32_t)(motion->fixed.count - 1) : 1;
@@ -250,12 +250,12 @@ static nsvcd__world_pose nsvcd__world_pose_of(const nsvcd_pose *pose) {
 
 // Between two poses, a share of the way from the first.
 static nsvcd__world_pose nsvcd__world_pose_between(const nsvcd_pose *a, const nsvcd_pose *b,
-                                                   double share) {
+                                                   double fraction) {
   const nsvcd__world_pose from = nsvcd__world_pose_of(a);
   const nsvcd__world_pose to = nsvcd__world_pose_of(b);
   nsvcd__world_pose out;
-  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)share);
-  out.position = nsvcd__d3_mix(from.position, to.position, share);
+  out.rotation = nsvcd__quat_slerp(from.rotation, to.rotation, (float)fraction);
+  out.position = nsvcd__d3_mix(from.position, to.position, fraction);
   return out;
 }
 
@@ -275,8 +275,8 @@ static uint32_t nsvcd__next_pose(const nsvcd__track *track, uint32_t tick) {
   return nsvcd__tick_of(track, nsvcd__pose_before(track, tick) + 1);
 }
 
-// The knot after a tick.
-static uint32_t nsvcd__next_knot(const nsvcd__motion *motion, uint32_t tick) {
+// The keyframe after a tick.
+static uint32_t nsvcd__next_keyframe(const nsvcd__motion *motion, uint32_t tick) {
   if (motion->moving.ticks == 1 || motion->fixed.ticks == 1) return tick + 1;
   const uint32_t after_a = nsvcd__next_pose(&motion->moving, tick);
   const uint32_t after_b = nsvcd__next_pose(&motion->fixed, tick);
@@ -321,27 +321,27 @@ static nsvcd__v_pose nsvcd__v_seen(const nsvcd__motion *motion, const nsvcd__v_p
 #ifndef NSVCD_NO_NETWORK
 // The pose of a track that moves before time t in [0,1], and the share of the way to the next. A
 // uniform one is not taken to ticks: derivatives by t need what floats resolve.
-static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *share) {
+static size_t nsvcd__pose_at(const nsvcd__track *track, float t, float *fraction) {
   if (track->times) {
     const double tick = (double)t * (double)track->whole;
     const uint32_t k = nsvcd__pose_before(track, (uint32_t)tick);
     const float from = track->times[k];
-    *share = (t - from) / (track->times[k + 1] - from);
+    *fraction = (t - from) / (track->times[k + 1] - from);
     return k;
   }
   const size_t last = track->count - 2;
   const float at = t * (float)(last + 1);
   const size_t k = (size_t)at < last ? (size_t)at : last;
-  *share = at - (float)k;
+  *fraction = at - (float)k;
   return k;
 }
 
 // A track's pose at time t in [0,1].
 static nsvcd__world_pose nsvcd__track_pose_at(const nsvcd__track *track, float t) {
   if (track->count == 1) return nsvcd__world_pose_between(track->poses, track->poses, 0);
-  float share;
-  const size_t k = nsvcd__pose_at(track, t, &share);
-  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)share);
+  float fraction;
+  const size_t k = nsvcd__pose_at(track, t, &fraction);
+  return nsvcd__world_pose_between(&track->poses[k], &track->poses[k + 1], (double)fraction);
 }
 
 // The moving body in the fixed body's frame at time t, clamped to [0,1]; its points are to be

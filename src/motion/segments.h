@@ -8,21 +8,21 @@
 //   dev(c) = spread + bulge |c|
 // so that it covers the true place (M(t) c + p(t)) at every t, M being the rotation times the
 // scale. Why: let L(t) be the linear interpolation of M between the segment's ends, K(t) the
-// piecewise linear one through the knots inside. Between two knots a chord misses a curve by at
-// most max|second derivative| / 8, with time from 0 to 1 there. Where only one body moves, that is
-// h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the fixed
-// body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so it is
-// largest at a knot. Hence
-//   bulge  = max over arcs of what they bend by per metre  +  max over knots ||M_k - L(t_k)||
+// piecewise linear one through the keyframes inside. Between two keyframes a chord misses a curve
+// by at most max|second derivative| / 8, with time from 0 to 1 there. Where only one body moves,
+// that is h^2 |c| / 8 on an arc of angle h, and its origin goes straight. Where both do, what the
+// fixed body sees bends more: nsvcd__cut_double_arc. K - L is piecewise linear, its norm convex, so
+// it is largest at a keyframe. Hence
+//   bulge  = max over arcs of what they bend by per metre  +  max over keyframes ||M_k - L(t_k)||
 //          (Frobenius >= 2-norm)
-//   drift  = max over arcs of what the origin bends by  +  max over knots |p_k - its linear
+//   drift  = max over arcs of what the origin bends by  +  max over keyframes |p_k - its linear
 //                                                       interpolation|
 //   spread = drift + rounding + the clearance that is asked for
 // Along a direction n, |n| <= 1, it is less. A turn by h about the unit axis a bends the way of a
 // point x by a x (a x y) h^2, y being x, turned; and n.(a x (a x y)) = (n x a).(a x y), which is no
 // more than |n x a| |x|: nothing along the axis. So `bulge_along_axis` and `drift_along_axis` are
 // what is left along the axis of the whole segment's turn, off which the arcs' axes may be, and
-// nsvcd__deviation puts them together.
+// nsvcd__deviation_of puts them together.
 //
 // A group or a whole body is a sphere like any other: its sphere, truly posed, contains its
 // members', truly posed.
@@ -82,7 +82,7 @@ typedef struct nsvcd__segments {
   float rotation[9][NSVCD__LANES], position[3][NSVCD__LANES], turned[9][NSVCD__LANES],
       moved[3][NSVCD__LANES];
   float spread[NSVCD__LANES], bulge[NSVCD__LANES];
-  // For the proof, the same along directions: see nsvcd__deviation.
+  // For the proof, the same along directions: see nsvcd__deviation_of.
   float rounding[NSVCD__LANES], drift[NSVCD__LANES], axis[3][NSVCD__LANES],
       bulge_along_axis[NSVCD__LANES];
   float drift_along_axis[NSVCD__LANES], way[3][NSVCD__LANES], drift_off_way[NSVCD__LANES];
@@ -90,23 +90,23 @@ typedef struct nsvcd__segments {
 
 // Poses of both bodies at 16 ticks, and one more, in the world; and quaternions as the fixed body
 // sees them.
-#define NSVCD__KNOTS (NSVCD__LANES + 1)
-typedef struct nsvcd__knots {
-  // (4, KNOTS) quaternions, as the next two
-  float moving[4 * NSVCD__KNOTS];
-  float fixed[4 * NSVCD__KNOTS];
-  float seen[4 * NSVCD__KNOTS];
-  // (3, KNOTS) see nsvcd__v_poses
-  float offset[3 * NSVCD__KNOTS];
-} nsvcd__knots;
+#define NSVCD__KEYFRAMES (NSVCD__LANES + 1)
+typedef struct nsvcd__keyframes {
+  // (4, KEYFRAMES) quaternions, as the next two
+  float moving[4 * NSVCD__KEYFRAMES];
+  float fixed[4 * NSVCD__KEYFRAMES];
+  float seen[4 * NSVCD__KEYFRAMES];
+  // (3, KEYFRAMES) see nsvcd__v_poses
+  float offset[3 * NSVCD__KEYFRAMES];
+} nsvcd__keyframes;
 
-// What is kept of 16 segments while their knots are visited, lane by lane.
+// What is kept of 16 segments while their keyframes are visited, lane by lane.
 typedef struct nsvcd__bends {
   float sum[NSVCD__LANES];  // of the turns of arcs
   // The greatest so far of what arcs leave their chords by: per metre from the moving body's
   // origin, along the axis too, and that origin itself.
   float arc_bulge[NSVCD__LANES], axis_turn[NSVCD__LANES], arc_drift[NSVCD__LANES];
-  // The greatest so far, squared, of what knots are off their chord by: the rotation and the
+  // The greatest so far, squared, of what keyframes are off their chord by: the rotation and the
   // position, and both along the axis, or across the way.
   float bulge[NSVCD__LANES], spread[NSVCD__LANES], axis_bulge[NSVCD__LANES],
       axis_drift[NSVCD__LANES];
@@ -115,7 +115,7 @@ typedef struct nsvcd__bends {
 
 typedef struct nsvcd__cut {
   // read now, the ones before, and those at the segments' ends
-  nsvcd__knots here, last, end;
+  nsvcd__keyframes here, last, end;
   nsvcd__bends most;
 } nsvcd__cut;
 
@@ -188,7 +188,7 @@ typedef struct nsvcd__search {
 #ifndef NSVCD_NO_NETWORK
   // what is known of planes that part patches, and (GROUP, S) lanes of a group that meet each of
   // another: search/apart
-  struct nsvcd__sheets *sheets;
+  struct nsvcd__plane_cache *cache;
   uint16_t *met;
   // 0: no patches' balls meet, which certifies free
   int balls_met;
@@ -275,8 +275,8 @@ static nsvcd__v3 nsvcd__v_shorter_turn_between(nsvcd__vquat a, nsvcd__vquat b,
 
 // Reads the poses of both bodies at the first `count` of these ticks; where one body moves and
 // every tick is one of its poses, as the caller gave them.
-static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks, size_t count,
-                              nsvcd__knots *out) {
+static void nsvcd__keyframes_read(const nsvcd__motion *motion, const uint32_t *ticks,
+                                  size_t count, nsvcd__keyframes *out) {
   const nsvcd__track *track = &motion->moving;
   const int as_given = track->ticks == 1 && track->count > 1 && !motion->fixed_moves;
   nsvcd__world_pose fixed = {{0, 0, 0, 1}, nsvcd__d3_widen(motion->fixed_position)};
@@ -292,36 +292,37 @@ static void nsvcd__knots_read(const nsvcd__motion *motion, const uint32_t *ticks
       if (motion->fixed_moves) fixed = nsvcd__track_pose(&motion->fixed, ticks[l]);
       rotation = moving.rotation;
       offset = nsvcd__d3_narrow(nsvcd__d3_sub(moving.position, fixed.position));
-      if (motion->fixed_moves) nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KNOTS);
+      if (motion->fixed_moves)
+        nsvcd__quat_put(fixed.rotation, out->fixed + l, NSVCD__KEYFRAMES);
     }
-    nsvcd__f3_put(offset, out->offset + l, NSVCD__KNOTS);
-    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KNOTS);
+    nsvcd__f3_put(offset, out->offset + l, NSVCD__KEYFRAMES);
+    nsvcd__quat_put(rotation, out->moving + l, NSVCD__KEYFRAMES);
   }
 }
 
-// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one knot more
-// than lanes.
-static nsvcd__v_poses nsvcd__knots_load(const nsvcd__motion *motion, const nsvcd__knots *from,
-                                        size_t first) {
+// A slice of them, from the one in lane `first` on, up to LANES - SLICE + 1: there is one keyframe
+// more than lanes.
+static nsvcd__v_poses nsvcd__keyframes_load(const nsvcd__motion *motion,
+                                            const nsvcd__keyframes *from, size_t first) {
   nsvcd__v_poses out;
-  out.offset = nsvcd__v3_load_rows(from->offset + first, NSVCD__KNOTS);
-  out.moving = nsvcd__vquat_load(from->moving + first, NSVCD__KNOTS);
+  out.offset = nsvcd__v3_load_rows(from->offset + first, NSVCD__KEYFRAMES);
+  out.moving = nsvcd__vquat_load(from->moving + first, NSVCD__KEYFRAMES);
   out.fixed = out.moving;
   if (motion->fixed_moves) {
     out.moving = nsvcd__vquat_unit(out.moving);
-    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + first, NSVCD__KNOTS));
+    out.fixed = nsvcd__vquat_unit(nsvcd__vquat_load(from->fixed + first, NSVCD__KEYFRAMES));
   }
   return out;
 }
 
 // `seen`: the quaternions as the fixed body sees them. l: the slice's first lane, here and below.
-static void nsvcd__knots_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
-                              nsvcd__vquat seen, size_t l, nsvcd__knots *out) {
-  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KNOTS);
-  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KNOTS);
+static void nsvcd__keyframes_keep(const nsvcd__motion *motion, const nsvcd__v_poses *at,
+                                  nsvcd__vquat seen, size_t l, nsvcd__keyframes *out) {
+  nsvcd__vquat_store(at->moving, out->moving + l, NSVCD__KEYFRAMES);
+  nsvcd__vquat_store(seen, out->seen + l, NSVCD__KEYFRAMES);
   if (!motion->fixed_moves) return;
-  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KNOTS);
-  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KNOTS);
+  nsvcd__v3_store_rows(at->offset, out->offset + l, NSVCD__KEYFRAMES);
+  nsvcd__vquat_store(at->fixed, out->fixed + l, NSVCD__KEYFRAMES);
 }
 
 // A bound of the angle between two unit quaternions, lane by lane.
@@ -351,36 +352,37 @@ static void nsvcd__v_add_to(float *sum, nsvcd__v value) {
   nsvcd__v_store(sum, nsvcd__v_add(nsvcd__v_load(sum), value));
 }
 
-// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the knots
-// within.
-static NSVCD__APART void nsvcd__cut_starts(const nsvcd__motion *motion, const uint32_t *begin,
-                                           nsvcd__segments *out, nsvcd__cut *cut) {
+// Poses at the starts of 16 segments, whose ticks are begin[0..16]. Starts the visit of the
+// keyframes within.
+static NSVCD__NOINLINE void nsvcd__cut_starts(const nsvcd__motion *motion,
+                                              const uint32_t *begin, nsvcd__segments *out,
+                                              nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   memset(&cut->most, 0, sizeof cut->most);
-  nsvcd__knots_read(motion, begin, NSVCD__KNOTS, &cut->here);
+  nsvcd__keyframes_read(motion, begin, NSVCD__KEYFRAMES, &cut->here);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
-    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->last);
+    nsvcd__keyframes_keep(motion, &at, seen.rotation, l, &cut->last);
     nsvcd__vmat3_store(out->rotation, l, nsvcd__vmat3_scale(rotation, scale));
     nsvcd__v3_store(out->position, l, seen.position);
   }
 }
 
 // The same at their ends; the starts are known.
-static NSVCD__APART void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
-                                         nsvcd__cut *cut) {
+static NSVCD__NOINLINE void nsvcd__cut_ends(const nsvcd__motion *motion, nsvcd__segments *out,
+                                            nsvcd__cut *cut) {
   const nsvcd__v scale = nsvcd__v_set(motion->scale);
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l + 1);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l + 1);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     const nsvcd__vmat3 end = nsvcd__vmat3_scale(nsvcd__vmat3_of(seen.rotation), scale);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__v3 moved = nsvcd__v3_sub(seen.position, nsvcd__v3_load(out->position, l));
-    const nsvcd__vquat seen_first = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__vquat seen_first = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
     const nsvcd__v3 turn = nsvcd__v_turn_between(seen_first, seen.rotation);
-    nsvcd__knots_keep(motion, &at, seen.rotation, l, &cut->end);
+    nsvcd__keyframes_keep(motion, &at, seen.rotation, l, &cut->end);
     nsvcd__vmat3_store(out->turned, l, nsvcd__vmat3_sub(end, start));
     nsvcd__v3_store(out->moved, l, moved);
     nsvcd__v3_store(out->axis, l, nsvcd__v3_unit(turn));
@@ -431,45 +433,45 @@ static void nsvcd__cut_double_arc(const nsvcd__motion *motion, const nsvcd__v_po
   nsvcd__v_add_to(cut->most.sum + l, fixed_turn);
 }
 
-// Adds the arc from the last knot to this one, which becomes the last. seen: its rotation as the
-// fixed body sees it.
+// Adds the arc from the last keyframe to this one, which becomes the last. seen: its rotation as
+// the fixed body sees it.
 static void nsvcd__cut_arc(const nsvcd__motion *motion, const nsvcd__v_poses *at,
                            nsvcd__vquat seen, size_t l, nsvcd__segments *out,
                            nsvcd__cut *cut) {
-  const nsvcd__v_poses last = nsvcd__knots_load(motion, &cut->last, l);
+  const nsvcd__v_poses last = nsvcd__keyframes_load(motion, &cut->last, l);
   const nsvcd__v arc = nsvcd__v_arc(last.moving, at->moving);
   nsvcd__v_add_to(cut->most.sum + l, arc);
   if (motion->fixed_moves) {
     nsvcd__cut_double_arc(motion, &last, at, l, cut);
   } else {
     const nsvcd__v3 axis = nsvcd__v3_load(out->axis, l);
-    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KNOTS);
+    const nsvcd__vquat last_seen = nsvcd__vquat_load(cut->last.seen + l, NSVCD__KEYFRAMES);
     const nsvcd__v bulge = nsvcd__v_scale(nsvcd__v_mul(arc, arc), 0.125f);
     const nsvcd__v off_axis = nsvcd__v_turn_off_axis(axis, last_seen, seen, arc);
     nsvcd__v_keep_most(cut->most.arc_bulge + l, bulge);
     nsvcd__v_keep_most(cut->most.axis_turn + l, off_axis);
   }
-  nsvcd__knots_keep(motion, at, seen, l, &cut->last);
+  nsvcd__keyframes_keep(motion, at, seen, l, &cut->last);
 }
 
-// Visits a knot of each segment: ticks (16), of segments that begin at begin[0..15] and end at
+// Visits a keyframe of each segment: ticks (16), of segments that begin at begin[0..15] and end at
 // begin[1..16]. Adds the arc up to it, and what it is off its segment's chord by.
-static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint32_t *begin,
-                                         const uint32_t *ticks, nsvcd__segments *out,
-                                         nsvcd__cut *cut) {
+static NSVCD__NOINLINE void nsvcd__cut_keyframe(const nsvcd__motion *motion,
+                                                const uint32_t *begin, const uint32_t *ticks,
+                                                nsvcd__segments *out, nsvcd__cut *cut) {
   nsvcd__bends *most = &cut->most;
-  // of the segment, before the knot
-  float share[NSVCD__LANES];
-  nsvcd__knots_read(motion, ticks, NSVCD__LANES, &cut->here);
+  // of the segment, before the keyframe
+  float fraction[NSVCD__LANES];
+  nsvcd__keyframes_read(motion, ticks, NSVCD__LANES, &cut->here);
   for (size_t l = 0; l < NSVCD__LANES; l++) {
     const uint32_t length = begin[l + 1] - begin[l];
-    share[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
+    fraction[l] = length ? (float)(ticks[l] - begin[l]) / (float)length : 0;
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses at = nsvcd__knots_load(motion, &cut->here, l);
+    const nsvcd__v_poses at = nsvcd__keyframes_load(motion, &cut->here, l);
     const nsvcd__v_pose seen = nsvcd__v_seen(motion, &at);
     nsvcd__cut_arc(motion, &at, seen.rotation, l, out, cut);
-    const nsvcd__v u = nsvcd__v_load(share + l);
+    const nsvcd__v u = nsvcd__v_load(fraction + l);
     const nsvcd__vmat3 start = nsvcd__vmat3_load(out->rotation, l);
     const nsvcd__vmat3 turned = nsvcd__vmat3_load(out->turned, l);
     const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);
@@ -491,7 +493,7 @@ static NSVCD__APART void nsvcd__cut_knot(const nsvcd__motion *motion, const uint
   }
 }
 
-// The deviations of segments whose knots have all been visited.
+// The deviations of segments whose keyframes have all been visited.
 static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, size_t l,
                                   nsvcd__segments *out, const nsvcd__cut *cut) {
   const nsvcd__bends *most = &cut->most;
@@ -499,8 +501,8 @@ static void nsvcd__cut_deviations(const nsvcd__motion *motion, float lengths, si
   const nsvcd__v off_chord = nsvcd__v_sqrt(nsvcd__v_load(most->spread + l));
   const nsvcd__v drift = nsvcd__v_add(off_chord, nsvcd__v_load(most->arc_drift + l));
   const nsvcd__v arc_bulge = nsvcd__v_mul(scale, nsvcd__v_load(most->arc_bulge + l));
-  const nsvcd__v knot_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
-  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, knot_bulge);
+  const nsvcd__v keyframe_bulge = nsvcd__v_sqrt(nsvcd__v_load(most->bulge + l));
+  const nsvcd__v bulge = nsvcd__v_add(arc_bulge, keyframe_bulge);
   nsvcd__v bulge_along_axis = bulge;
   nsvcd__v drift_along_axis = drift;
   nsvcd__v drift_off_way = drift;
@@ -539,15 +541,15 @@ static void nsvcd__cut_block(const nsvcd__motion *motion, const uint32_t *begin,
     within = 0;
     for (size_t l = 0; l < NSVCD__LANES; l++) {
       const uint32_t next =
-          ticks[l] < begin[l + 1] ? nsvcd__next_knot(motion, ticks[l]) : begin[l + 1];
+          ticks[l] < begin[l + 1] ? nsvcd__next_keyframe(motion, ticks[l]) : begin[l + 1];
       ticks[l] = next < begin[l + 1] ? next : begin[l + 1];
       within |= ticks[l] < begin[l + 1];
     }
-    if (within) nsvcd__cut_knot(motion, begin, ticks, out, cut);
+    if (within) nsvcd__cut_keyframe(motion, begin, ticks, out, cut);
   }
   NSVCD__EACH_SLICE(l) {
-    const nsvcd__v_poses end = nsvcd__knots_load(motion, &cut->end, l);
-    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KNOTS);
+    const nsvcd__v_poses end = nsvcd__keyframes_load(motion, &cut->end, l);
+    const nsvcd__vquat seen = nsvcd__vquat_load(cut->end.seen + l, NSVCD__KEYFRAMES);
     nsvcd__cut_arc(motion, &end, seen, l, out, cut);
     nsvcd__cut_deviations(motion, lengths, l, out, cut);
   }

@@ -77,9 +77,9 @@ NSVCD__INLINE void nsvcd__layer_tile(const nsvcd__layer *layer, size_t o, const 
 // cache, so the more rows at a time the better: 8 by 2 or 4 by 4 sums in 32 registers, 4 by 16
 // outputs, or by 4 slices where that is less, in fewer.
 #define NSVCD__TILES (NSVCD__LANES / NSVCD__SLICE < 4 ? NSVCD__LANES / NSVCD__SLICE : 4)
-static NSVCD__APART void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
-                                                  const float *x, size_t count,
-                                                  float (*said)[NSVCD__SAYINGS]) {
+static NSVCD__NOINLINE void nsvcd__decoder_by_floats(const nsvcd__decoder *decoder,
+                                                     const float *x, size_t count,
+                                                     float (*said)[NSVCD__SAYINGS]) {
   const size_t rows = nsvcd__round_up(count, NSVCD__ROW_STEP);
   float a[NSVCD__ROWS * NSVCD__WIDEST];
   float b[NSVCD__ROWS * NSVCD__WIDEST];
@@ -240,8 +240,9 @@ static void nsvcd__layer_by_bytes(const nsvcd__layer *layer, const float *x, siz
 #endif
 
 // As nsvcd__decoder_says, in int8 arithmetic.
-static NSVCD__APART void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder, const float *x,
-                                                 size_t count, float (*said)[NSVCD__SAYINGS]) {
+static NSVCD__NOINLINE void nsvcd__decoder_by_bytes(const nsvcd__decoder *decoder,
+                                                    const float *x, size_t count,
+                                                    float (*said)[NSVCD__SAYINGS]) {
   float y[NSVCD__ROWS * NSVCD__WIDEST];
   size_t pitch = NSVCD__DECODER_IN;
   for (size_t n = 0; n < decoder->layers; n++) {

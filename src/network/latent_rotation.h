@@ -34,8 +34,8 @@ static void nsvcd__v_degree2(nsvcd__v3 a, nsvcd__v3 b, nsvcd__v *q) {
 
 // D of a slice of matrices, lane by lane, times `scale`: out (WIGNER, SLICE). Column k of degree 2
 // is the image of basis vector k, a degree 2 of m's columns.
-static NSVCD__APART void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
-                                       float (*out)[NSVCD__SLICE]) {
+static NSVCD__NOINLINE void nsvcd__wigner(const nsvcd__vmat3 *m, nsvcd__v scale,
+                                          float (*out)[NSVCD__SLICE]) {
   const nsvcd__v third = nsvcd__v_scale(scale, 1.0f / 3);
   const nsvcd__v root = nsvcd__v_scale(scale, 0.5773502691896258f);
   const nsvcd__v twice = nsvcd__v_add(root, root);
@@ -79,8 +79,8 @@ NSVCD__INLINE void nsvcd__rotate_degree(const float *latent, float (*turn)[NSVCD
 
 // Turns a stored latent by D (WIGNER, SLICE) of lane l, and writes it to place 0 or 1 of a row of
 // the decoder's inputs: vectors (2, 8, CHANNELS), then scalars (2, SCALARS).
-static NSVCD__APART void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
-                                              size_t l, size_t place, float *row) {
+static NSVCD__NOINLINE void nsvcd__rotate_latent(const int8_t *z, float (*turn)[NSVCD__SLICE],
+                                                 size_t l, size_t place, float *row) {
   float *vectors = row + NSVCD__VECTORS * place;
   float *scalars = row + 2 * NSVCD__VECTORS + NSVCD_W_SCALARS * place;
   // one after the other: it is the deepest place of a query

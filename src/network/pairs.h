@@ -138,7 +138,7 @@ static nsvcd__v3 nsvcd__v_half_rotation(nsvcd__vquat q) {
 // positions from an origin.
 static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const float *t,
                                            size_t count, nsvcd__f3 origin) {
-  float share[NSVCD__SLICE] = {0};
+  float fraction[NSVCD__SLICE] = {0};
   float rotation[4 * NSVCD__SLICE] = {0};
   float turned[4 * NSVCD__SLICE] = {0};
   float position[3 * NSVCD__SLICE] = {0};
@@ -146,7 +146,7 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
   const int moves = track->count > 1;
   for (size_t l = count; l < NSVCD__SLICE; l++) rotation[3 * NSVCD__SLICE + l] = 1;
   for (size_t l = 0; l < count; l++) {
-    const size_t k = moves ? nsvcd__pose_at(track, t[l], &share[l]) : 0;
+    const size_t k = moves ? nsvcd__pose_at(track, t[l], &fraction[l]) : 0;
     const nsvcd_pose *a = &track->poses[k];
     const nsvcd_pose *b = moves ? a + 1 : a;
     const nsvcd__f3 from = nsvcd__f3_load(a->position);
@@ -160,14 +160,14 @@ static nsvcd__v_pose nsvcd__track_poses_at(const nsvcd__track *track, const floa
     // Within 5 degrees the straight line, brought back to unit length, is the slerp to 2e-6
     // radians.
     if (fabsf(cosine) < 0.999f)
-      q = nsvcd__quat_slerp(q, next, share[l]);
+      q = nsvcd__quat_slerp(q, next, fraction[l]);
     else
       nsvcd__quat_put(chord, turned + l, NSVCD__SLICE);
     nsvcd__quat_put(q, rotation + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(from, origin), position + l, NSVCD__SLICE);
     nsvcd__f3_put(nsvcd__f3_sub(to, from), moved + l, NSVCD__SLICE);
   }
-  const nsvcd__v u = nsvcd__v_load(share);
+  const nsvcd__v u = nsvcd__v_load(fraction);
   const nsvcd__vquat start = nsvcd__vquat_load(rotation, NSVCD__SLICE);
   const nsvcd__vquat chord = nsvcd__vquat_load(turned, NSVCD__SLICE);
   const nsvcd__v3 way = nsvcd__v3_load_rows(moved, NSVCD__SLICE);
@@ -194,8 +194,9 @@ static nsvcd__v_pose nsvcd__v_poses_at(const nsvcd__motion *motion, const float 
 // Pairs whose moving patches have the given centres, (3, SLICE), from poses at entry, at exit, and
 // halfway: where they pass each other, and how they move then. Apart from nsvcd__pairs_of, so that
 // its stack does not lie below the poses'.
-static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const float *centres,
-                                                 nsvcd__pairs *pairs) {
+static NSVCD__NOINLINE void nsvcd__pairs_in_passing(const nsvcd__v_pose *at,
+                                                    const float *centres,
+                                                    nsvcd__pairs *pairs) {
   const nsvcd__v half = nsvcd__v_set(0.5f);
   const nsvcd__v3 centre = nsvcd__v3_load_rows(centres, NSVCD__SLICE);
   const nsvcd__v3 arm1 = nsvcd__vmat3_apply(nsvcd__vmat3_of(at[0].rotation), centre);
@@ -212,10 +213,10 @@ static NSVCD__APART void nsvcd__pairs_in_passing(const nsvcd__v_pose *at, const 
 }
 
 // The pairs of `count` candidates, 1 to SLICE. What is in the lanes beyond does not matter.
-static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
-                                         const nsvcd__motion *motion,
-                                         nsvcd__candidate *const *candidates, size_t count,
-                                         nsvcd__pairs *pairs) {
+static NSVCD__NOINLINE void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_body *fixed,
+                                            const nsvcd__motion *motion,
+                                            nsvcd__candidate *const *candidates, size_t count,
+                                            nsvcd__pairs *pairs) {
   // of entry, of exit, and halfway
   float times[3][NSVCD__SLICE];
   nsvcd__v_pose at[3];
@@ -240,10 +241,10 @@ static NSVCD__APART void nsvcd__pairs_of(const nsvcd_body *moving, const nsvcd_b
       const float most = fmaxf(fmaxf(fabsf(area.x), fabsf(area.y)), fabsf(area.z));
       const nsvcd__f3 even = nsvcd__f3_scale(area, most > 1e-37f ? 1 / most : 0);
       const float length = nsvcd__f3_length(even);
-      const float share = most * inverse * (length * inverse);
-      const nsvcd__f3 normal = nsvcd__f3_scale(even, share > 1e-6f ? 1 / length : 0);
+      const float fraction = most * inverse * (length * inverse);
+      const nsvcd__f3 normal = nsvcd__f3_scale(even, fraction > 1e-6f ? 1 / length : 0);
       nsvcd__f3_put(normal, normals[n] + l, NSVCD__SLICE);
-      flat[n][l] = fminf(0.31830989f * share, 2);
+      flat[n][l] = fminf(0.31830989f * fraction, 2);
     }
     times[0][l] = candidate->t_enter;
     times[1][l] = candidate->t_exit;
@@ -306,7 +307,7 @@ static nsvcd__v3 nsvcd__v_unit_or(nsvcd__v3 a, float least, nsvcd__v3 instead) {
 }
 
 // Views of a slice of pairs.
-static NSVCD__APART void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
+static NSVCD__NOINLINE void nsvcd__views_of(const nsvcd__pairs *pairs, nsvcd__views *view) {
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v minus = nsvcd__v_set(-1);
@@ -385,7 +386,7 @@ static void nsvcd__gap_axes_of(const nsvcd__pairs *pairs, const nsvcd__views *vi
 
 // The tips of the first `count` pairs of a slice, of the moving patches and of the fixed ones: (2,
 // TIPS, 3, SLICE) steps of 1/127 of the radii, from the centres, in the bodies' frames.
-static void nsvcd__tips_gather(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
+static void nsvcd__tips_collect(const nsvcd__pairs *pairs, size_t count, int8_t *tips) {
   memset(tips, 0, 2 * 3 * NSVCD__TIPS * NSVCD__SLICE);
   for (size_t n = 0; n < 2; n++) {
     for (size_t k = 0; k < 3 * NSVCD__TIPS; k++, tips += NSVCD__SLICE) {
@@ -406,9 +407,10 @@ static nsvcd__v3 nsvcd__turned_back(nsvcd__v3 u, nsvcd__v3 w) {
 // The gaps along the axes, wide (GAPS), in the fixed body's units, at tau: -1 and 1 are the ends of
 // the interval. Seen from a frame that turns half as fast as the moving patch, in which either
 // patch may be called the one that moves: the line between the centres goes by v, one patch turns
-// by half of w, and the other the opposite way. tips: nsvcd__tips_gather.
-static NSVCD__APART void nsvcd__gaps_at(const nsvcd__pairs *pairs, const nsvcd__gap_axes *axes,
-                                        const int8_t *tips, nsvcd__v tau, nsvcd__v *wide) {
+// by half of w, and the other the opposite way. tips: nsvcd__tips_collect.
+static NSVCD__NOINLINE void nsvcd__gaps_at(const nsvcd__pairs *pairs,
+                                           const nsvcd__gap_axes *axes, const int8_t *tips,
+                                           nsvcd__v tau, nsvcd__v *wide) {
   const size_t size = 3 * NSVCD__SLICE;
   const nsvcd__v3 half = nsvcd__v3_scale(pairs->w, nsvcd__v_scale(tau, 0.5f));
   const nsvcd__v3 back = nsvcd__v3_negate(half);
@@ -446,12 +448,13 @@ static nsvcd__v nsvcd__gap_told(nsvcd__v gap, float steep) {
 }
 
 // The facts about gaps.
-static NSVCD__APART void nsvcd__tell_gaps(const nsvcd__pairs *pairs, const nsvcd__views *view,
-                                          size_t count, float (*facts)[NSVCD__SLICE]) {
+static NSVCD__NOINLINE void nsvcd__tell_gaps(const nsvcd__pairs *pairs,
+                                             const nsvcd__views *view, size_t count,
+                                             float (*facts)[NSVCD__SLICE]) {
   int8_t tips[2 * 3 * NSVCD__TIPS * NSVCD__SLICE];
   nsvcd__gap_axes axes;
   nsvcd__gap_axes_of(pairs, view, &axes);
-  nsvcd__tips_gather(pairs, count, tips);
+  nsvcd__tips_collect(pairs, count, tips);
   for (size_t m = 0; m < NSVCD__MOMENTS; m++) {
     const nsvcd__v tau = nsvcd__v_scale(view->time, (float)m - 1);
     nsvcd__v wide[NSVCD__GAPS];
@@ -482,9 +485,9 @@ typedef struct nsvcd__scenes {
 } nsvcd__scenes;
 
 // A slice of scenes, but for the facts about gaps.
-static NSVCD__APART void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
-                                                    const nsvcd__views *view,
-                                                    nsvcd__scenes *scene) {
+static NSVCD__NOINLINE void nsvcd__scenes_without_gaps(const nsvcd__pairs *pairs,
+                                                       const nsvcd__views *view,
+                                                       nsvcd__scenes *scene) {
   scene->turn[0] = nsvcd__vmat3_mul(view->frame, pairs->rotation);
   scene->turn[1] = view->frame;
   scene->k[0] = view->k1;
@@ -536,8 +539,9 @@ static void nsvcd__scenes_of(const nsvcd__pairs *pairs, size_t count, nsvcd__sce
 
 // The inputs of the decoder (appendix F) for the first `count` pairs of a slice, x (count,
 // DECODER_IN): vectors of the larger patch and of the other, their scalars, and the facts.
-static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
-                                          const nsvcd__pairs *pairs, size_t count, float *x) {
+static NSVCD__NOINLINE void nsvcd__inputs_in(const nsvcd__scenes *scene,
+                                             const nsvcd__pairs *pairs, size_t count,
+                                             float *x) {
   const nsvcd__v step = nsvcd__v_set(NSVCD__LATENT_STEP);
   float wigner[NSVCD__WIGNER][NSVCD__SLICE];
   for (size_t n = 0; n < 2; n++) {
@@ -554,7 +558,8 @@ static NSVCD__APART void nsvcd__inputs_in(const nsvcd__scenes *scene,
   }
 }
 
-static NSVCD__APART void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count, float *x) {
+static NSVCD__NOINLINE void nsvcd__invariants(const nsvcd__pairs *pairs, size_t count,
+                                              float *x) {
   nsvcd__scenes scene;
   nsvcd__scenes_of(pairs, count, &scene);
   nsvcd__inputs_in(&scene, pairs, count, x);

@@ -114,7 +114,7 @@ static nsvcd__d3 nsvcd__centroid(const nsvcd__triangle *t) {
 // about this share of the weight. Centroids decide: the cut is at the end of a bin across the
 // longest axis of their box. In a part triangles keep their order. Returns where the second begins.
 static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t end,
-                                   double share) {
+                                   double fraction) {
   nsvcd__d3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   nsvcd__d3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = first; i < end; i++) {
@@ -144,7 +144,7 @@ static size_t nsvcd__regions_split(const nsvcd__regions *r, size_t first, size_t
   uint32_t last_bin = 0;
   for (double sum = weights[0]; last_bin + 2 < NSVCD__REGION_BINS; last_bin++) {
     const double next = weights[last_bin + 1];
-    if (!(sum + 0.5 * next < share * all)) break;
+    if (!(sum + 0.5 * next < fraction * all)) break;
     sum += next;
   }
 
@@ -166,8 +166,8 @@ static void nsvcd__regions_part(nsvcd__regions *r, size_t first, size_t end, siz
   r->first[n] = first;
   if (parts == 1) return;
   const size_t left = parts / 2;
-  const double share = (double)left / (double)parts;
-  const size_t middle = nsvcd__regions_split(r, first, end, share);
+  const double fraction = (double)left / (double)parts;
+  const size_t middle = nsvcd__regions_split(r, first, end, fraction);
   nsvcd__regions_part(r, first, middle, left, n);
   nsvcd__regions_part(r, middle, end, parts - left, n + left);
 }

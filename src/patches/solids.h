@@ -310,7 +310,7 @@ static void nsvcd__peel(nsvcd__mending *m) {
 }
 
 // What is known of a part, of a whole, or of a wall.
-typedef struct nsvcd__part {
+typedef struct nsvcd__component {
   double area;
   // of its parts that enclose; and one of its parts does not
   double closed;
@@ -321,11 +321,11 @@ typedef struct nsvcd__part {
   int is_sheet;
   double holes, volume;
   nsvcd__d3 centre;  // times the area
-} nsvcd__part;
+} nsvcd__component;
 
 // Counts the odd edges, and the turned ones, of what is alive, by the roots of a forest.
 static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
-                               nsvcd__part *parts) {
+                               nsvcd__component *parts) {
   for (size_t i = 0, end; i < 3 * m->count; i = end) {
     const size_t group = m->groups[m->order[i]];
     size_t any = m->count;
@@ -344,7 +344,7 @@ static void nsvcd__judge_edges(const nsvcd__mending *m, const uint32_t *forest,
 
 // Sets walls aside: what edges of two join, if at all its other edges, of three, it has the least
 // area. Returns how many triangles. walls: (T) zeros, and so they are again.
-static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
+static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__component *walls) {
   size_t dropped = 0;
   nsvcd__join_triangles(m, 2, m->parts);
   for (size_t n = 0; n < m->count; n++) {
@@ -364,7 +364,7 @@ static size_t nsvcd__drop_walls(nsvcd__mending *m, nsvcd__part *walls) {
     if (least < m->count) walls[least].turned += m->degrees[group] % 2;
   }
   for (size_t n = 0; n < m->count; n++) {
-    const nsvcd__part *wall = &walls[m->parts[n]];
+    const nsvcd__component *wall = &walls[m->parts[n]];
     if (!m->alive[n] || wall->odd == 0 || wall->odd != wall->turned) continue;
     m->alive[n] = 0;
     dropped++;
@@ -426,7 +426,7 @@ static void nsvcd__measure_holes(const nsvcd__mending *m, const uint32_t *number
 // across a hole, as at the rim of a bin, of a tube, of a floor. A slit, as a corner on an edge
 // makes, is no hole; a single triangle counts for a part of itself; of larger holes only a surface
 // that is wound outwards is nearly a solid's, for else it is a room that has a door.
-static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
+static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__component *wholes,
                               const nsvcd_allocator *allocator) {
   const size_t vertices = m->topology->mesh->vertex_count;
   nsvcd__arena arena = nsvcd__arena_of(allocator);
@@ -453,7 +453,7 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
     nsvcd__measure_holes(m, numbers, holes, pass);
   for (size_t h = 0; !arena.failed && h < count; h++) {
     const nsvcd__hole *hole = &holes[h];
-    nsvcd__part *whole = &wholes[hole->whole];
+    nsvcd__component *whole = &wholes[hole->whole];
     const int is_slit = hole->area <= NSVCD__SLIT * hole->length * hole->length;
     const int is_flush = hole->flush >= NSVCD__FLUSH * hole->length;
     const int is_three = hole->edges == 3;
@@ -468,11 +468,11 @@ static int nsvcd__judge_holes(const nsvcd__mending *m, nsvcd__part *wholes,
 // ---- all of it
 
 // Areas of wholes, and what they hold as seen from their middle.
-static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) {
+static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__component *wholes) {
   for (size_t i = 0; i < 2 * m->count; i++) {
     const size_t n = i % m->count;
     if (!m->alive[n]) continue;
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    nsvcd__component *whole = &wholes[m->wholes[n]];
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
     const nsvcd__d3 normal = nsvcd__area_vector(&t);
     if (i == n) {
@@ -487,8 +487,8 @@ static void nsvcd__measure_wholes(const nsvcd__mending *m, nsvcd__part *wholes) 
 }
 
 // Which parts of what is left after peeling enclose something? Their triangles are marked.
-static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvcd__part *parts,
-                              nsvcd__solids *out) {
+static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__component *wholes,
+                              nsvcd__component *parts, nsvcd__solids *out) {
   nsvcd__judge_edges(m, m->parts, parts);
   for (size_t n = 0; n < m->count; n++) {
     const nsvcd__triangle t = nsvcd__mending_triangle(m, n);
@@ -496,8 +496,8 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
   }
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *part = &parts[m->parts[n]];
-    nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__component *part = &parts[m->parts[n]];
+    nsvcd__component *whole = &wholes[m->wholes[n]];
     const int is_most = part->area >= 0.5 * whole->area;
     const int kind = part->turned == 0           ? NSVCD__CLOSED
                      : part->odd == 0 && is_most ? NSVCD__EITHER_WAY
@@ -516,11 +516,11 @@ static void nsvcd__mark_parts(const nsvcd__mending *m, nsvcd__part *wholes, nsvc
 }
 
 // Counts the wholes, and marks what is nearly a solid. alive: before peeling.
-static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__part *wholes,
+static void nsvcd__mark_wholes(const nsvcd__mending *m, nsvcd__component *wholes,
                                nsvcd__solids *out) {
   for (size_t n = 0; n < m->count; n++) {
     if (!m->alive[n]) continue;
-    const nsvcd__part *whole = &wholes[m->wholes[n]];
+    const nsvcd__component *whole = &wholes[m->wholes[n]];
     uint8_t *kind = &out->kinds[m->triangles[n]];
     const int is_closed = !whole->fails && whole->closed >= 0.5 * whole->area;
     const int is_nearly = !whole->is_sheet && whole->holes < NSVCD__HOLES * whole->area;
@@ -549,8 +549,8 @@ static int nsvcd__mend(nsvcd__mending *m, nsvcd__arena *arena, nsvcd__solids *ou
   m->first = NSVCD__TAKE(arena, size_t, vertices + 1);
   m->spare = NSVCD__TAKE(arena, uint32_t, 3 * count);
   uint8_t *distinct = NSVCD__TAKE(arena, uint8_t, count);
-  nsvcd__part *wholes = NSVCD__TAKE(arena, nsvcd__part, count);
-  nsvcd__part *parts = NSVCD__TAKE(arena, nsvcd__part, count);
+  nsvcd__component *wholes = NSVCD__TAKE(arena, nsvcd__component, count);
+  nsvcd__component *parts = NSVCD__TAKE(arena, nsvcd__component, count);
   if (arena->failed) return 0;
   for (uint32_t v = 0; v < vertices; v++) m->joined[v] = v;
   nsvcd__group_edges(m);

@@ -12,7 +12,7 @@ static void nsvcd__by_differences(nsvcd__planner *p, const float *joints,
   float moved[NSVCD_MAX_JOINTS];
   memcpy(moved, joints, problem->joints * sizeof *moved);
   for (size_t j = 0; j < problem->joints; j++) {
-    moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_SHARE * fabsf(joints[j]));
+    moved[j] = joints[j] + (NSVCD__JOINT_STEP + NSVCD__JOINT_STEP_FRACTION * fabsf(joints[j]));
     const float step = moved[j] - joints[j];  // as rounded
     problem->place(problem->user, moved, p->moved);
     moved[j] = joints[j];
@@ -81,7 +81,7 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
   const nsvcd_plan_problem *problem = p->problem;
   const size_t f = problem->joints;
   const size_t all = stage->via + 2;
-  const float share = NSVCD__LIMIT_COST / (float)stage->moments;
+  const float fraction = NSVCD__LIMIT_COST / (float)stage->moments;
   // via points too: moments may be few, and miss one
   for (size_t k = f; k < f + stage->numbers && cost->joint == NSVCD_NONE; k++) {
     if (nsvcd__leaves_limits(problem, k % f, control[k])) cost->joint = k % f;
@@ -98,10 +98,10 @@ static void nsvcd__add_limits(nsvcd__planner *p, const nsvcd__stage *stage,
       const float inner = NSVCD__LIMIT_MARGIN * (high - low);
       float out = value > high - inner ? value - high + inner : 0;
       if (value < low + inner) out = value - low - inner;
-      cost->total += share * out * out;
+      cost->total += fraction * out * out;
       if (nsvcd__leaves_limits(problem, j, value)) cost->joint = j;
       for (size_t k = 0; gradient && k < all; k++)
-        gradient[k * f + j] += 2 * share * out * w[k];
+        gradient[k * f + j] += 2 * fraction * out * w[k];
     }
   }
 }

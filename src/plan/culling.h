@@ -160,8 +160,8 @@ static float nsvcd__logit_of(const nsvcd_answer *answer) {
 
 // The answer about pair k from moment `first` on, over so many segments: by the network, or, at the
 // end, by the method of the options. gradient: (segments + 1, 6), or NULL.
-static nsvcd_answer nsvcd__ask(nsvcd__planner *p, uint32_t k, size_t first, size_t segments,
-                               int at_end, float *gradient) {
+static nsvcd_answer nsvcd__ask_segments(nsvcd__planner *p, uint32_t k, size_t first,
+                                        size_t segments, int at_end, float *gradient) {
   const nsvcd_body_pair *pair = &p->problem->pairs[k];
   nsvcd_pose motion[NSVCD__FIRST_LOOK_SEGMENTS + 1];
   for (size_t n = 0; n <= segments; n++) {
@@ -219,7 +219,7 @@ static void nsvcd__add_segment(nsvcd__planner *p, uint32_t k, size_t s,
   float gradient[2 * 6];
   float slope;
   float *wanted = how->wrenches ? gradient : NULL;
-  const nsvcd_answer answer = nsvcd__ask(p, k, s, how->stride, how->at_end, wanted);
+  const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, how->stride, how->at_end, wanted);
   const float logit = nsvcd__logit_of(&answer);
   const int collides = answer.verdict != NSVCD_FREE;
   if (logit > cost->logit) {
@@ -257,7 +257,7 @@ static void nsvcd__add_pair(nsvcd__planner *p, uint32_t k, const nsvcd__asking *
       while (run < NSVCD__FIRST_LOOK_SEGMENTS && s + run < end && p->meets[s + run]) run++;
       seen = s + run;
       if (run > 1) {
-        const nsvcd_answer answer = nsvcd__ask(p, k, s, run, 0, NULL);
+        const nsvcd_answer answer = nsvcd__ask_segments(p, k, s, run, 0, NULL);
         if (nsvcd__logit_of(&answer) <= -p->options.margin) {
           s += run - 1;
           continue;

@@ -64,17 +64,17 @@ static void nsvcd__planner_begin(nsvcd__planner *p) {
 // some share of the way from the poses `from` (B) to the next ones, where those on the spline are
 // p->moved.
 static float nsvcd__pair_strays(const nsvcd__planner *p, const nsvcd_body_pair *pair,
-                                const nsvcd_pose *from, double share) {
+                                const nsvcd_pose *from, double fraction) {
   const nsvcd_pose *to = from + p->problem->body_count;
   const nsvcd__sphere *sphere = &p->shapes[pair->a].sphere;
   const nsvcd_pose start = nsvcd__relative_pose(&from[pair->a], &from[pair->b]);
   const nsvcd_pose end = nsvcd__relative_pose(&to[pair->a], &to[pair->b]);
   const nsvcd_pose there = nsvcd__relative_pose(&p->moved[pair->a], &p->moved[pair->b]);
   const nsvcd__d3 begin = nsvcd__d3_load(start.position);
-  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), share);
+  const nsvcd__d3 place = nsvcd__d3_mix(begin, nsvcd__d3_load(end.position), fraction);
   const nsvcd__quat q = nsvcd__quat_load(start.rotation);
   const nsvcd__quat r = nsvcd__quat_load(end.rotation);
-  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)share);
+  const nsvcd__quat checked = nsvcd__quat_slerp(q, r, (float)fraction);
   const nsvcd__quat is = nsvcd__quat_load(there.rotation);
   const nsvcd__transform at = {nsvcd__mat3_of(is), nsvcd__f3_load(there.position)};
   const nsvcd__transform was = {nsvcd__mat3_of(checked), nsvcd__d3_narrow(place)};
@@ -98,8 +98,8 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
   float most = 0;
   for (size_t n = 0; problem->bodies && n / looks * stride < segments; n++) {
     const size_t s = n / looks * stride;
-    const double share = (double)(n % looks + 1) / (double)(looks + 1);
-    const double t = ((double)s + share) / (double)segments;
+    const double fraction = (double)(n % looks + 1) / (double)(looks + 1);
+    const double t = ((double)s + fraction) / (double)segments;
     nsvcd_spline(control, p->check.via, problem->joints, (float)t, 0, joints);
     nsvcd__place(p, joints, 1, p->moved);
     if (p->error) break;
@@ -107,7 +107,7 @@ static float nsvcd__stray(nsvcd__planner *p, const float *control) {
       const nsvcd_body_pair *pair = &problem->pairs[k];
       const nsvcd_pose *from = p->poses + s * problem->body_count;
       if (problem->bodies[pair->a])
-        most = fmaxf(nsvcd__pair_strays(p, pair, from, share), most);
+        most = fmaxf(nsvcd__pair_strays(p, pair, from, fraction), most);
     }
   }
   return most;

@@ -37,7 +37,7 @@
 #define NSVCD__FIRST_LOOK_SEGMENTS 8
 // gradient by differences: a joint's step, and what it grows by with the joint's value
 #define NSVCD__JOINT_STEP 1e-3f
-#define NSVCD__JOINT_STEP_SHARE 1e-6f
+#define NSVCD__JOINT_STEP_FRACTION 1e-6f
 // explore: temperatures above the least cost at which a rollout weighs nothing
 #define NSVCD__WEIGHTLESS 10
 // explore: one in so many rollouts costs less than the least cost and two temperatures

@@ -58,8 +58,8 @@ static void nsvcd__block_load(const nsvcd__facets *f, size_t patch, size_t first
 }
 
 // Poses the corners of the moving block, into p->posed[which].
-static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
-                                           size_t which) {
+static NSVCD__NOINLINE void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transform *at,
+                                              size_t which) {
   for (size_t k = 0; k < 3; k++) {
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 corner = nsvcd__v3_load(p->moving_block.corners[k], l);
@@ -69,7 +69,7 @@ static NSVCD__APART void nsvcd__block_pose(nsvcd__proof *p, const nsvcd__transfo
 }
 
 // Of the moving block's corners. axis: unit, as the body has it.
-static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
+static nsvcd__arm nsvcd__block_arm(nsvcd__proof *p, nsvcd__f3 axis, float quantum) {
   nsvcd__v remote = nsvcd__v_set(0);
   nsvcd__v aside = remote;
   for (size_t k = 0; k < 3; k++) {
@@ -82,7 +82,7 @@ static nsvcd__lever nsvcd__block_lever(nsvcd__proof *p, nsvcd__f3 axis, float qu
   }
   const float reach = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(remote))) + quantum;
   const float radial = 1.00001f * sqrtf(-nsvcd__v_least(nsvcd__v_negate(aside))) + quantum;
-  const nsvcd__lever out = {reach, radial + 1e-6f * reach};
+  const nsvcd__arm out = {reach, radial + 1e-6f * reach};
   return out;
 }
 
@@ -173,9 +173,9 @@ static nsvcd__v nsvcd__margin_along(nsvcd__v3 n, float margin) {
 // Lanes of a slice, from s on, of a fixed block that planes with these normals, of any length, have
 // on one side of lane l of the moving one, at `ends` (1 or 2) poses, by more than `margin`. below:
 // the moving one is on the side that the normal points from.
-NSVCD__INLINE uint32_t nsvcd__normals_part(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
-                                           size_t s, size_t ends, float margin, nsvcd__v3 n,
-                                           uint32_t *below) {
+NSVCD__INLINE uint32_t nsvcd__normals_separate(nsvcd__proof *p, size_t l, nsvcd__block *fixed,
+                                               size_t s, size_t ends, float margin,
+                                               nsvcd__v3 n, uint32_t *below) {
   const nsvcd__v3 b0 = nsvcd__v3_load(fixed->corners[0], s);
   const nsvcd__v3 edge1 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[1], s), b0);
   const nsvcd__v3 edge2 = nsvcd__v3_sub(nsvcd__v3_load(fixed->corners[2], s), b0);
@@ -225,8 +225,8 @@ NSVCD__INLINE nsvcd__v3 nsvcd__normal_to_try(nsvcd__proof *p, size_t l, nsvcd__b
 }
 
 #ifdef NSVCD__CERTIFIES
-// All couples of lane l and the `apart` lanes of a block, by the planes of their slice, from s on,
-// or, where that is NULL, by their boxes.
+// All triangle pairs of lane l and the `apart` lanes of a block, by the planes of their slice, from
+// s on, or, where that is NULL, by their boxes.
 static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
                                  const nsvcd__block *b, const nsvcd__span *span,
                                  uint32_t apart, size_t s, const nsvcd__v3 *plane,
@@ -258,20 +258,20 @@ static void nsvcd__certify_block(nsvcd__proof *p, size_t i, size_t j, size_t l,
 #define NSVCD__CERTIFY_BLOCK(p, i, j, l, b, span, apart, s, plane, below) ((void)0)
 #endif
 
-// Of these lanes of a fixed block, those that the plane which parted a couple last does not part
-// from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where there is a
-// clearance it parts many: triangles near by have their nearest points along nearly the same
-// direction.
-static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                                 nsvcd__block *fixed, size_t ends,
-                                                 const nsvcd__span *span, float margin,
-                                                 uint32_t met) {
-  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.parting));
+// Of these lanes of a fixed block, those that the plane which separated a triangle pair last does
+// not separate from lane l of the moving one as well, by more than `margin`, at `ends` poses. Where
+// there is a clearance it parts many: triangles near by have their nearest points along nearly the
+// same direction.
+static NSVCD__NOINLINE uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                    size_t l, nsvcd__block *fixed, size_t ends,
+                                                    const nsvcd__span *span, float margin,
+                                                    uint32_t met) {
+  const nsvcd__v3 normal = nsvcd__v3_set(nsvcd__f3_round(p->memo.separating));
   NSVCD__EACH_SLICE(s) {
     uint32_t below;
     if (!(met >> s & NSVCD__SLICE_MASK)) continue;
     const uint32_t apart =
-        nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+        nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
     if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
     met &= ~apart;
   }
@@ -280,13 +280,13 @@ static NSVCD__APART uint32_t nsvcd__left_by_last(nsvcd__proof *p, size_t i, size
   return met;
 }
 
-// Of these lanes of the moving block, those that the plane which parted a couple last does not part
-// from all of a fixed block, by more than `margin`, at `ends` poses.
-static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
-                                                       nsvcd__block *fixed, size_t ends,
-                                                       const nsvcd__span *span, float margin,
-                                                       uint32_t lanes) {
-  const nsvcd__f3 last = nsvcd__f3_round(p->memo.parting);
+// Of these lanes of the moving block, those that the plane which separated a triangle pair last
+// does not separate from all of a fixed block, by more than `margin`, at `ends` poses.
+static NSVCD__NOINLINE uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i, size_t j,
+                                                          nsvcd__block *fixed, size_t ends,
+                                                          const nsvcd__span *span,
+                                                          float margin, uint32_t lanes) {
+  const nsvcd__f3 last = nsvcd__f3_round(p->memo.separating);
   const nsvcd__v3 normal = nsvcd__v3_set(last);
   if (!(p->ask.clearance > 0) || !lanes) return lanes;
   float lowest = HUGE_VALF;  // of the fixed block's heights, negated
@@ -317,11 +317,11 @@ static NSVCD__APART uint32_t nsvcd__lanes_left_by_last(nsvcd__proof *p, size_t i
   return lanes & ~apart;
 }
 
-// Lanes of a fixed block that neither boxes nor planes part from lane l of the moving one, at
+// Lanes of a fixed block that neither boxes nor planes separate from lane l of the moving one, at
 // `ends` poses. span: of patches i and j, for the certificates; NULL for none.
-static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                             nsvcd__block *fixed, size_t ends,
-                                             const nsvcd__span *span, float margin) {
+static NSVCD__NOINLINE uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                                nsvcd__block *fixed, size_t ends,
+                                                const nsvcd__span *span, float margin) {
   uint32_t met = nsvcd__lanes_near(fixed, nsvcd__box_of_lane(&p->moving_block, l), margin);
   if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, ~met, 0, NULL, 0);
   if (p->ask.clearance > 0)
@@ -332,7 +332,7 @@ static NSVCD__APART uint32_t nsvcd__row_left(nsvcd__proof *p, size_t i, size_t j
       if (!(met >> s & NSVCD__SLICE_MASK)) continue;
       const nsvcd__v3 normal = nsvcd__normal_to_try(p, l, fixed, s, ends, k);
       const uint32_t apart =
-          nsvcd__normals_part(p, l, fixed, s, ends, margin, normal, &below) << s & met;
+          nsvcd__normals_separate(p, l, fixed, s, ends, margin, normal, &below) << s & met;
       if (span) NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, apart, s, &normal, below << s);
       met &= ~apart;
     }

@@ -1,7 +1,7 @@
 // In: two bodies that do not touch at a time. Out: is a component of one inside the other? By rays,
 // in double.
 #pragma once
-#include "couples.h"
+#include "triangle_pairs.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
@@ -314,9 +314,9 @@ static uint32_t nsvcd__seeds_near(const nsvcd__facets *inner, size_t first,
 
 // The pose that takes the fixed body's frame to the moving one's, which is of this scale: rows are
 // those of the inverse rotation, over it.
-static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, double scale) {
+static nsvcd__dtransform nsvcd__inverse_dtransform(const nsvcd__dtransform *at, double scale) {
   const double inverse = 1 / (scale * scale);
-  nsvcd__placement out;
+  nsvcd__dtransform out;
   const nsvcd__dmat3 transpose = nsvcd__dmat3_transpose(at->rotation);
   out.rotation = nsvcd__dmat3_scale(&transpose, inverse);
   out.position = nsvcd__d3_scale(nsvcd__dmat3_apply(&out.rotation, at->position), -1);
@@ -327,9 +327,9 @@ static nsvcd__placement nsvcd__inverse_placement(const nsvcd__placement *at, dou
 typedef struct nsvcd__enclosure {
   const nsvcd__facets *inner, *outer;
   // of the inner body in the outer one's frame, the same rounded, and the other way round
-  nsvcd__placement start;
+  nsvcd__dtransform start;
   nsvcd__transform rounded;
-  nsvcd__placement back;
+  nsvcd__dtransform back;
   float scale;  // of the inner body, in that frame
   // of that frame: the fixed body's units
   double unit;
@@ -346,7 +346,7 @@ static int nsvcd__encloses_seeds(nsvcd__proof *p, const nsvcd__enclosure *e, siz
     const size_t l = (n - first) % NSVCD__LANES;
     if (l == 0) nearby = nsvcd__seeds_near(e->inner, n, &e->rounded, e->scale, e->outer);
     if (!(nearby >> l & 1)) continue;
-    if (nsvcd__is_spent(p)) {
+    if (nsvcd__is_exhausted(p)) {
       p->unclear = 1;
       return 0;
     }
@@ -390,10 +390,10 @@ static int nsvcd__encloses_any(nsvcd__proof *p, const nsvcd__enclosure *e) {
 // point. Where that is so close to the surface that what that is off by matters, 0 is returned and
 // p->within is set: if planes then separate all patches at t = 0, the point, the surface that was
 // looked at and the true one, patch by patch on one side of a plane, agree, and it is within.
-static NSVCD__APART int nsvcd__starts_within(nsvcd__proof *p) {
+static NSVCD__NOINLINE int nsvcd__starts_within(nsvcd__proof *p) {
   nsvcd__enclosure moving, fixed;
-  moving.start = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
-  moving.back = nsvcd__inverse_placement(&moving.start, p->arc.scale);
+  moving.start = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
+  moving.back = nsvcd__inverse_dtransform(&moving.start, p->arc.scale);
   moving.rounded = nsvcd__transform_of(&moving.start);
   moving.inner = fixed.outer = &p->moving;
   moving.outer = fixed.inner = &p->fixed;

@@ -1,4 +1,5 @@
-// In: items, a slice at a time. Out: those that a plane along a disc's normal does not part.
+// In: patch pairs, a slice at a time. Out: those that a plane along a disc's normal does not
+// separate.
 #pragma once
 #include "../interface/plans.h"
 #include "../search/search.h"
@@ -77,11 +78,11 @@ typedef struct nsvcd__v_approach {
   nsvcd__v fixed_off;
 } nsvcd__v_approach;
 
-// Lanes in which planes part two bodies: the moving side is below, or above.
-typedef struct nsvcd__v_parted {
+// Lanes in which planes separate two bodies: the moving side is below, or above.
+typedef struct nsvcd__v_separated {
   nsvcd__v3 plane;  // its normal
   uint32_t below, above;
-} nsvcd__v_parted;
+} nsvcd__v_separated;
 
 // Along a plane's normal: what a moving point may be off by, and the clearance.
 NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane) {
@@ -89,9 +90,9 @@ NSVCD__INLINE nsvcd__v nsvcd__v_off(const nsvcd__v_approach *a, nsvcd__v3 plane)
   return nsvcd__v_add(allowed, nsvcd__v_deviation(&a->span, plane, a->reach));
 }
 
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range moving,
-                                            nsvcd__v_range fixed, nsvcd__v off) {
-  nsvcd__v_parted out;
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate(nsvcd__v3 plane, nsvcd__v_range moving,
+                                                   nsvcd__v_range fixed, nsvcd__v off) {
+  nsvcd__v_separated out;
   out.plane = plane;
   out.below = nsvcd__v_lt(moving.high, nsvcd__v_sub(fixed.low, off));
   out.above = nsvcd__v_lt(nsvcd__v_add(fixed.high, off), moving.low);
@@ -99,7 +100,7 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part(nsvcd__v3 plane, nsvcd__v_range movi
 }
 
 // By planes normal to the resting discs.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a) {
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_fixed(const nsvcd__v_approach *a) {
   const nsvcd__v3 plane = a->fixed.normal;
   const nsvcd__v_range fixed = {a->fixed.low, a->fixed.high};
   const nsvcd__v_range start = nsvcd__v_disc_range(&a->moving, a->at_start);
@@ -111,12 +112,12 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_fixed(const nsvcd__v_approach *a)
       nsvcd__v_min(nsvcd__v_add(height, start.low), nsvcd__v_add(height_end, end.low));
   moving.high =
       nsvcd__v_max(nsvcd__v_add(height, start.high), nsvcd__v_add(height_end, end.high));
-  return nsvcd__v_part(plane, moving, fixed, a->fixed_off);
+  return nsvcd__v_separate(plane, moving, fixed, a->fixed_off);
 }
 
 // By planes normal to the mean w of the moving discs' normals. |w| <= 1. Both normals make the same
 // angle with w: along it they are |w|^2, across it no more than |turned|.
-NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a) {
+NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_approach *a) {
   const nsvcd__v3 w = a->mean;
   const nsvcd__v along = nsvcd__v_mul(a->scale, nsvcd__v3_dot(w, w));
   const nsvcd__v across = nsvcd__v_mul(a->scale, nsvcd__v3_length(a->turned));
@@ -126,12 +127,12 @@ NSVCD__INLINE nsvcd__v_parted nsvcd__v_part_by_moving(const nsvcd__v_approach *a
   nsvcd__v_range moving;
   moving.low = nsvcd__v_add(nsvcd__v_min(height, height_end), own.low);
   moving.high = nsvcd__v_add(nsvcd__v_max(height, height_end), own.high);
-  return nsvcd__v_part(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
+  return nsvcd__v_separate(w, moving, nsvcd__v_disc_range(&a->fixed, w), nsvcd__v_off(a, w));
 }
 
 #ifdef NSVCD__CERTIFIES
 // Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parted, size_t l,
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *parted, size_t l,
                                 const nsvcd__span *span) {
   float lanes[3][NSVCD__LANES];
   float normal[3];
@@ -145,8 +146,8 @@ static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_parted *parte
 // segment `first`.
 static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *search, size_t g,
                                   size_t h, size_t first, uint32_t apart,
-                                  const nsvcd__v_parted *by_fixed,
-                                  const nsvcd__v_parted *by_moving) {
+                                  const nsvcd__v_separated *by_fixed,
+                                  const nsvcd__v_separated *by_moving) {
   for (; apart; apart &= apart - 1) {
     const size_t l = nsvcd__low_bit(apart);
     const nsvcd__span span = nsvcd__span_of_segment(p->ask.motion, search, first + l);
@@ -173,9 +174,10 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
   return lanes >> l & (((uint32_t)1 << NSVCD__SLICE) - 1);
 }
 
-// Lanes of `wanted` that are not parted: pairs of moving patches from the i-th on and patch j.
-static inline uint32_t nsvcd__not_parted(size_t i, size_t j, const nsvcd__span *span,
-                                         const nsvcd__v_parted *parted, uint32_t wanted) {
+// Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
+static inline uint32_t nsvcd__not_separated(size_t i, size_t j, const nsvcd__span *span,
+                                            const nsvcd__v_separated *parted,
+                                            uint32_t wanted) {
   const uint32_t apart = (parted->above | parted->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
     const size_t l = nsvcd__low_bit(k);
@@ -211,8 +213,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_way(c, l);
     a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
-    nsvcd__v_parted parted = nsvcd__v_part_by_fixed(&a);
-    wanted = nsvcd__not_parted(i, j, span, &parted, wanted);
+    nsvcd__v_separated parted = nsvcd__v_separate_by_fixed(&a);
+    wanted = nsvcd__not_separated(i, j, span, &parted, wanted);
     if (!wanted) continue;
     // rotations in a span are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
@@ -220,8 +222,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    parted = nsvcd__v_part_by_moving(&a);
-    left |= nsvcd__not_parted(i, j, span, &parted, wanted) << l;
+    parted = nsvcd__v_separate_by_moving(&a);
+    left |= nsvcd__not_separated(i, j, span, &parted, wanted) << l;
   }
   return left;
 }
@@ -229,7 +231,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
 // Clears the segments in which discs part the moving group that is searched, whose chords are in
 // search->group, from the resting ones that it meets: 16 segments at a time. The planes are those
 // of single discs, with all in lanes but the discs.
-static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__separate_groups(const nsvcd__proof *p,
+                                                   nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const size_t next = search->order[search->step];
@@ -270,8 +273,8 @@ static NSVCD__APART void nsvcd__part_groups(const nsvcd__proof *p, nsvcd__search
       a.at_end = nsvcd__v3_add(a.at_start, nsvcd__vmat3_apply_transpose(turn, n));
       a.turned = nsvcd__v3_scale(nsvcd__vmat3_apply(turn, m), half);
       a.mean = nsvcd__v3_fma(whole, nsvcd__vmat3_apply(rotation, m), a.turned);
-      const nsvcd__v_parted by_fixed = nsvcd__v_part_by_fixed(&a);
-      const nsvcd__v_parted by_moving = nsvcd__v_part_by_moving(&a);
+      const nsvcd__v_separated by_fixed = nsvcd__v_separate_by_fixed(&a);
+      const nsvcd__v_separated by_moving = nsvcd__v_separate_by_moving(&a);
       const uint32_t either =
           by_fixed.below | by_fixed.above | by_moving.below | by_moving.above;
       *met &= ~((uint64_t)(either & wanted) << first);

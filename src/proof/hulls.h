@@ -1,4 +1,4 @@
-// In: an item and a span. Out: is there a plane between the two hulls, over all of the span?
+// In: a patch pair and a span. Out: is there a plane between the two hulls, over all of the span?
 #pragma once
 #include "spans.h"
 
@@ -108,11 +108,11 @@ static void nsvcd__remember_plane(nsvcd__memo *memo, nsvcd__f3 normal) {
 // iteration (1966) from there towards the point nearest to 0 of the differences of the two hulls.
 // p->memo.held is the one that held.
 #define NSVCD__GUESSES 4
-static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
-                                               const nsvcd__span *span) {
+static NSVCD__NOINLINE int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t j,
+                                                  const nsvcd__span *span) {
   const float slacks = p->ask.motion->scale * p->moving.slacks[i] + p->fixed.slacks[j];
   const float slack = slacks + span->rounding + nsvcd__clearance(p);
-  const nsvcd__lever lever = nsvcd__patch_lever(&p->moving, i, span);
+  const nsvcd__arm arm = nsvcd__patch_arm(&p->moving, i, span);
   NSVCD__EACH_SLICE(l) {
     const nsvcd__v3 moving = nsvcd__hull_of(&p->moving, i, l);
     nsvcd__v3_store(p->hull_start, l, nsvcd__v3_transform(&span->start, moving));
@@ -138,15 +138,16 @@ static NSVCD__APART int nsvcd__hulls_are_apart(nsvcd__proof *p, size_t i, size_t
     const nsvcd__f3 normal = step < NSVCD__GUESSES ? guesses[step] : nearest;
     const nsvcd__support found = nsvcd__support_along(p, normal);
     const float length = nsvcd__f3_length(normal);
-    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation(span, normal, lever)) {
+    if (found.gap > 0 && found.gap > slack * length + nsvcd__deviation_of(span, normal, arm)) {
       nsvcd__remember_plane(&p->memo, normal);
       return 1;
     }
     if (step + 1 < NSVCD__GUESSES) continue;
     const nsvcd__f3 way = nsvcd__f3_sub(found.difference, nearest);
     const float square = nsvcd__f3_dot(way, way);
-    const float share = square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
-    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, share));
+    const float fraction =
+        square > 0 ? nsvcd__clamp01(-nsvcd__f3_dot(nearest, way) / square) : 0;
+    const nsvcd__f3 nearer = nsvcd__f3_add(nearest, nsvcd__f3_scale(way, fraction));
     nearest = step < NSVCD__GUESSES ? found.difference : nearer;
     // these hulls come this near
     if (nsvcd__f3_dot(nearest, nearest) <= slack * slack) return 0;

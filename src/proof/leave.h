@@ -35,7 +35,7 @@ static int nsvcd__is_against(nsvcd__d3 n, const nsvcd__touch *t) {
 // Takes a direction, unit, that is better than the best so far: that undoes more; of equals, that
 // goes less far; and of those that go as far, that more faces say.
 static void nsvcd__try_lift(const nsvcd__proof *p, nsvcd__d3 n, nsvcd__undoing *best) {
-  const double same = nsvcd__hair(p) + 0.01 * nsvcd__max(best->way, 0);
+  const double same = nsvcd__epsilon(p) + 0.01 * nsvcd__max(best->way, 0);
   nsvcd__undoing by = {n, 0, 0, -HUGE_VAL};
   if (best->count > 0 && nsvcd__d3_dot(n, best->n) > 0.99999) return;
   for (size_t k = 0; k < p->touch_count; k++) {
@@ -64,7 +64,7 @@ static nsvcd__undoing nsvcd__best_lift(const nsvcd__proof *p) {
     for (size_t i = 0; i < 3; i++) nsvcd__try_lift(p, p->of.touches[k].ways[i], &best);
   }
   // an edge on an edge
-  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__hair(p); k++) {
+  for (size_t k = 0; k < 9 * p->touch_count && best.way > nsvcd__epsilon(p); k++) {
     const nsvcd__touch *t = &p->of.touches[k / 9];
     const nsvcd__d3 n = nsvcd__across_edges(t->moving, t->fixed, k % 9);
     const nsvcd__d3 out = nsvcd__d3_add(t->ways[0], t->ways[1]);
@@ -115,10 +115,11 @@ static nsvcd__d3 nsvcd__lift_off(const nsvcd__proof *p, double least, int by_dep
 }
 
 // Lifts what rests off what it touches: by nothing at first, and whenever something touches when so
-// lifted, by more, until nothing does. Triangles smaller than the skin can be parted along a wall
-// that others of them stay in touch with, and there may be too many touches to look at together: so
-// what has been found is tried. If there is no way off all that was found, then what was found
-// first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way off.
+// lifted, by more, until nothing does. Triangles smaller than the skin can be separated along a
+// wall that others of them stay in touch with, and there may be too many touches to look at
+// together: so what has been found is tried. If there is no way off all that was found, then what
+// was found first may have been the wrong way, and is forgotten, once. Returns 0 if there is no way
+// off.
 static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   p->normal_count = 0;
   still->lift = nsvcd__f3_of(0, 0, 0);
@@ -128,7 +129,7 @@ static int nsvcd__lift_still(nsvcd__proof *p, nsvcd__search *search, nsvcd__moti
   const double near_by = nsvcd__min(0.05 * p->ask.skin, 0.02 * size);
   double beside = nsvcd__max(near_by, nsvcd__min(p->given.to, 0.5 * p->ask.skin));
   for (int turns = 0;; beside = 0.01 * p->ask.skin) {
-    p->ask.clearance = p->given.clearance + beside + nsvcd__hair(p);
+    p->ask.clearance = p->given.clearance + beside + nsvcd__epsilon(p);
     (void)nsvcd__prove_anew(p, search);
     if (p->touch_count == 0) return 1;
     const size_t known = p->normal_count;
@@ -162,7 +163,7 @@ static size_t nsvcd__way_of(const nsvcd__proof *p, const nsvcd__touch *t) {
 // free soon: so that little more doubles as long as the depth grows.
 static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion *still) {
   const nsvcd__f3 lift = still->lift;
-  const double least_more = 0.5 * nsvcd__hair(p);
+  const double least_more = 0.5 * nsvcd__epsilon(p);
   double more = least_more;
   p->ask.clearance = p->given.clearance;
   for (int round = 0; round < NSVCD__DEEPEN; round++) {
@@ -185,11 +186,11 @@ static void nsvcd__deepen(nsvcd__proof *p, nsvcd__search *search, nsvcd__motion 
 
 // Lifts the motion off what it touches at its start, by the skin. Where something is in the way of
 // that, and nothing is too deep, by what is needed.
-static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *whole = p->ask.motion;
   nsvcd__motion start = nsvcd__end_of(whole, 0);
   p->ask.motion = &start;
-  p->ask.gathers = NSVCD__TOUCHING;
+  p->ask.collects = NSVCD__TOUCHING;
   p->ask.skin = p->given.skin;
   p->by_faces = 0;
   p->needed = 0;
@@ -200,13 +201,13 @@ static NSVCD__APART void nsvcd__lift_motion(nsvcd__proof *p, nsvcd__search *sear
     p->needed = 0;
     is_free = nsvcd__lift_still(p, search, &start);
   }
-  const double least = 1.1 * p->needed + 4 * nsvcd__hair(p);
+  const double least = 1.1 * p->needed + 4 * nsvcd__epsilon(p);
   if (!is_free && p->touch_count == 0 && least < 0.9 * p->given.skin) {
     p->ask.skin = least;
     is_free = nsvcd__lift_still(p, search, &start);
   }
   if (is_free && p->normal_count > 0) nsvcd__deepen(p, search, &start);
-  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.collects = NSVCD__CONTACTS;
   p->ask.clearance = p->given.clearance;
   p->ask.motion = whole;
   whole->lift = is_free ? start.lift : nsvcd__f3_of(0, 0, 0);

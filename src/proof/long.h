@@ -6,7 +6,7 @@
 // intervals are; containment is decided once, at t = 0, for what is inside of what later on, and
 // not then, has crossed a surface in between. A contact in any interval answers a yes or no: so
 // the ends of the motion, where most are, are looked at first. The first contact is in the first
-// interval that has one; what could not be settled before is the end of what is proven, and from
+// interval that has one; what could not be resolved before is the end of what is proven, and from
 // there on it is only asked whether they meet at all. The least distance is found as contacts lower
 // it: later intervals need only stay beyond.
 //
@@ -32,9 +32,9 @@ static nsvcd__pace nsvcd__first_interval(nsvcd__motion *motion, nsvcd__search *s
 // Chooses the one that comes after: larger where those before took little, with segments that turn
 // less where the one before took much; where a try was in vain, a part of it.
 static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, uint32_t until,
-                                 int is_settled, size_t units, nsvcd__pace *pace) {
+                                 int is_resolved, size_t units, nsvcd__pace *pace) {
   uint32_t arcs = motion->arcs;
-  if (!is_settled) {
+  if (!is_resolved) {
     arcs = arcs > NSVCD__SMALLER ? arcs / NSVCD__SMALLER : 1;
     if (arcs == 1 && pace->wait < NSVCD__WAIT) pace->wait *= 2;
     pace->easy = 0;
@@ -46,7 +46,7 @@ static void nsvcd__next_interval(nsvcd__motion *motion, nsvcd__search *search, u
     if (pace->easy >= pace->wait) arcs = NSVCD__LARGER;
     motion->is_fine = units > NSVCD__TRY;
   }
-  if (is_settled) motion->from = until;
+  if (is_resolved) motion->from = until;
   if (motion->from < motion->ticks) nsvcd__choose_interval(motion, search, motion->from, arcs);
 }
 
@@ -60,33 +60,33 @@ static float nsvcd__apart_until(const nsvcd__proof *p, uint32_t until) {
 // Searches an interval, or tries a larger one. share: as p->ask.share, of an interval; 0: any
 // contact will do.
 static nsvcd__outcome nsvcd__prove_interval(nsvcd__proof *p, nsvcd__search *search,
-                                            double share) {
+                                            double fraction) {
   const int is_try = p->ask.motion->arcs > 1;
   p->ask.is_brief = is_try;
-  p->ask.share = is_try ? 0 : share;
-  p->ask.in_doubt = share > 0 ? NSVCD__FIRST_DOUBT : p->given.aside;
+  p->ask.fraction = is_try ? 0 : fraction;
+  p->ask.after_unresolved = fraction > 0 ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
   p->ask.limit = is_try ? nsvcd__limit_after(p, NSVCD__TRY) : p->ask.most;
-  if (p->ask.share > 0) return nsvcd__prove_first(p, search);
+  if (p->ask.fraction > 0) return nsvcd__prove_first(p, search);
   return nsvcd__prove_motion(p, search);
 }
 
 // A look at the ends of a motion.
 static int nsvcd__meets_at_ends(nsvcd__proof *p, nsvcd__search *search) {
-  const size_t share = p->given.aside;
-  const size_t units = share < NSVCD__LOOK ? share : NSVCD__LOOK;
+  const size_t fraction = p->given.aside;
+  const size_t units = fraction < NSVCD__LOOK ? fraction : NSVCD__LOOK;
   return nsvcd__meets_at(p, search, 0, units) || nsvcd__meets_at(p, search, 1, units);
 }
 
 // A motion interval by interval, until a contact answers. What is known in the end is that of the
-// first interval that was not settled, and a contact.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
-                                                          nsvcd__search *search) {
+// first interval that was not resolved, and a contact.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
+                                                             nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
-  const double asked = p->ask.share;
-  nsvcd__outcome outcome = NSVCD__SETTLED;
+  const double asked = p->ask.fraction;
+  nsvcd__outcome outcome = NSVCD__RESOLVED;
   nsvcd__known open = p->known;
   double end = NSVCD__NEVER;
-  double share = asked;
+  double fraction = asked;
   int is_open = 0;
   if (!(asked > 0) && nsvcd__meets_at_ends(p, search)) return NSVCD__ANSWERED;
   nsvcd__pace pace = nsvcd__first_interval(motion, search);
@@ -96,47 +96,48 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_intervals(nsvcd__proof *p,
     const size_t before = p->work;
     if (p->given.grows) p->ask.most = p->work + p->given.work;
     nsvcd__proof_restart(p);
-    outcome = NSVCD__SETTLED;
+    outcome = NSVCD__RESOLVED;
     if (!(nsvcd__apart_until(p, until) > nsvcd__clearance(p)))
-      outcome = nsvcd__prove_interval(p, search, share);
-    const int is_settled = outcome == NSVCD__SETTLED && !(p->known.unsure < NSVCD__NEVER);
-    const int has_contact = p->known.has_contact && !(is_try && share > 0);
+      outcome = nsvcd__prove_interval(p, search, fraction);
+    const int is_resolved =
+        outcome == NSVCD__RESOLVED && !(p->known.unresolved < NSVCD__NEVER);
+    const int has_contact = p->known.has_contact && !(is_try && fraction > 0);
     if (is_open && has_contact) {
       open.has_contact = 1;
       open.found = p->known.found;
     }
-    if (!is_open && !is_try && !is_settled && !has_contact) {
+    if (!is_open && !is_try && !is_resolved && !has_contact) {
       open = p->known;
       end = p->ask.end;
       is_open = 1;
-      share = 0;
+      fraction = 0;
     }
     if (has_contact || (is_open && !p->given.grows && p->work > p->ask.most)) break;
-    nsvcd__next_interval(motion, search, until, is_settled || !is_try, p->work - before,
+    nsvcd__next_interval(motion, search, until, is_resolved || !is_try, p->work - before,
                          &pace);
   }
   p->ask.is_brief = 0;
-  p->ask.share = asked;
+  p->ask.fraction = asked;
   if (!is_open) return outcome;
   p->known = open;
   p->ask.end = end;
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
+static nsvcd__finding nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__motion *motion = p->ask.motion;
-  const int in_order = p->ask.share > 0;
+  const int in_order = p->ask.fraction > 0;
   const float lifted = nsvcd__f3_length(motion->lift);
   const float apart = p->given.lengths + nsvcd__clearance(p) + 1.0001f * lifted;
   nsvcd__outcome outcome;
   p->ask.limit = p->given.work;
-  p->ask.in_doubt = in_order ? NSVCD__FIRST_DOUBT : p->given.aside;
-  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FREE;
+  p->ask.after_unresolved = in_order ? NSVCD__AFTER_FIRST_UNRESOLVED : p->given.aside;
+  if (nsvcd__motion_gap(motion) > apart) return NSVCD__FOUND_FREE;
   const int is_long = nsvcd__is_long(motion, search);
   if (nsvcd__starts_within(p)) {
     // a hit, whatever else; who asks for more than that is told of triangles, if some meet as well
     const int meets = p->given.tells && nsvcd__meets_at(p, search, 0, NSVCD__GLANCE);
-    return meets ? NSVCD__MEETS : nsvcd__is_within(p);
+    return meets ? NSVCD__FOUND_CONTACT : nsvcd__is_within(p);
   }
   if (is_long)
     outcome = nsvcd__prove_intervals(p, search);
@@ -145,19 +146,19 @@ static nsvcd__verdict nsvcd__prove(nsvcd__proof *p, nsvcd__search *search) {
   else
     outcome = nsvcd__prove_and_look(p, search, p->given.work);
   const double clear = nsvcd__clear_until(p);
-  if (outcome == NSVCD__ANSWERED) return NSVCD__MEETS;
+  if (outcome == NSVCD__ANSWERED) return NSVCD__FOUND_CONTACT;
   if (p->within && clear > 0) return nsvcd__is_within(p);
-  if (p->known.has_contact) return NSVCD__MEETS;
-  if (p->known.unsure < NSVCD__NEVER) p->known.found = p->known.doubt;
-  return clear < NSVCD__NEVER ? NSVCD__UNDECIDED : NSVCD__FREE;
+  if (p->known.has_contact) return NSVCD__FOUND_CONTACT;
+  if (p->known.unresolved < NSVCD__NEVER) p->known.found = p->known.unresolved_pair;
+  return clear < NSVCD__NEVER ? NSVCD__FOUND_NEITHER : NSVCD__FOUND_FREE;
 }
 
 // ---- the least distance
 
 // The same interval by interval. What was named is divided by time: of what is left the share that
 // an interval has of the rest of the motion.
-static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
-                                                 double finest, nsvcd__pace *pace) {
+static NSVCD__NOINLINE void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search *search,
+                                                    double finest, nsvcd__pace *pace) {
   nsvcd__motion *motion = p->ask.motion;
   const size_t most = p->ask.most;
   const size_t work = p->given.work;
@@ -167,8 +168,8 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
   while (motion->from < motion->ticks) {
     const uint32_t until = search->begin[search->segments];
     const size_t before = p->work;
-    const int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
-    int is_settled = 1;
+    const int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
+    int is_resolved = 1;
     if (!p->given.grows) {
       const double rest =
           (double)(until - motion->from) / (double)(motion->ticks - motion->from);
@@ -181,14 +182,14 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
       if (motion->arcs > 1) {
         p->ask.measure = finest;
         p->ask.limit = nsvcd__limit_after(p, NSVCD__TRY);
-        is_settled = nsvcd__measure_once(p, search);
+        is_resolved = nsvcd__measure_once(p, search);
       } else {
         nsvcd__narrow(p, search, finest);
       }
     }
-    if (is_settled) low = nsvcd__min(low, p->low);
+    if (is_resolved) low = nsvcd__min(low, p->low);
     is_wide |= p->wide;
-    nsvcd__next_interval(motion, search, until, is_settled, p->work - before, pace);
+    nsvcd__next_interval(motion, search, until, is_resolved, p->work - before, pace);
   }
   p->given.work = work;
   p->ask.most = most;
@@ -198,13 +199,13 @@ static NSVCD__APART void nsvcd__narrow_intervals(nsvcd__proof *p, nsvcd__search 
 
 // Brackets the least distance over the motion, when it is known whether they come within the
 // clearance that is asked for.
-static NSVCD__APART void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
-                                        nsvcd__verdict verdict, double finest) {
+static NSVCD__NOINLINE void nsvcd__measure(nsvcd__proof *p, nsvcd__search *search,
+                                           nsvcd__finding verdict, double finest) {
   nsvcd__motion *motion = p->ask.motion;
-  int is_named = p->known.has_contact || p->known.unsure < NSVCD__NEVER;
+  int is_named = p->known.has_contact || p->known.unresolved < NSVCD__NEVER;
   const float lifted = nsvcd__f3_length(motion->lift);
   const float gap = nsvcd__motion_gap(motion) - p->given.lengths - 1.0001f * lifted;
-  p->low = nsvcd__max(verdict == NSVCD__FREE ? p->given.clearance : 0, (double)gap);
+  p->low = nsvcd__max(verdict == NSVCD__FOUND_FREE ? p->given.clearance : 0, (double)gap);
   const int is_long = nsvcd__is_long(motion, search);
   nsvcd__pace pace = {0, 0};
   if (is_long) pace = nsvcd__first_interval(motion, search);

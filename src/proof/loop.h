@@ -1,9 +1,9 @@
-// In: a question, and a motion that has been cut into segments. Out: all of it settled, or a
+// In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
 // contact that answers the question, or the work spent.
 #pragma once
 #include "containment.h"
 #include "discs.h"
-#include "items.h"
+#include "patch_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
 // Segments that are searched now, and still matter.
@@ -15,10 +15,10 @@ static uint64_t nsvcd__segments_that_matter(const nsvcd__proof *p,
   return s == 64 ? search->wanted : search->wanted & (((uint64_t)1 << s) - 1);
 }
 
-// Adds the items of moving group g and resting patch j in the segments `left`, and clears these, as
-// long as there is room for 16 more.
-static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, size_t g,
-                                 size_t j, uint64_t *left) {
+// Adds the patch pairs of moving group g and resting patch j in the segments `left`, and clears
+// these, as long as there is room for 16 more.
+static void nsvcd__add_patch_pairs(nsvcd__proof *p, const nsvcd__search *search, size_t g,
+                                   size_t j, uint64_t *left) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const nsvcd__f3 place = nsvcd__facet_centre(&p->fixed, j);
@@ -29,7 +29,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
     const size_t s = nsvcd__low_bit(*left);
     const nsvcd__chords *c = &search->members[s];
     float squares[NSVCD__LANES];
-    float share[NSVCD__LANES];
+    float fraction[NSVCD__LANES];
     uint32_t met = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 start = nsvcd__v3_rows(c->start[0] + l);
@@ -42,7 +42,7 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       const nsvcd__v reach = nsvcd__v_plus(nsvcd__v_load(c->reach + l), radius);
       met |= nsvcd__v_le(square, nsvcd__v_signed_square(reach)) << l;
       nsvcd__v_store(squares + l, square);
-      nsvcd__v_store(share + l, tau);
+      nsvcd__v_store(fraction + l, tau);
     }
     NSVCD__TALLY(tests, 1);
     if (!met) continue;
@@ -54,31 +54,33 @@ static void nsvcd__collect_items(nsvcd__proof *p, const nsvcd__search *search, s
       if (p->moving.hull_counts[i] == 0) continue;
       const float radii = search->scale * own[l] + radius;
       const float depth = 1 - sqrtf(squares[l]) / (radii > 1e-30f ? radii : 1e-30f);
-      const nsvcd__item item = {(uint16_t)i, (uint16_t)j, (uint16_t)s, 0, depth, share[l]};
+      const nsvcd__patch_pair item = {(uint16_t)i, (uint16_t)j, (uint16_t)s,
+                                      0,           depth,       fraction[l]};
       p->fresh[p->fresh_count++] = item;
     }
   }
 }
 
 // Looks at what the search has found so far.
-static nsvcd__outcome nsvcd__see_to_items(nsvcd__proof *p, nsvcd__search *search) {
-  return p->ask.gathers ? nsvcd__gather_items(p, search) : nsvcd__sift_items(p, search);
+static nsvcd__outcome nsvcd__see_to_patch_pairs(nsvcd__proof *p, nsvcd__search *search) {
+  return p->ask.collects ? nsvcd__collect_contacts(p, search)
+                         : nsvcd__sift_patch_pairs(p, search);
 }
 
 // THE LOOP: point 2 of the theorem. A tile's groups, of the moving body and of the resting one, are
-// parted by spheres and by discs; of those left, patches by spheres and by discs; what is left of
-// these are items, which nsvcd__sift_items and nsvcd__settle_items see to. In the end each pair of
-// patches, in each segment that is wanted and still matters, has been parted, or has given a
-// contact that answers or shrinks the question, or is a doubt, or was settled by its parts; or
-// SPENT says that it has not.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
-                                                         nsvcd__search *search) {
+// separated by spheres and by discs; of those left, patches by spheres and by discs; what is left
+// of these are patch pairs, which nsvcd__sift_patch_pairs and nsvcd__resolve_patch_pairs see to. In
+// the end each pair of patches, in each segment that is wanted and still matters, has been
+// separated, or has given a contact that answers or shrinks the question, or is an unresolved pair,
+// or was resolved by its parts; or SPENT says that it has not.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
+                                                            nsvcd__search *search) {
   nsvcd__outcome outcome;
   for (; search->step < search->steps; search->step++) {
     const size_t next = search->order[search->step];
     const size_t g = search->moving_tile.groups[next];
     nsvcd__search_group(search);
-    nsvcd__part_groups(p, search);
+    nsvcd__separate_groups(p, search);
     for (; search->waiting; search->waiting &= search->waiting - 1) {
       const size_t at = nsvcd__low_bit(search->waiting);
       const size_t h = search->fixed_tile.groups[at];
@@ -91,20 +93,20 @@ static NSVCD__APART nsvcd__outcome nsvcd__prove_segments(nsvcd__proof *p,
         if (p->fixed.hull_counts[NSVCD__GROUP * h + l] == 0) continue;
         for (;;) {
           nsvcd__pose_members(search, g, *left);
-          nsvcd__collect_items(p, search, g, NSVCD__GROUP * h + l, left);
+          nsvcd__add_patch_pairs(p, search, g, NSVCD__GROUP * h + l, left);
           if (!*left) break;
-          outcome = nsvcd__see_to_items(p, search);
-          if (outcome != NSVCD__SETTLED) return outcome;
+          outcome = nsvcd__see_to_patch_pairs(p, search);
+          if (outcome != NSVCD__RESOLVED) return outcome;
         }
       }
       if (p->fresh_count < NSVCD__NEWS) continue;
-      outcome = nsvcd__see_to_items(p, search);
-      if (outcome != NSVCD__SETTLED) return outcome;
+      outcome = nsvcd__see_to_patch_pairs(p, search);
+      if (outcome != NSVCD__RESOLVED) return outcome;
     }
   }
-  outcome = nsvcd__see_to_items(p, search);
-  if (outcome != NSVCD__SETTLED || p->ask.gathers) return outcome;
-  return nsvcd__settle_items(p, search);
+  outcome = nsvcd__see_to_patch_pairs(p, search);
+  if (outcome != NSVCD__RESOLVED || p->ask.collects) return outcome;
+  return nsvcd__resolve_patch_pairs(p, search);
 }
 
 // Those of the segments from one to another, the last one not included.
@@ -115,29 +117,29 @@ static uint64_t nsvcd__segments_in(size_t from, size_t to) {
 
 // The same of a motion that has been cut: tile after tile. Where the first contact is sought, some
 // segments of a tile at a time, until there is a contact: it is the first of the tile. What is
-// settled of one tile tells nothing of the others.
+// resolved of one tile tells nothing of the others.
 static nsvcd__outcome nsvcd__prove_tiles(nsvcd__proof *p, nsvcd__search *search) {
   const nsvcd_body *moving = p->moving.body;
   const nsvcd_body *fixed = p->fixed.body;
   const int has_tiles = nsvcd__is_tiled(moving, fixed);
   const size_t all = search->segments;
   const size_t few = p->ask.first > 0 ? NSVCD__IN_ORDER : all;
-  nsvcd__outcome outcome = NSVCD__SETTLED;
+  nsvcd__outcome outcome = NSVCD__RESOLVED;
   (void)nsvcd__search_begin(moving, fixed, nsvcd__segments_in(0, all), search);
   do {
-    for (size_t s = 0; s < all && outcome == NSVCD__SETTLED; s += few) {
+    for (size_t s = 0; s < all && outcome == NSVCD__RESOLVED; s += few) {
       const size_t next = s + few < all ? s + few : all;
       if (!nsvcd__matters(p, search, s)) break;
       search->wanted = nsvcd__segments_in(s, next);
       search->step = 0;
       search->waiting = 0;
       outcome = nsvcd__prove_segments(p, search);
-      if (outcome == NSVCD__SETTLED && !p->known.has_contact && !has_tiles)
-        p->known.settled = (double)search->begin[next];
+      if (outcome == NSVCD__RESOLVED && !p->known.has_contact && !has_tiles)
+        p->known.resolved = (double)search->begin[next];
     }
-  } while (outcome == NSVCD__SETTLED && nsvcd__search_next_tile(search));
-  if (outcome == NSVCD__SETTLED && !p->known.has_contact)
-    p->known.settled = (double)search->begin[all];
+  } while (outcome == NSVCD__RESOLVED && nsvcd__search_next_tile(search));
+  if (outcome == NSVCD__RESOLVED && !p->known.has_contact)
+    p->known.resolved = (double)search->begin[all];
   return outcome;
 }
 #endif  // NSVCD_NO_PROOF

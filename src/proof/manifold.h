@@ -1,4 +1,4 @@
-// In: couples of triangles that are near each other when a contact is. Out: up to four contact
+// In: triangle pairs that are near each other when a contact is. Out: up to four contact
 // points that hold the body: those that span the largest area seen along the contact's normal.
 //
 // Two triangles touch where a corner of one is over the other, or where two edges cross. Of all
@@ -8,7 +8,7 @@
 // Only normals that are much like the contact's count: where a side rises from the floor, corners
 // of the floor's triangles are near the side as well, but it is not what the body stands on.
 #pragma once
-#include "couples.h"
+#include "triangle_pairs.h"
 
 #ifndef NSVCD_NO_PROOF
 // Prepares a manifold of contacts with about this normal, unit, of bodies that go like this.
@@ -60,22 +60,22 @@ static int nsvcd__look_across(nsvcd__manifold *m, double area) {
   return 1;
 }
 
-// A couple that is looked at: the moving triangle, posed; where its faces look, out of the fixed
-// body, for the sides of an open surface as the normal of the contact does; and has it such?
+// A triangle pair that is looked at: the moving triangle, posed; where its faces look, out of the
+// fixed body, for the sides of an open surface as the normal of the contact does; and has it such?
 typedef struct nsvcd__facing {
-  const nsvcd__couple *couple;
+  const nsvcd__triangle_pair *pair;
   const nsvcd__d3 *posed;
   nsvcd__d3 faces[2];
   int is_open;
 } nsvcd__facing;
 
-static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                       const nsvcd__d3 *posed) {
   const nsvcd__d3 n = p->of.kept.manifold.normal;
-  const int closed[2] = {nsvcd__moving_closed(p, couple), nsvcd__fixed_closed(p, couple)};
-  nsvcd__facing out = {couple, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
+  const int closed[2] = {nsvcd__moving_closed(p, pair), nsvcd__fixed_closed(p, pair)};
+  nsvcd__facing out = {pair, posed, {{0, 0, 0}, {0, 0, 0}}, !closed[0] || !closed[1]};
   out.faces[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  out.faces[1] = nsvcd__face_direction(couple->fixed);
+  out.faces[1] = nsvcd__face_direction(pair->fixed);
   for (int k = 0; k < 2; k++) {
     nsvcd__d3 *face = &out.faces[k];
     const int turned = nsvcd__d3_dot(*face, n) < 0;
@@ -85,7 +85,7 @@ static nsvcd__facing nsvcd__facing_of(const nsvcd__proof *p, const nsvcd__couple
 }
 
 // Does a place come apart along its normal, while one of its faces comes nearer? It is no contact
-// then, or one of another couple.
+// then, or one of another triangle pair.
 static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 normal,
                           const nsvcd__d3 *faces) {
   const nsvcd__d3 speed = nsvcd__twist_of(twist, x);
@@ -96,11 +96,11 @@ static int nsvcd__is_left(const nsvcd__twist *twist, nsvcd__d3 x, nsvcd__d3 norm
   return 0;
 }
 
-// Takes a place where a couple touches, if it is farther than those that are kept. normal: of a
-// face, or across two edges, either way round.
-static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
-                                           nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
-                                           nsvcd__d3 normal, uint32_t number) {
+// Takes a place where a triangle pair touches, if it is farther than those that are kept. normal:
+// of a face, or across two edges, either way round.
+static NSVCD__NOINLINE void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing *f,
+                                              nsvcd__d3 on_moving, nsvcd__d3 on_fixed,
+                                              nsvcd__d3 normal, uint32_t number) {
   nsvcd__manifold *m = &p->of.kept.manifold;
   const double side = nsvcd__d3_dot(normal, m->normal) < 0 ? -1 : 1;
   const nsvcd__d3 way = nsvcd__d3_sub(on_moving, on_fixed);
@@ -110,18 +110,18 @@ static NSVCD__APART void nsvcd__keep_place(nsvcd__proof *p, const nsvcd__facing 
   // past the end of an edge they are not over each other
   if (aside > 0.01 * m->same * m->same) return;
   // nor are they on the far side of a sheet that they do not pass through
-  const nsvcd__d3 *fixed = f->couple->fixed;
+  const nsvcd__d3 *fixed = f->pair->fixed;
   const int beyond = gap < 0 && f->is_open;
   if (beyond && !nsvcd__triangles_meet(f->posed, fixed, &point)) return;
   if (nsvcd__is_left(&m->twist, on_fixed, nsvcd__d3_scale(normal, side), f->faces)) return;
   nsvcd__nearest nearest = {gap > 0 ? gap * gap : 0, on_moving, on_fixed};
-  nsvcd__contact contact;
+  nsvcd__pair_contact contact;
   int known = 0;
   for (int k = 0; k < NSVCD__SUPPORTS; k++) {
     const double place = nsvcd__d3_dot(m->along[k], on_fixed);
     const double more = place - m->farthest[k];
     if (!(more > m->same || (more >= -m->same && number < m->numbers[k]))) continue;
-    if (!known) contact = nsvcd__contact_at(p, f->couple, 0, &nearest);
+    if (!known) contact = nsvcd__contact_at(p, f->pair, 0, &nearest);
     known = 1;
     contact.normal = nsvcd__d3_scale(normal, side);
     m->supports[k] = contact;
@@ -136,11 +136,12 @@ static uint32_t nsvcd__id_of(size_t listing, size_t corner, uint32_t kind) {
   return (uint32_t)(3 * listing + corner) << 2 | kind;
 }
 
-// All places where a couple touches, to within the reach. posed: the moving triangle.
-static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__couple *couple,
-                                              const nsvcd__d3 *posed) {
+// All places where a triangle pair touches, to within the reach. posed: the moving triangle.
+static NSVCD__NOINLINE void nsvcd__collect_places(nsvcd__proof *p,
+                                                  const nsvcd__triangle_pair *pair,
+                                                  const nsvcd__d3 *posed) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
-  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 *fixed = pair->fixed;
   nsvcd__d3 foot;
   int farther = 0;
   for (int k = 0; k < NSVCD__SUPPORTS && !farther; k++) {
@@ -149,12 +150,12 @@ static NSVCD__APART void nsvcd__gather_places(nsvcd__proof *p, const nsvcd__coup
   }
   if (!farther) return;
   // faces look at each other, along the normal
-  const nsvcd__facing facing = nsvcd__facing_of(p, couple, posed);
+  const nsvcd__facing facing = nsvcd__facing_of(p, pair, posed);
   const int moving_faces = nsvcd__d3_dot(facing.faces[0], m->normal) >= 0.8;
   const int fixed_faces = nsvcd__d3_dot(facing.faces[1], m->normal) >= 0.8;
   for (size_t k = 0; k < 3; k++) {
-    const uint32_t moving_id = nsvcd__id_of(couple->moving_listing, k, 0);
-    const uint32_t fixed_id = nsvcd__id_of(couple->fixed_listing, k, 1);
+    const uint32_t moving_id = nsvcd__id_of(pair->moving_listing, k, 0);
+    const uint32_t fixed_id = nsvcd__id_of(pair->fixed_listing, k, 1);
     if (fixed_faces && nsvcd__foot_within(posed[k], fixed, &foot) &&
         nsvcd__d3_distance2(posed[k], foot) <= m->reach * m->reach)
       nsvcd__keep_place(p, &facing, posed[k], foot, facing.faces[1], moving_id);
@@ -198,8 +199,8 @@ static double nsvcd__spanned(const nsvcd__manifold *m, const int *of) {
 
 // Chooses the contacts: the numbers of those supports, and twice the area that they span. Returns
 // how many.
-static NSVCD__APART int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
-                                           double *area) {
+static NSVCD__NOINLINE int nsvcd__choose_four(const nsvcd__manifold *m, int *chosen,
+                                              double *area) {
   int kept[NSVCD__SUPPORTS];
   int count = 0;
   // each place once, those with lower numbers first

@@ -14,7 +14,7 @@
 #include "verdict.h"
 
 #ifndef NSVCD_NO_PROOF
-// The arc that is under way at a time counted in ticks or, where that is told as a knot, ends
+// The arc that is under way at a time counted in ticks or, where that is told as a keyframe, ends
 // there: what comes to a contact comes by that one.
 static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double *u) {
   uint32_t first = nsvcd__arc_of(p->ask.motion, tick, u);
@@ -27,20 +27,21 @@ static const nsvcd__arc *nsvcd__arc_before(nsvcd__proof *p, double tick, double 
 
 // The triangles of a contact at a time, and how the bodies go then.
 typedef struct nsvcd__approach {
-  nsvcd__couple couple;
+  nsvcd__triangle_pair pair;
   nsvcd__touch touch;
   nsvcd__twist twist;
   double u;
 } nsvcd__approach;
 
-static NSVCD__APART void nsvcd__approach_at(nsvcd__proof *p, const nsvcd__contact *found,
-                                            double tick, nsvcd__approach *out) {
+static NSVCD__NOINLINE void nsvcd__approach_at(nsvcd__proof *p,
+                                               const nsvcd__pair_contact *found, double tick,
+                                               nsvcd__approach *out) {
   const nsvcd__arc *arc = nsvcd__arc_before(p, tick, &out->u);
-  const nsvcd__placement at = nsvcd__placement_at(arc, out->u);
-  out->couple = nsvcd__couple_of(p, found->moving_patch, found->fixed_patch,
-                                 found->moving_listing, found->fixed_listing);
-  nsvcd__place_triangle(&at, out->couple.moving, out->touch.moving);
-  memcpy(out->touch.fixed, out->couple.fixed, sizeof out->touch.fixed);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, out->u);
+  out->pair = nsvcd__pair_of(p, found->moving_patch, found->fixed_patch, found->moving_listing,
+                             found->fixed_listing);
+  nsvcd__place_triangle(&at, out->pair.moving, out->touch.moving);
+  memcpy(out->touch.fixed, out->pair.fixed, sizeof out->touch.fixed);
   out->touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(out->touch.moving), -1);
   out->touch.ways[1] = nsvcd__face_direction(out->touch.fixed);
   out->twist = nsvcd__twist_at(arc, out->u);
@@ -56,9 +57,9 @@ static int nsvcd__recede(const nsvcd__twist *twist, const nsvcd__nearest *points
 // Moves a contact to an earlier time, from `since` on, when its triangles were as near and did not
 // come apart; or, if they meet, to when they began to. Where they were in touch then, and have come
 // apart all the while, it stays.
-static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
-  nsvcd__contact *found = &p->known.found;
-  nsvcd__contact sooner = *found;
+static NSVCD__NOINLINE void nsvcd__turn_back(nsvcd__proof *p, double since) {
+  nsvcd__pair_contact *found = &p->known.found;
+  nsvcd__pair_contact sooner = *found;
   double early = since;
   double late = found->tick;
   double tick = late;
@@ -67,9 +68,9 @@ static NSVCD__APART void nsvcd__turn_back(nsvcd__proof *p, double since) {
     nsvcd__approach_at(p, found, tick, &then);
     const nsvcd__nearest nearest = nsvcd__nearest_of(then.touch.moving, then.touch.fixed);
     const double gap = sqrt(nearest.square);
-    const int are_near = k == 0 || gap <= found->distance + then.couple.rounding;
-    const int nearing = gap > then.couple.rounding && !nsvcd__recede(&then.twist, &nearest);
-    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.couple, then.u, &nearest);
+    const int are_near = k == 0 || gap <= found->distance + then.pair.rounding;
+    const int nearing = gap > then.pair.rounding && !nsvcd__recede(&then.twist, &nearest);
+    if (are_near && k > 0) sooner = nsvcd__contact_at(p, &then.pair, then.u, &nearest);
     if (are_near && nearing) break;
     *(are_near ? &late : &early) = tick;
     tick = k == 0 ? early : 0.5 * (early + late);
@@ -89,10 +90,10 @@ static nsvcd__d3 nsvcd__axis_apart(const nsvcd__touch *t, size_t k) {
 // The direction at which two triangles met that touch, if the moving one came straight along so
 // much of `way` or less. 0: it did not. Nearer than they are known it cannot be told which of them
 // a corner met: so it is that a little before.
-static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
-                                         nsvcd__d3 way, double most, nsvcd__d3 *normal) {
+static NSVCD__NOINLINE int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__approach *a,
+                                            nsvcd__d3 way, double most, nsvcd__d3 *normal) {
   const nsvcd__touch *t = &a->touch;
-  const double close = 16 * nsvcd__hair(p) / nsvcd__d3_length(way);
+  const double close = 16 * nsvcd__epsilon(p) / nsvcd__d3_length(way);
   double back = HUGE_VAL;  // where they met, as a share of the way
   double before = 0;
   nsvcd__d3 moved[3];
@@ -102,7 +103,7 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__app
     const double deep = nsvcd__lift_along(n, t);
     if (!(fall > 0) || !(deep < back * fall)) continue;
     back = deep / fall;
-    before = nsvcd__max(close, 1e4 * a->couple.rounding / fall);
+    before = nsvcd__max(close, 1e4 * a->pair.rounding / fall);
     *normal = n;
   }
   if (!(back < most)) return 0;
@@ -117,12 +118,12 @@ static NSVCD__APART int nsvcd__met_along(const nsvcd__proof *p, const nsvcd__app
 // The direction along which two triangles that touch are the least deep in each other; of several
 // the one most against `way`. A face of a closed surface has one side, and no direction is against
 // both faces.
-static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
-                                                const nsvcd__approach *a, nsvcd__d3 way) {
-  const int moving_closed = nsvcd__moving_closed(p, &a->couple);
-  const int fixed_closed = nsvcd__fixed_closed(p, &a->couple);
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
+                                                   const nsvcd__approach *a, nsvcd__d3 way) {
+  const int moving_closed = nsvcd__moving_closed(p, &a->pair);
+  const int fixed_closed = nsvcd__fixed_closed(p, &a->pair);
   const nsvcd__touch *t = &a->touch;
-  const double same = 1e4 * a->couple.rounding;
+  const double same = 1e4 * a->pair.rounding;
   nsvcd__d3 best = t->ways[1];
   double least = HUGE_VAL;
   for (size_t k = 0; k < NSVCD__AXES; k++) {
@@ -145,7 +146,7 @@ static NSVCD__APART nsvcd__d3 nsvcd__shallowest(const nsvcd__proof *p,
 // `since`; or, if they were free of each other then, at some time.
 static int nsvcd__normal_met(nsvcd__proof *p, double since, int is_free,
                              nsvcd__approach *now) {
-  nsvcd__contact *found = &p->known.found;
+  nsvcd__pair_contact *found = &p->known.found;
   nsvcd__approach_at(p, found, found->tick, now);
   const nsvcd__d3 speed = nsvcd__twist_of(&now->twist, found->point);
   const nsvcd__d3 way = nsvcd__d3_scale(speed, found->tick - since);
@@ -160,11 +161,11 @@ static int nsvcd__has_turned(const nsvcd__proof *p, double since, double until) 
 }
 
 // Gives the contact that is known its normal.
-static NSVCD__APART void nsvcd__settle_normal(nsvcd__proof *p) {
-  nsvcd__contact *found = &p->known.found;
+static NSVCD__NOINLINE void nsvcd__resolve_normal(nsvcd__proof *p) {
+  nsvcd__pair_contact *found = &p->known.found;
   const double until = nsvcd__max(nsvcd__min(nsvcd__clear_until(p), found->tick), 0);
-  const double since = p->given.share > 0 ? until : 0;
-  const int is_free = since > 0 || (p->given.share > 0 && p->starts_free);
+  const double since = p->given.fraction > 0 ? until : 0;
+  const int is_free = since > 0 || (p->given.fraction > 0 && p->starts_free);
   nsvcd__approach now;
   // what comes to a pose and goes back may have been found on the way back
   const int has_turned = is_free && nsvcd__has_turned(p, since, found->tick);

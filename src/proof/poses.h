@@ -10,33 +10,33 @@ static nsvcd__dquat nsvcd__unit_rotation(const nsvcd_pose *pose) {
   return nsvcd__dquat_unit(out);
 }
 
-static nsvcd__d3 nsvcd__place_point(const nsvcd__placement *at, nsvcd__d3 a) {
+static nsvcd__d3 nsvcd__place_point(const nsvcd__dtransform *at, nsvcd__d3 a) {
   return nsvcd__d3_add(nsvcd__dmat3_apply(&at->rotation, a), at->position);
 }
 
 // The rotation a share u in [0,1] of the arc later than its start; unit.
-static nsvcd__dquat nsvcd__leg_at(const nsvcd__leg *leg, double u) {
-  const double way = leg->from + leg->share * u;
+static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
+  const double way = slerp->from + slerp->fraction * u;
   double before = 1 - way;
   double after = way;
   // below, the difference is less than rounding
-  if (leg->half_angle > 1e-7) {
-    before = nsvcd__sin((1 - way) * leg->half_angle);
-    after = nsvcd__sin(way * leg->half_angle);
+  if (slerp->half_angle > 1e-7) {
+    before = nsvcd__sin((1 - way) * slerp->half_angle);
+    after = nsvcd__sin(way * slerp->half_angle);
   }
-  const nsvcd__dquat start = nsvcd__dquat_scale(leg->start, before);
-  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, leg->end, start));
+  const nsvcd__dquat start = nsvcd__dquat_scale(slerp->start, before);
+  return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
 }
 
 // A track's leg of an arc, and its positions at both ends of it, metres.
-static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
-                            nsvcd__leg *leg, nsvcd__d3 *ends) {
+static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
+                              nsvcd__slerp *slerp, nsvcd__d3 *ends) {
   if (track->count == 1) {
-    leg->start = nsvcd__unit_rotation(track->poses);
-    leg->end = leg->start;
-    leg->half_angle = 0;
-    leg->from = 0;
-    leg->share = 1;
+    slerp->start = nsvcd__unit_rotation(track->poses);
+    slerp->end = slerp->start;
+    slerp->half_angle = 0;
+    slerp->from = 0;
+    slerp->fraction = 1;
     ends[0] = nsvcd__d3_load(track->poses->position);
     ends[1] = ends[0];
     return;
@@ -46,39 +46,40 @@ static void nsvcd__leg_init(const nsvcd__track *track, uint32_t first, uint32_t 
   const nsvcd_pose *b = a + 1;
   const uint32_t begin = nsvcd__tick_of(track, k);
   const double per_tick = 1 / (double)(nsvcd__tick_of(track, k + 1) - begin);
-  leg->share = (double)ticks * per_tick;
-  leg->from = (double)(first - begin) * per_tick;
+  slerp->fraction = (double)ticks * per_tick;
+  slerp->from = (double)(first - begin) * per_tick;
   const nsvcd__d3 start = nsvcd__d3_load(a->position);
   const nsvcd__d3 way = nsvcd__d3_sub(nsvcd__d3_load(b->position), start);
-  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from));
-  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, leg->from + leg->share));
+  ends[0] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from));
+  ends[1] = nsvcd__d3_add(start, nsvcd__d3_scale(way, slerp->from + slerp->fraction));
 
   const double sign = nsvcd__poses_opposed(a, b) ? -1 : 1;
-  leg->start = nsvcd__unit_rotation(a);
-  leg->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
-  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, leg->end, leg->start);
+  slerp->start = nsvcd__unit_rotation(a);
+  slerp->end = nsvcd__dquat_scale(nsvcd__unit_rotation(b), sign);
+  const nsvcd__dquat difference = nsvcd__dquat_fma(-1, slerp->end, slerp->start);
   const double apart = nsvcd__dquat_dot(difference, difference);
-  const nsvcd__dquat sum = nsvcd__dquat_fma(1, leg->end, leg->start);
+  const nsvcd__dquat sum = nsvcd__dquat_fma(1, slerp->end, slerp->start);
   const double together = nsvcd__dquat_dot(sum, sum);
-  leg->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
+  slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
 // The rotation vector of a leg, over its arc.
-static nsvcd__d3 nsvcd__leg_turn(const nsvcd__leg *leg) {
-  const nsvcd__d3 u = nsvcd__dquat_axis(leg->start);
-  const nsvcd__d3 v = nsvcd__dquat_axis(leg->end);
-  const nsvcd__d3 ahead = nsvcd__d3_scale(v, leg->start.w);
-  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, leg->end.w));
+static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
+  const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
+  const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);
+  const nsvcd__d3 ahead = nsvcd__d3_scale(v, slerp->start.w);
+  const nsvcd__d3 difference = nsvcd__d3_sub(ahead, nsvcd__d3_scale(u, slerp->end.w));
   const nsvcd__d3 across = nsvcd__d3_add(difference, nsvcd__d3_cross(u, v));
   const double sine = nsvcd__d3_length(across);
-  return nsvcd__d3_scale(across, sine > 0 ? 2 * leg->half_angle * leg->share / sine : 0);
+  return nsvcd__d3_scale(across,
+                         sine > 0 ? 2 * slerp->half_angle * slerp->fraction / sine : 0);
 }
 
-// The arc that begins at the knot `first`.
+// The arc that begins at the keyframe `first`.
 static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   const nsvcd__motion *motion = p->ask.motion;
   nsvcd__arc *arc = &p->arc;
-  const uint32_t ticks = nsvcd__next_knot(motion, first) - first;
+  const uint32_t ticks = nsvcd__next_keyframe(motion, first) - first;
   if (arc->first == first && arc->ticks == ticks) return arc;
   nsvcd__d3 ends[2], fixed_ends[2];
   const double per_metre = 1 / (double)motion->unit;
@@ -87,16 +88,16 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->fixed_moves = motion->fixed_moves;
   arc->scale = motion->ratio;
   arc->lift = nsvcd__d3_widen(motion->lift);
-  nsvcd__leg_init(&motion->moving, first, ticks, &arc->moving, ends);
-  nsvcd__leg_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
+  nsvcd__slerp_init(&motion->moving, first, ticks, &arc->moving, ends);
+  nsvcd__slerp_init(&motion->fixed, first, ticks, &arc->fixed, fixed_ends);
   const nsvcd__d3 from = nsvcd__d3_sub(ends[0], fixed_ends[0]);
   const nsvcd__d3 to = nsvcd__d3_sub(ends[1], fixed_ends[1]);
   arc->from = nsvcd__d3_scale(from, per_metre);
   arc->moved = nsvcd__d3_scale(nsvcd__d3_sub(to, from), per_metre);
   if (arc->fixed_moves) {
     // what both bodies' turns do: see nsvcd__cut_double_arc
-    const nsvcd__d3 fixed_turn = nsvcd__leg_turn(&arc->fixed);
-    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__leg_turn(&arc->moving), fixed_turn);
+    const nsvcd__d3 fixed_turn = nsvcd__slerp_turn(&arc->fixed);
+    const nsvcd__d3 turn = nsvcd__d3_sub(nsvcd__slerp_turn(&arc->moving), fixed_turn);
     const nsvcd__d3 end = nsvcd__d3_add(arc->from, arc->moved);
     const double twist = nsvcd__d3_length(nsvcd__d3_cross(turn, fixed_turn));
     const double angle = nsvcd__d3_length(fixed_turn);
@@ -105,8 +106,8 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
     const double swing = nsvcd__max(swing_from, swing_to);
     const double across = nsvcd__d3_length(nsvcd__d3_cross(fixed_turn, arc->moved));
     const nsvcd__d3 axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
-    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__leg_at(&arc->fixed, 0));
-    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__leg_at(&arc->moving, 0));
+    const nsvcd__dmat3 fixed = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->fixed, 0));
+    const nsvcd__dmat3 moving = nsvcd__dmat3_of(nsvcd__slerp_at(&arc->moving, 0));
     arc->turn = nsvcd__d3_length(turn);
     arc->speed = nsvcd__d3_length(arc->moved) + swing;
     arc->twist = 0.1250001 * arc->scale * twist;
@@ -123,11 +124,11 @@ static const nsvcd__arc *nsvcd__arc_at(nsvcd__proof *p, uint32_t first) {
   arc->moving.end = nsvcd__dquat_inverse_mul(arc->fixed.start, arc->moving.end);
   arc->from = nsvcd__dmat3_apply_transpose(&fixed, arc->from);
   arc->moved = nsvcd__dmat3_apply_transpose(&fixed, arc->moved);
-  const nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  const nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
   const nsvcd__dmat3 moving = nsvcd__dmat3_of(arc->moving.start);
   arc->axis = nsvcd__d3_unit(turn, nsvcd__d3_of(1, 0, 0));
   arc->own_axis = nsvcd__dmat3_apply_transpose(&moving, arc->axis);
-  arc->turn = 2 * arc->moving.half_angle * arc->moving.share;
+  arc->turn = 2 * arc->moving.half_angle * arc->moving.fraction;
   arc->speed = nsvcd__d3_length(arc->moved);
   arc->bulge = 0.1250001 * arc->scale * arc->turn * arc->turn;
   arc->waver = arc->twist = arc->drift = 0;
@@ -141,12 +142,12 @@ static int nsvcd__is_straight(const nsvcd__arc *arc) {
 
 // The true pose, seen from the fixed body, a share u in [0,1] of the arc later than its start. Its
 // rotation is times the moving body's scale.
-static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
-  nsvcd__dquat q = nsvcd__leg_at(&arc->moving, u);
-  nsvcd__placement at;
+static nsvcd__dtransform nsvcd__dtransform_at(const nsvcd__arc *arc, double u) {
+  nsvcd__dquat q = nsvcd__slerp_at(&arc->moving, u);
+  nsvcd__dtransform at;
   at.position = nsvcd__d3_add(arc->from, nsvcd__d3_scale(arc->moved, u));
   if (arc->fixed_moves) {
-    const nsvcd__dquat fixed = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dquat fixed = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 matrix = nsvcd__dmat3_of(fixed);
     q = nsvcd__dquat_inverse_mul(fixed, q);
     at.position = nsvcd__dmat3_apply_transpose(&matrix, at.position);
@@ -159,16 +160,16 @@ static nsvcd__placement nsvcd__placement_at(const nsvcd__arc *arc, double u) {
 
 // How the moving body goes there. Where both turn, what the fixed one does is taken off.
 static nsvcd__twist nsvcd__twist_at(const nsvcd__arc *arc, double u) {
-  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const double per_tick = 1 / (double)arc->ticks;
   nsvcd__twist out;
-  nsvcd__d3 turn = nsvcd__leg_turn(&arc->moving);
+  nsvcd__d3 turn = nsvcd__slerp_turn(&arc->moving);
   out.along = arc->moved;
   out.turn = turn;
   if (arc->fixed_moves) {
-    const nsvcd__dquat q = nsvcd__leg_at(&arc->fixed, u);
+    const nsvcd__dquat q = nsvcd__slerp_at(&arc->fixed, u);
     const nsvcd__dmat3 fixed = nsvcd__dmat3_of(q);
-    nsvcd__d3 own = nsvcd__leg_turn(&arc->fixed);
+    nsvcd__d3 own = nsvcd__slerp_turn(&arc->fixed);
     own = nsvcd__dmat3_apply_transpose(&fixed, own);
     turn = nsvcd__dmat3_apply_transpose(&fixed, turn);
     out.along = nsvcd__dmat3_apply_transpose(&fixed, out.along);
@@ -184,9 +185,9 @@ static nsvcd__d3 nsvcd__twist_of(const nsvcd__twist *twist, nsvcd__d3 x) {
   return nsvcd__d3_add(twist->along, nsvcd__d3_cross(twist->turn, x));
 }
 
-// The true pose in p->arc, remembered: couples ask for the same poses again.
+// The true pose in p->arc, remembered: triangle pairs ask for the same poses again.
 // The last two that were asked for stay where they are.
-static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
+static const nsvcd__dtransform *nsvcd__placed_at(nsvcd__proof *p, double u) {
   size_t n = 0;
   const nsvcd__arc *arc = &p->arc;
   for (; n < NSVCD__PLACED; n++) {
@@ -198,13 +199,13 @@ static const nsvcd__placement *nsvcd__placed_at(nsvcd__proof *p, double u) {
     p->memo.placed[n].arc = arc->first;
     p->memo.placed[n].ticks = arc->ticks;
     p->memo.placed[n].u = u;
-    p->memo.placed[n].placement = nsvcd__placement_at(arc, u);
+    p->memo.placed[n].transform = nsvcd__dtransform_at(arc, u);
   }
   if (n == p->memo.next_placed) p->memo.next_placed = (n + 1) % NSVCD__PLACED;
-  return &p->memo.placed[n].placement;
+  return &p->memo.placed[n].transform;
 }
 
-static nsvcd__transform nsvcd__transform_of(const nsvcd__placement *at) {
+static nsvcd__transform nsvcd__transform_of(const nsvcd__dtransform *at) {
   nsvcd__transform out;
   out.rotation.x = nsvcd__d3_narrow(at->rotation.x);
   out.rotation.y = nsvcd__d3_narrow(at->rotation.y);

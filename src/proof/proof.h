@@ -8,21 +8,21 @@
 // said to be open encloses nothing). src/proof/THEOREM.md walks through it. Bodies that at no time
 // come as near as their extents and the clearance together need none of this: nsvcd__prove.
 //   1. Every point of a surface lies in a piece of some patch (surface/surface). So it is enough
-//      to part each patch of one body from each of the other, at all times.
+//      to separate each patch of one body from each of the other, at all times.
 //   2. The broad phase leaves out only patches and segments of time in which the spheres over the
-//      pieces stay apart. What it leaves, a pair of patches in one segment, is an *item*. Every
-//      item is parted by one of the steps below, or the verdict is not FREE.
+//      pieces stay apart. What it leaves is a *patch pair*: two patches in one segment. Every patch
+//      pair is separated by one of the steps below, or the verdict is not FREE.
 //   3. A *span* is a stretch of the motion: a segment or a part of one. In it the true place of a
 //      point x of the moving body (body frame) leaves the chord between its places at the ends by
-//      no more than nsvcd__deviation along any direction: that is the bulge of motion/segments,
+//      no more than nsvcd__deviation_of along any direction: that is the bulge of motion/segments,
 //      taken along a plane's normal (within one arc of angle h of one body it is h^2 / 8 |x|, and
 //      nothing along the axis). A plane that has the moving side's places at both ends on one side,
 //      by more than that and the clearance, has their chords there too, for a chord is convex, and
 //      so all places between.
 //   4. Discs: the plane is normal to a patch, or to a group of 16; what each side reaches along it
 //      follows from its disc. Hulls: any plane; a patch's pieces are within its slack of the hull
-//      of its first vertices. Triangles: a plane for a couple, two listed triangles. A patch lists
-//      all triangles of its pieces, whole or in parts.
+//      of its first vertices. Triangles: a plane for a triangle pair, two listed triangles. A patch
+//      lists all triangles of its pieces, whole or in parts.
 //   5. Rounding: every plane allows for NSVCD__ROUNDING of all lengths that enter a float
 //      computation: that is `rounding`, in spans and segments alike. Stored points are off by the
 //      patch's slack or quantum, which every plane in float allows for too. Triangle pairs are
@@ -57,16 +57,17 @@
 // the other triangle at one time and on the other at another, and within its edges all the while,
 // has met it between (an edge and an edge likewise), and halving finds when. UNDECIDED: two
 // triangles come closer than NSVCD__TOO_NEAR and the tolerance without meeting, or the limit of
-// work was reached. After such a doubt only a contact can still decide, and flat on flat there are
-// as many doubts as triangles: so a share of the limit is all that is left then, more than a yes or
-// no takes on any problem of the sets.
+// work was reached. After such an unresolved pair only a contact can still decide, and flat on flat
+// there are as many unresolved pairs as triangles: so a share of the limit is all that is left
+// then, more than a yes or no takes on any problem of the sets.
 //
 // FIRST CONTACT. Contacts end the motion: whenever one is found, only what is more than `first`
-// before it matters from then on, and is proven free, or gives an earlier contact, or is in doubt.
-// Segments are searched some at a time, in their order, so that what is found first is early. Once
-// the share that a doubt leaves is spent, the doubt is the end, and what is before it is proven.
-// Where there is not work enough for that, what is left goes to what is proven soonest: part after
-// part of the motion, the first a short one, from where nothing is settled on.
+// before it matters from then on, and is proven free, or gives an earlier contact, or is
+// unresolved. Segments are searched some at a time, in their order, so that what is found first is
+// early. Once the share that an unresolved pair leaves is spent, the unresolved pair is the end,
+// and what is before it is proven. Where there is not work enough for that, what is left goes to
+// what is proven soonest: part after part of the motion, the first a short one, from where nothing
+// is resolved on.
 //
 // THE LIMIT ends the search, and changes nothing before that: what is tried, and in which order,
 // depends on the units that were taken, not on those that are allowed. So a higher limit never
@@ -75,48 +76,50 @@
 //
 // THE LEAST DISTANCE. Asked last, when it is known whether they come within the clearance. Contacts
 // lower the clearance: it begins as a distance that two vertices have, and whenever triangles are
-// found nearer than that, it becomes their distance less `measure`. What has been parted stays
-// parted, by more than that. So both are one search whose question shrinks, and in the end all of
-// the motion that matters is proven free at the clearance that matters.
+// found nearer than that, it becomes their distance less `measure`. What has been separated stays
+// separated, by more than that. So both are one search whose question shrinks, and in the end all
+// of the motion that matters is proven free at the clearance that matters.
 //
 // Work is counted in units: a plane sought for two hulls, 16 triangles against the box of 16, one
-// of them against these, a couple at one time, a ray against 16 triangles or one. Spheres, discs
-// and planes that held before are not counted. A query stops within one patch's listings, or one
-// ray, of its limit: nsvcd__is_spent.
+// of them against these, a triangle pair at one time, a ray against 16 triangles or one. Spheres,
+// discs and planes that held before are not counted. A query stops within one patch's listings, or
+// one ray, of its limit: nsvcd__is_exhausted.
 #pragma once
 #include "../body/facets.h"
 #include "../motion/motion.h"
 
 #ifndef NSVCD_NO_PROOF
 // THE SCHEDULE, in the order in which a query comes to it.
-// The search hands over items as it finds them.
-#define NSVCD__FRESH 48  // room for items on which nothing has been tried
+// The search hands over patch pairs as it finds them.
+#define NSVCD__FRESH 48  // room for patch pairs on which nothing has been tried
 #define NSVCD__NEWS 8    // of them are worth a look before the search goes on
-// A look: planes and witnesses, the deepest item first.
-#define NSVCD__DEEP 0.2f       // items as deep: a witness is sought before any plane
+// A look: planes and witnesses, the deepest patch pair first.
+#define NSVCD__DEEP 0.2f       // patch pairs as deep: a witness is sought before any plane
 #define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
 #define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
 #define NSVCD__DESPAIR 128  // and before none is looked for, if all that is asked is yes or no
 #define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
 #define NSVCD__REST_HEIGHTS 64  // and of resting ones
-// What no plane parts is settled by its triangles, arc by arc.
-#define NSVCD__ITEMS 256  // room for such items; when it is full they are settled first
-#define NSVCD__WINDOW 8   // blocks of a resting patch, loaded at once
-// Parts that couples ask for, before the span is halved for all, if it is longer than this share of
-// an arc.
+// What no plane separates is resolved by its triangles, arc by arc.
+#define NSVCD__PATCH_PAIRS \
+  256                    // room for such patch pairs; when it is full they are resolved first
+#define NSVCD__WINDOW 8  // blocks of a resting patch, loaded at once
+// Parts that triangle pairs ask for, before the span is halved for all, if it is longer than this
+// share of an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
 // Triangle pairs that one plane separates, one after the other, for each time that it is tried on
 // all of two patches.
 #define NSVCD__SHARED 4
 #define NSVCD__ARC_PARTS 8       // of an arc, waiting
-#define NSVCD__HALVINGS 40       // of a span for one couple
+#define NSVCD__HALVINGS 40       // of a span for one triangle pair
 #define NSVCD__PLACED 8          // poses, remembered
 #define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
 #define NSVCD__TOO_NEAR \
-  1e-9                     // of all lengths: it is not worth halving for a distance as short
-#define NSVCD__IN_DOUBT 8  // the share of the limit, 1 / this, that goes on after a doubt
-#define NSVCD__FIRST_DOUBT 3000  // units that do, where the first contact is sought
+  1e-9  // of all lengths: it is not worth halving for a distance as short
+#define NSVCD__AFTER_UNRESOLVED \
+  8  // the share of the limit, 1 / this, that goes on after an unresolved pair
+#define NSVCD__AFTER_FIRST_UNRESOLVED 3000  // units that do, where the first contact is sought
 // What else a question asks.
 // units: before the ends of the motion are looked at by themselves; for each of these looks; to
 // find triangles that meet where one is within the other
@@ -134,47 +137,48 @@
 // Where that takes too long: the first part of the motion that is proven by itself, in segments;
 // and units that a part may take besides eight times those of the part before.
 #define NSVCD__FIRST_PART 0.0625
-#define NSVCD__PART 250
+#define NSVCD__PART_BUDGET 250
 #define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
 #define NSVCD__LIFTS 6     // directions in which they are undone
 #define NSVCD__DEEPEN 16   // looks at what is touched on the way off
 #define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__HAIR 1.2e-7    // of all lengths: as short as what is told in float can tell
-#define NSVCD__HAIRS 3        // hairs: so far before a contact a safe place is
-#define NSVCD__AROUND 8       // directions along which contact points are sought,
-#define NSVCD__SUPPORTS 10    // and two across what these span,
-#define NSVCD__SLIM 0.3       // if that is less than this times its length squared; and
-#define NSVCD__HOLDS 64       // items that are looked at for them
-#define NSVCD__CROSSED 128    // triangles that a ray crosses, where containment is decided
-#define NSVCD__NEVER 1e300    // ticks
+#define NSVCD__LEAST_EPSILON \
+  1.2e-7                    // of all lengths: as short as what is told in float can tell
+#define NSVCD__EPSILONS 3   // epsilons: so far before a contact a safe place is
+#define NSVCD__AROUND 8     // directions along which contact points are sought,
+#define NSVCD__SUPPORTS 10  // and two across what these span,
+#define NSVCD__SLIM 0.3     // if that is less than this times its length squared; and
+#define NSVCD__HOLDS 64     // patch pairs that are looked at for them
+#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
+#define NSVCD__NEVER 1e300  // ticks
 
-typedef struct nsvcd__item {
+typedef struct nsvcd__patch_pair {
   uint16_t moving, fixed, segment;
   uint16_t sought;  // 1: a witness has been looked for
   // 1 - least distance of the centres / (r1 + r2)
   float depth;
   // of the segment, gone by at that time
-  float share;
-} nsvcd__item;
+  float fraction;
+} nsvcd__patch_pair;
 
 // How a body turns over an arc.
-typedef struct nsvcd__leg {
+typedef struct nsvcd__slerp {
   // at its poses before and after: unit, on the shorter side
   nsvcd__dquat start, end;
   double half_angle;  // between them as quaternions: half the angle of the turn
   // where between these poses the arc begins, and how much of the way it lasts
-  double from, share;
-} nsvcd__leg;
+  double from, fraction;
+} nsvcd__slerp;
 
-// The motion between two knots, in double and in the fixed body's units.
+// The motion between two keyframes, in double and in the fixed body's units.
 typedef struct nsvcd__arc {
   // when it begins, and how long it lasts; no ticks: none
   uint32_t first, ticks;
   int fixed_moves;
   // of the moving body
   double scale;
-  nsvcd__leg moving;  // as the fixed body sees it; where that moves, in the world, and so is
-  nsvcd__leg fixed;   // the fixed body's own
+  nsvcd__slerp moving;  // as the fixed body sees it; where that moves, in the world, and so is
+  nsvcd__slerp fixed;   // the fixed body's own
   // from the fixed body's origin to the moving one's, and how it changes; in the same axes
   nsvcd__d3 from, moved;
   // what is added to that as the fixed body sees it
@@ -191,10 +195,10 @@ typedef struct nsvcd__arc {
 } nsvcd__arc;
 
 // A pose in double.
-typedef struct nsvcd__placement {
+typedef struct nsvcd__dtransform {
   nsvcd__dmat3 rotation;
   nsvcd__d3 position;
-} nsvcd__placement;
+} nsvcd__dtransform;
 
 // A stretch of the motion. t in [0,1]. In it the true place of a point of the moving body at r
 // metres from its origin is off the chord between its places at both ends by no more than drift +
@@ -216,7 +220,7 @@ typedef struct nsvcd__block {
   size_t first, count;  // listings
 } nsvcd__block;
 
-typedef struct nsvcd__contact {
+typedef struct nsvcd__pair_contact {
   double tick;      // when
   double distance;  // of the triangles
   // the fixed body's frame; out of the fixed body
@@ -224,7 +228,7 @@ typedef struct nsvcd__contact {
   uint32_t moving_triangle, fixed_triangle;
   uint32_t moving_listing, fixed_listing;
   uint16_t moving_patch, fixed_patch;
-} nsvcd__contact;
+} nsvcd__pair_contact;
 
 // How the moving body goes, as the fixed one sees it: a point x by `along` and turn x x in a tick.
 typedef struct nsvcd__twist {
@@ -248,33 +252,33 @@ typedef struct nsvcd__manifold {
   double reach, same;
   // the farthest along each: how far that is, -HUGE_VAL: there is none, HUGE_VAL: it is not
   // sought; and the number of the corner or the edges
-  nsvcd__contact supports[NSVCD__SUPPORTS];
+  nsvcd__pair_contact supports[NSVCD__SUPPORTS];
   double farthest[NSVCD__SUPPORTS];
   uint32_t numbers[NSVCD__SUPPORTS];
 } nsvcd__manifold;
 
 // What is done with triangles that come within the clearance: they are contacts; or, of a motion at
 // rest, all are gathered, as touches or as supports.
-typedef enum nsvcd__gathering {
+typedef enum nsvcd__collecting {
   NSVCD__CONTACTS,
   NSVCD__TOUCHING,
   NSVCD__SUPPORTING
-} nsvcd__gathering;
+} nsvcd__collecting;
 
 // What is said of a question in the end.
-typedef enum nsvcd__verdict {
-  NSVCD__FREE,
-  NSVCD__MEETS,
-  NSVCD__WITHIN,
-  NSVCD__UNDECIDED
-} nsvcd__verdict;
+typedef enum nsvcd__finding {
+  NSVCD__FOUND_FREE,
+  NSVCD__FOUND_CONTACT,
+  NSVCD__FOUND_INSIDE,
+  NSVCD__FOUND_NEITHER
+} nsvcd__finding;
 
 // What becomes of a part of it: a pair of patches, or of triangles, over a stretch of the motion.
 typedef enum nsvcd__outcome {
-  // parted, or kept as a doubt, or no longer asked about
-  NSVCD__SETTLED,
+  // separated, or kept as an unresolved pair, or no longer asked about
+  NSVCD__RESOLVED,
   // the same of all triangles of both patches
-  NSVCD__ALL_SETTLED,
+  NSVCD__ALL_RESOLVED,
   // where a contact was looked for, there is none
   NSVCD__NOTHING,
   // a contact was found that answers the question
@@ -284,14 +288,14 @@ typedef enum nsvcd__outcome {
   // the stretch is to be looked at again: in halves, or with a clearance that is less
   NSVCD__TOO_LONG,
   // the work allowed is: from then on it always is
-  NSVCD__SPENT
+  NSVCD__EXHAUSTED
 } nsvcd__outcome;
 
 // A pose that has been computed.
 typedef struct nsvcd__placed {
   uint32_t arc, ticks;  // as the arc has them
   double u;
-  nsvcd__placement placement;
+  nsvcd__dtransform transform;
 } nsvcd__placed;
 
 // A patch's height over a plane, of a moving patch in a segment.
@@ -311,13 +315,13 @@ typedef struct nsvcd__given {
   double round;
   // to which share of the motion the first contact is asked for, and to which width the least
   // distance; 0: it is not
-  double share, width;
+  double fraction, width;
   // FIRST: how far bodies may be from each other when the motion ends; 0: nothing is said
   double to;
   // is more asked for than yes or no?
   int tells;
   // units that may be taken, and each interval of a long motion may, if it grows; and what is
-  // beside the question, a doubt above all, may take of them
+  // beside the question, an unresolved pair above all, may take of them
   size_t work, aside;
   int grows;
 } nsvcd__given;
@@ -330,16 +334,17 @@ typedef struct nsvcd__asked {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
-  // nor does what begins with the first doubt
-  int doubts_end;
+  // nor does what begins with the first unresolved pair
+  int unresolved_ends;
   double clearance, measure;
   // a share of the motion, and as ticks
-  double share, first;
-  // units: how many may have been taken, and in the end; and how many go on after a doubt
-  size_t limit, most, in_doubt;
+  double fraction, first;
+  // units: how many may have been taken, and in the end; and how many go on after an unresolved
+  // pair
+  size_t limit, most, after_unresolved;
   // a try: there is a longer one after it
   int is_brief;
-  nsvcd__gathering gathers;
+  nsvcd__collecting collects;
   // how deep touches may be
   double skin;
 } nsvcd__asked;
@@ -347,13 +352,13 @@ typedef struct nsvcd__asked {
 // What is known, of a motion.
 typedef struct nsvcd__known {
   int has_contact;
-  nsvcd__contact found;
-  // ticks: when the first doubt begins, two triangles too near to tell; and these
-  double unsure;
-  nsvcd__contact doubt;
-  // the work allowed was not enough: all from `settled` on, ticks, is undecided
+  nsvcd__pair_contact found;
+  // ticks: when the first unresolved pair begins, two triangles too near to tell; and these
+  double unresolved;
+  nsvcd__pair_contact unresolved_pair;
+  // the work allowed was not enough: all from `resolved` on, ticks, is undecided
   int lost;
-  double settled;
+  double resolved;
 } nsvcd__known;
 
 // What is only remembered: where there is an NSVCD__PAUSE it may be forgotten, and what is proven
@@ -369,8 +374,8 @@ typedef struct nsvcd__memo {
   nsvcd__f3 held;
   uint32_t plane;
   nsvcd__height heights[NSVCD__HEIGHTS], rest_heights[NSVCD__REST_HEIGHTS];
-  // unit: of the plane that parted a couple last
-  nsvcd__d3 parting;
+  // unit: of the plane that separated a triangle pair last
+  nsvcd__d3 separating;
   // how many triangle pairs it has separated after that, one after the other
   size_t shared;
   // how many blocks of a resting patch are in p->fixed_blocks; is one in p->moving_block?
@@ -384,7 +389,7 @@ typedef struct nsvcd__proof {
   nsvcd__asked ask;
   nsvcd__known known;
   nsvcd__memo memo;
-  // the last one asked for, if it has ticks; items and couples are looked at within it
+  // the last one asked for, if it has ticks; patch pairs and triangle pairs are looked at within it
   nsvcd__arc arc;
   size_t work;
   // the least distance is known to be between these
@@ -421,31 +426,31 @@ typedef struct nsvcd__proof {
 
   // segments in which 16 resting patches are met
   uint64_t met_in[NSVCD__GROUP];
-  // Items: as the search finds them, and those that no plane parts over their segment; and looks
-  // for a witness that found none.
+  // Patch pairs: as the search finds them, and those that no plane separates over their segment;
+  // and looks for a witness that found none.
   size_t fresh_count, count, misses;
-  nsvcd__item fresh[NSVCD__FRESH];
+  nsvcd__patch_pair fresh[NSVCD__FRESH];
   union {
     struct {
-      nsvcd__item items[NSVCD__ITEMS];
+      nsvcd__patch_pair items[NSVCD__PATCH_PAIRS];
       nsvcd__manifold manifold;
     } kept;
     // gathered before there are any
     nsvcd__touch touches[NSVCD__TOUCHES];
   } of;
 
-  // An item: its hulls, posed, and its triangles, block by block, with boxes about the fixed
+  // A patch pair: its hulls, posed, and its triangles, block by block, with boxes about the fixed
   // blocks; corners of the moving block at the ends of a span.
   float hull_start[3][NSVCD__LANES], hull_end[3][NSVCD__LANES], hull_rest[3][NSVCD__LANES];
   nsvcd__block moving_block, fixed_blocks[NSVCD__WINDOW];
   nsvcd__box bounds[NSVCD__WINDOW];
   float posed[2][3][3][NSVCD__LANES];
 
-  // An item over an arc, and a couple: later ends of the parts to come, the last one first; and how
-  // many parts of the span its couples asked for.
+  // A patch pair over an arc, and a triangle pair: later ends of the parts to come, the last one
+  // first; and how many parts of the span its triangle pairs asked for.
   nsvcd__span span;
   double arc_ends[NSVCD__ARC_PARTS];
-  double couple_ends[NSVCD__HALVINGS + 2];
+  double pair_ends[NSVCD__HALVINGS + 2];
   size_t parts;
   // how often a plane has been tried on all of both patches
   size_t all_tried;
@@ -461,7 +466,7 @@ static void nsvcd__forget(nsvcd__memo *memo) {
   memo->spans = 0;
   memo->held = nsvcd__f3_of(0, 0, 0);
   memo->plane = 0;
-  memo->parting = nsvcd__d3_of(0, 0, 0);
+  memo->separating = nsvcd__d3_of(0, 0, 0);
   memo->shared = 0;
   memo->window = 0;
   memo->has_block = 0;
@@ -481,16 +486,16 @@ static size_t nsvcd__limit_of_first(const nsvcd__proof *p) {
   return p->ask.most - p->given.aside;
 }
 
-// Is all work done that is allowed? Where the first contact is sought, what a doubt has left for
-// contacts after it may be: then the doubt becomes the end here, and what comes before it can be
-// proven.
-static int nsvcd__is_spent(nsvcd__proof *p) {
+// Is all work done that is allowed? Where the first contact is sought, what an unresolved pair has
+// left for contacts after it may be: then the unresolved pair becomes the end here, and what comes
+// before it can be proven.
+static int nsvcd__is_exhausted(nsvcd__proof *p) {
   nsvcd__asked *ask = &p->ask;
-  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->doubts_end &&
-      p->known.unsure < NSVCD__NEVER) {
-    ask->doubts_end = 1;
-    ask->end = nsvcd__min(ask->end, p->known.unsure);
-    const size_t left = (NSVCD__IN_DOUBT - 1) * p->given.aside;
+  if (p->work > ask->limit && ask->first > 0 && !ask->is_brief && !ask->unresolved_ends &&
+      p->known.unresolved < NSVCD__NEVER) {
+    ask->unresolved_ends = 1;
+    ask->end = nsvcd__min(ask->end, p->known.unresolved);
+    const size_t left = (NSVCD__AFTER_UNRESOLVED - 1) * p->given.aside;
     ask->limit = nsvcd__limit_of_first(p);
     if (p->work + left < ask->limit) ask->limit = p->work + left;
   }
@@ -515,16 +520,16 @@ static float nsvcd__quanta_of(const nsvcd__proof *p, size_t i, size_t j) {
 
 // How far points of the moving body are, in its own units, as bulges have it: none is farther from
 // its origin than `reach`, nor from the line through that along the axis of a turn than `radial`.
-typedef struct nsvcd__lever {
+typedef struct nsvcd__arm {
   float reach, radial;
-} nsvcd__lever;
+} nsvcd__arm;
 
 // Of a sphere. axis: unit, as the body has it; radial is rounded for that, too.
-static nsvcd__lever nsvcd__lever_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
+static nsvcd__arm nsvcd__arm_of(nsvcd__f3 centre, float radius, nsvcd__f3 axis) {
   const float distance = nsvcd__f3_length(centre);
   const float aside = nsvcd__f3_length(nsvcd__f3_cross(centre, axis));
-  const nsvcd__lever out = {1.000001f * (distance + radius),
-                            1.000001f * (aside + radius) + 1e-6f * distance};
+  const nsvcd__arm out = {1.000001f * (distance + radius),
+                          1.000001f * (aside + radius) + 1e-6f * distance};
   return out;
 }
 

@@ -22,12 +22,12 @@ static void nsvcd__narrow_segments(nsvcd__search *search, double from, double to
   uint32_t *begin = search->begin;
   const size_t first = (size_t)from;
   const size_t last = (size_t)to;
-  const double share = to - (double)last;
+  const double fraction = to - (double)last;
   double end = (double)begin[last];
-  if (share > 0) end += share * ((double)begin[last + 1] - end);
+  if (fraction > 0) end += fraction * ((double)begin[last + 1] - end);
   const double start = (double)begin[first];
   const double into = (from - (double)first) * ((double)begin[first + 1] - start);
-  search->segments = last - first + (share > 0);
+  search->segments = last - first + (fraction > 0);
   for (size_t s = 1; s < search->segments; s++)
     begin[s] = (uint32_t)(finer * (double)begin[first + s]);
   begin[0] = (uint32_t)(finer * (start + into));
@@ -69,11 +69,11 @@ static const nsvcd__span *nsvcd__segment_span(nsvcd__proof *p, const nsvcd__sear
   return &p->spans[s];
 }
 
-// The span from u0 to u1 of the arc that begins at the knot `first`.
+// The span from u0 to u1 of the arc that begins at the keyframe `first`.
 static nsvcd__span nsvcd__span_of_arc(nsvcd__proof *p, uint32_t first, double u0, double u1) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-  const nsvcd__placement start = nsvcd__placement_at(arc, u0);
-  const nsvcd__placement end = nsvcd__placement_at(arc, u1);
+  const nsvcd__dtransform start = nsvcd__dtransform_at(arc, u0);
+  const nsvcd__dtransform end = nsvcd__dtransform_at(arc, u1);
   const double square = (u1 - u0) * (u1 - u0);
   nsvcd__span span;
   span.start = nsvcd__transform_of(&start);
@@ -101,10 +101,10 @@ static nsvcd__f3 nsvcd__own_axis(const nsvcd__span *span) {
 }
 
 // Of a patch's pieces.
-static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
-                                       const nsvcd__span *span) {
+static nsvcd__arm nsvcd__patch_arm(const nsvcd__facets *f, size_t patch,
+                                   const nsvcd__span *span) {
   const float radius = nsvcd__body_r(f->body)[patch];
-  return nsvcd__lever_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
+  return nsvcd__arm_of(nsvcd__facet_centre(f, patch), radius, nsvcd__own_axis(span));
 }
 
 // What points leave their chords by for the turn's sake, along any direction: |D x|, with D the
@@ -112,9 +112,9 @@ static nsvcd__lever nsvcd__patch_lever(const nsvcd__facets *f, size_t patch,
 // a', the axis as the moving body has it, and across it: then
 //   |D x| <= |D| |x x a'| + |D a'| |x.a'|
 // and |D a'| is |D^T axis|, since both ends of the chord take a' to the axis.
-static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
-  const float by_axis = span->bulge * lever.radial + span->bulge_along_axis * lever.reach;
-  return fminf(span->bulge * lever.reach, by_axis);
+static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__arm arm) {
+  const float by_axis = span->bulge * arm.radial + span->bulge_along_axis * arm.reach;
+  return fminf(span->bulge * arm.reach, by_axis);
 }
 
 // What the points of the moving body leave their chords by along a direction n, times its length,
@@ -122,7 +122,7 @@ static float nsvcd__bulge_of(const nsvcd__span *span, nsvcd__lever lever) {
 // off by n.(D x + d). Split n into its parts along the axis and across it: then
 //   |n.D x| <= |n.axis| |D^T axis| |x| + |n x axis| |D x|
 // and |n.d| is bounded in the same way, or with the way of the origin in place of the axis.
-static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever lever) {
+static float nsvcd__deviation_of(const nsvcd__span *span, nsvcd__f3 n, nsvcd__arm arm) {
   const float along = fabsf(nsvcd__f3_dot(n, span->axis));
   const float across = nsvcd__f3_length(nsvcd__f3_cross(n, span->axis));
   const float along_way = fabsf(nsvcd__f3_dot(n, span->way));
@@ -130,8 +130,8 @@ static float nsvcd__deviation(const nsvcd__span *span, nsvcd__f3 n, nsvcd__lever
   const float by_axis = along * span->drift_along_axis + across * span->drift;
   const float by_way = along_way * span->drift + across_way * span->drift_off_way;
   const float drift = by_axis < by_way ? by_axis : by_way;
-  const float turn = along * span->bulge_along_axis * lever.reach;
-  return drift + turn + across * nsvcd__bulge_of(span, lever);
+  const float turn = along * span->bulge_along_axis * arm.reach;
+  return drift + turn + across * nsvcd__bulge_of(span, arm);
 }
 
 // The same for a slice of directions, or one direction in a slice of spans.

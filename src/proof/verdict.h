@@ -6,27 +6,27 @@
 
 #ifndef NSVCD_NO_PROOF
 // What is said of a component that is within the other body, whatever contacts were found since.
-static nsvcd__verdict nsvcd__is_within(nsvcd__proof *p) {
+static nsvcd__finding nsvcd__is_within(nsvcd__proof *p) {
   memset(&p->known.found, 0, sizeof p->known.found);
   p->known.found.point = p->enclosed;
   p->known.found.moving_triangle = NSVCD_NO_TRIANGLE;
   p->known.found.fixed_triangle = NSVCD_NO_TRIANGLE;
-  return NSVCD__WITHIN;
+  return NSVCD__FOUND_INSIDE;
 }
 
 // Ticks: nothing meets before this, or NEVER.
 static double nsvcd__clear_until(const nsvcd__proof *p) {
   if (p->unclear) return 0;
-  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unsure),
-                    p->known.lost ? p->known.settled : NSVCD__NEVER);
+  return nsvcd__min(nsvcd__min(p->ask.end, p->known.unresolved),
+                    p->known.lost ? p->known.resolved : NSVCD__NEVER);
 }
 
 // Makes a proof forget all that it knew of a motion, or of an interval.
 static void nsvcd__proof_restart(nsvcd__proof *p) {
   memset(&p->known, 0, sizeof p->known);
-  p->known.settled = (double)p->ask.motion->from;
-  p->ask.end = p->clipped_end = p->known.unsure = NSVCD__NEVER;
-  p->ask.doubts_end = 0;
+  p->known.resolved = (double)p->ask.motion->from;
+  p->ask.end = p->clipped_end = p->known.unresolved = NSVCD__NEVER;
+  p->ask.unresolved_ends = 0;
   p->clipped = 0;
   p->arc.ticks = 0;
   p->count = p->fresh_count = p->misses = p->touch_count = 0;
@@ -34,13 +34,13 @@ static void nsvcd__proof_restart(nsvcd__proof *p) {
   nsvcd__forget(&p->memo);
 }
 
-// Searches a motion whose segments have been chosen, and settles what is found.
-static NSVCD__APART nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
-                                                       nsvcd__search *search) {
+// Searches a motion whose segments have been chosen, and resolves what is found.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__prove_motion(nsvcd__proof *p,
+                                                          nsvcd__search *search) {
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, nsvcd__clearance(p), search);
-  p->ask.first = p->ask.share * (double)p->ask.motion->ticks;
+  p->ask.first = p->ask.fraction * (double)p->ask.motion->ticks;
   const nsvcd__outcome outcome = nsvcd__prove_tiles(p, search);
-  p->known.lost = outcome == NSVCD__SPENT;
+  p->known.lost = outcome == NSVCD__EXHAUSTED;
   return outcome;
 }
 
@@ -68,12 +68,12 @@ static nsvcd__motion nsvcd__end_of(const nsvcd__motion *motion, int at_end) {
 
 // A look at the start alone, or at the end, which takes so many units at most: do triangles meet
 // there? Then that is the contact that is known. If not, all that was known is lost.
-static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
-                                        size_t units) {
+static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, int at_end,
+                                           size_t units) {
   const nsvcd__asked asked = p->ask;
   nsvcd__motion still = nsvcd__end_of(asked.motion, at_end);
   p->ask.motion = &still;
-  p->ask.share = 0;
+  p->ask.fraction = 0;
   p->ask.limit = nsvcd__limit_after(p, units);
   p->ask.is_brief = 1;
   const int meets = nsvcd__prove_anew(p, search) == NSVCD__ANSWERED;
@@ -89,13 +89,14 @@ static NSVCD__APART int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *search, 
 // anyway. Before intervals that has been done: they are searched at once.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
-  const int is_brief = !p->ask.motion->arcs && !(p->ask.share > 0);
+  const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);
   p->ask.is_brief = is_brief && p->work + NSVCD__LONG < limit;
   p->ask.limit = p->ask.is_brief ? p->work + NSVCD__LONG : limit;
   const nsvcd__outcome outcome = nsvcd__prove_motion(p, search);
-  if (outcome != NSVCD__SPENT || !p->ask.is_brief) return outcome;
-  // a part of what a doubt leaves has been used
-  if (p->known.unsure < NSVCD__NEVER) p->ask.in_doubt -= p->ask.in_doubt / 2;
+  if (outcome != NSVCD__EXHAUSTED || !p->ask.is_brief) return outcome;
+  // a part of what an unresolved pair leaves has been used
+  if (p->known.unresolved < NSVCD__NEVER)
+    p->ask.after_unresolved -= p->ask.after_unresolved / 2;
   for (int at_end = 0; at_end < 2; at_end++) {
     if (nsvcd__meets_at(p, search, at_end, NSVCD__LOOK)) return NSVCD__ANSWERED;
   }
@@ -105,8 +106,8 @@ static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *sear
 }
 
 // A part of the motion, from one place to another, in segments, and no later than `end`: where is
-// the first contact there, or the first doubt? All else that was known is lost. Ticks become finer:
-// returns how many one is.
+// the first contact there, or the first unresolved pair? All else that was known is lost. Ticks
+// become finer: returns how many one is.
 static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double from, double to,
                                 double end) {
   nsvcd__proof_restart(p);
@@ -114,7 +115,7 @@ static double nsvcd__prove_part(nsvcd__proof *p, nsvcd__search *search, double f
   const double finer = nsvcd__motion_refine(p->ask.motion);
   nsvcd__narrow_segments(search, from, to, finer);
   p->ask.end = nsvcd__min(p->ask.end, finer * end);
-  p->ask.doubts_end = 1;
+  p->ask.unresolved_ends = 1;
   (void)nsvcd__prove_motion(p, search);
   return finer;
 }
@@ -132,19 +133,19 @@ static double nsvcd__add_part(const nsvcd__proof *p, const nsvcd__search *search
     end = p->ask.end / finer;
   }
   if (part->lost) return end;
-  if (part->unsure < NSVCD__NEVER) {
-    known->doubt = part->doubt;
-    known->doubt.tick /= finer;
-    known->unsure = part->unsure / finer;
+  if (part->unresolved < NSVCD__NEVER) {
+    known->unresolved_pair = part->unresolved_pair;
+    known->unresolved_pair.tick /= finer;
+    known->unresolved = part->unresolved / finer;
   }
-  known->settled = nsvcd__min(last, p->ask.end) / finer;
+  known->resolved = nsvcd__min(last, p->ask.end) / finer;
   return end;
 }
 
-// There was not work enough for the first contact: once more from what is settled on, by time, a
+// There was not work enough for the first contact: once more from what is resolved on, by time, a
 // part of the motion after another. Where one takes too many units, a shorter one is tried.
-static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
-                                              size_t limit) {
+static NSVCD__NOINLINE void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *search,
+                                                 size_t limit) {
   nsvcd__known known = p->known;
   const double ticks = (double)p->ask.motion->ticks;
   const double all = (double)search->segments;
@@ -153,9 +154,10 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
   double length = NSVCD__FIRST_PART;
   double grows = 4;
   size_t units = limit;
-  while (from < all && (double)search->begin[(size_t)from + 1] <= known.settled) from++;
+  while (from < all && (double)search->begin[(size_t)from + 1] <= known.resolved) from++;
   p->ask.is_brief = 1;
-  while (p->work < limit && known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure))) {
+  while (p->work < limit &&
+         known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved))) {
     const size_t before = p->work;
     const double whole = floor(from + length);
     const double to = whole > from ? nsvcd__min(whole, all) : from + length;
@@ -168,10 +170,10 @@ static NSVCD__APART void nsvcd__prove_by_time(nsvcd__proof *p, nsvcd__search *se
     } else {
       from = to;
       length *= grows;
-      units = 8 * (p->work - before) + NSVCD__PART;
+      units = 8 * (p->work - before) + NSVCD__PART_BUDGET;
     }
   }
-  known.lost = known.settled < nsvcd__min(ticks, nsvcd__min(end, known.unsure));
+  known.lost = known.resolved < nsvcd__min(ticks, nsvcd__min(end, known.unresolved));
   p->ask.is_brief = 0;
   nsvcd__proof_restart(p);
   nsvcd__choose_segments(p->ask.motion, search);
@@ -192,7 +194,7 @@ static nsvcd__outcome nsvcd__prove_first(nsvcd__proof *p, nsvcd__search *search)
   } else if (known.has_contact && nsvcd__clear_until(p) <= 0 && known.found.tick > 0) {
     // so early that they may meet at the start already
     if (nsvcd__meets_at(p, search, 0, p->given.work)) return NSVCD__ANSWERED;
-    p->starts_free = !p->known.lost && !(p->known.unsure < NSVCD__NEVER);
+    p->starts_free = !p->known.lost && !(p->known.unresolved < NSVCD__NEVER);
   }
   p->known = known;
   p->ask.end = end;
@@ -257,7 +259,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
   int found = 0;
   for (size_t b = 0; NSVCD__LANES * b < search->segments; b++) {
     const nsvcd__chords *c = &search->group[b];
-    float gaps[NSVCD__LANES], share[NSVCD__LANES];
+    float gaps[NSVCD__LANES], fraction[NSVCD__LANES];
     uint32_t nearer = 0;
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v3 way = nsvcd__chords_way(c, l);
@@ -270,7 +272,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
           nsvcd__v_sub(nsvcd__v3_length(off), nsvcd__v_load(c->reach + l));
       nearer |= nsvcd__v_lt(between, nsvcd__v_set(*gap + fixed.radius)) << l;
       nsvcd__v_store(gaps + l, between);
-      nsvcd__v_store(share + l, tau);
+      nsvcd__v_store(fraction + l, tau);
     }
     for (; nearer; nearer &= nearer - 1) {
       const size_t l = nsvcd__low_bit(nearer);
@@ -278,7 +280,7 @@ static int nsvcd__nearest_tick(const nsvcd__search *search, nsvcd__sphere fixed,
       if (s >= search->segments || !(gaps[l] - fixed.radius < *gap)) continue;
       *gap = gaps[l] - fixed.radius;
       *tick = (double)search->begin[s];
-      *tick += (double)share[l] * ((double)search->begin[s + 1] - *tick);
+      *tick += (double)fraction[l] * ((double)search->begin[s + 1] - *tick);
       found = 1;
     }
   }
@@ -333,14 +335,14 @@ static double nsvcd__vertices_apart(const nsvcd__proof *p, const nsvcd__transfor
 // of two patches, when and where these are nearest to each other. They are found in turns: which
 // are the nearest at a time, and when they are nearest. Where `measure` begins. If that is within
 // the clearance, triangles of these patches are a contact, which is looked for there.
-static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__sphere moving = nsvcd__body_sphere(p->moving.body);
   nsvcd__sphere fixed;
   // they may not have been: bodies that never come near are told apart without
   nsvcd__cut_segments(p->ask.motion, p->given.lengths, 0, search);
   double tick = nsvcd__groups_nearest(p, search, &fixed);
   double least = HUGE_VAL;
-  double share = 0;
+  double fraction = 0;
   uint32_t from = 0;
   size_t nearest[2] = {0, 0};
   for (size_t turn = 0; turn < NSVCD__TURNS; turn++) {
@@ -351,9 +353,9 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
       (void)nsvcd__nearest_tick(search, fixed, &gap, &tick);
     }
     const uint32_t first = nsvcd__arc_of(p->ask.motion, tick, &u);
-    const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+    const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
     const nsvcd__transform pose = nsvcd__transform_of(&at);
-    const nsvcd__placement back = nsvcd__inverse_placement(&at, p->arc.scale);
+    const nsvcd__dtransform back = nsvcd__inverse_dtransform(&at, p->arc.scale);
     size_t i = 0;
     size_t j = 0;
     for (size_t round = 0; round < 2; round++) {
@@ -369,7 +371,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
     const double apart = 1.0001 * nsvcd__vertices_apart(p, &pose, i, j) + rounding;
     if (!(apart < least)) continue;
     least = apart;
-    share = u;
+    fraction = u;
     from = first;
     nearest[0] = i;
     nearest[1] = j;
@@ -377,7 +379,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
   if (!(least <= p->given.clearance)) return least;
   p->ask.clearance = least;
   p->ask.limit = p->work + NSVCD__LOOK;
-  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, share);
+  (void)nsvcd__find_witness(p, nearest[0], nearest[1], from, fraction);
   return p->known.has_contact ? p->known.found.distance : least;
 }
 
@@ -386,7 +388,7 @@ static NSVCD__APART double nsvcd__guess_clearance(nsvcd__proof *p, nsvcd__search
 // come no nearer than p->low.
 static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
   nsvcd__known known = p->known;
-  const int is_named = known.has_contact || known.unsure < NSVCD__NEVER;
+  const int is_named = known.has_contact || known.unresolved < NSVCD__NEVER;
   p->ask.clearance = is_named ? nsvcd__max(p->low, p->high - p->ask.measure) : p->high;
   nsvcd__proof_restart(p);
   const nsvcd__outcome pass = nsvcd__prove_motion(p, search);
@@ -395,8 +397,8 @@ static int nsvcd__measure_once(nsvcd__proof *p, nsvcd__search *search) {
     known.found = p->known.found;
   }
   p->known = known;
-  if (pass != NSVCD__SPENT) p->low = p->ask.clearance;
-  return pass != NSVCD__SPENT;
+  if (pass != NSVCD__EXHAUSTED) p->low = p->ask.clearance;
+  return pass != NSVCD__EXHAUSTED;
 }
 
 // Makes the bracket as narrow as `finest`. Where half of the work is not enough for that, the rest

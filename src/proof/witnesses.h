@@ -1,13 +1,13 @@
-// In: an item, an arc and a share of it. Out: a contact: two triangles that meet there, or come
-// within the clearance; with a skin, what touches at the start and which directions undo it.
+// In: a patch pair, an arc and a share of it. Out: a contact: two triangles that meet there, or
+// come within the clearance; with a skin, what touches at the start and which directions undo it.
 #pragma once
 #include "manifold.h"
 #include "blocks.h"
 
 #ifndef NSVCD_NO_PROOF
 // Nearer to each other than this nothing that is told in float is separate.
-static double nsvcd__hair(const nsvcd__proof *p) {
-  return nsvcd__off_meshes(p) + NSVCD__HAIR * (double)p->given.lengths;
+static double nsvcd__epsilon(const nsvcd__proof *p) {
+  return nsvcd__off_meshes(p) + NSVCD__LEAST_EPSILON * (double)p->given.lengths;
 }
 
 // How far the moving triangle of a touch must go along n until it is beyond the other; negative if
@@ -16,7 +16,7 @@ static double nsvcd__lift_along(nsvcd__d3 n, const nsvcd__touch *t) {
   return -nsvcd__beyond(n, t->moving, t->fixed);
 }
 
-// Is a touch too deep for the skin in every direction? Two triangles are parted soonest along a
+// Is a touch too deep for the skin in every direction? Two triangles are separated soonest along a
 // normal of one, or across an edge of each (the separating axes).
 static int nsvcd__is_deep(const nsvcd__proof *p, const nsvcd__touch *t) {
   const nsvcd__d3 lift = nsvcd__d3_widen(p->ask.motion->lift);
@@ -55,8 +55,8 @@ static double nsvcd__gap_after(const nsvcd__touch *t, nsvcd__d3 n, double way) {
 // How far along n the moving triangle of a touch must go until it is beyond the clearance for good,
 // if it is so after `most`; -HUGE_VAL: it is all the way. The distance is convex on it: thirds
 // find where it is least, and halves where it is the clearance.
-static NSVCD__APART double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n, double clearance,
-                                          double most, double grain) {
+static NSVCD__NOINLINE double nsvcd__way_out(const nsvcd__touch *t, nsvcd__d3 n,
+                                             double clearance, double most, double grain) {
   // parallel faces meet at one time only
   const double reach = clearance + nsvcd__min(0.003 * most, grain);
   const double square = reach * reach;
@@ -107,16 +107,16 @@ static int nsvcd__undone_by(nsvcd__proof *p, size_t k, const nsvcd__touch *t) {
 
 // Keeps two triangles that are within the clearance at the start, unless a direction that is known
 // undoes that.
-static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
-                                  const nsvcd__d3 *posed) {
+static void nsvcd__collect_touch(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                 const nsvcd__d3 *posed) {
   nsvcd__touch touch;
   memcpy(touch.moving, posed, sizeof touch.moving);
-  memcpy(touch.fixed, couple->fixed, sizeof touch.fixed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
-  const int are_apart = nearest.square > 1e6 * couple->rounding * couple->rounding;
+  memcpy(touch.fixed, pair->fixed, sizeof touch.fixed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  const int are_apart = nearest.square > 1e6 * pair->rounding * pair->rounding;
   const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
   touch.ways[0] = nsvcd__d3_scale(nsvcd__face_direction(posed), -1);
-  touch.ways[1] = nsvcd__face_direction(couple->fixed);
+  touch.ways[1] = nsvcd__face_direction(pair->fixed);
   touch.ways[2] = nsvcd__d3_scale(way, are_apart ? 1 / sqrt(nearest.square) : 0);
   for (size_t k = 0; k < p->normal_count; k++) {
     if (nsvcd__undone_by(p, k, &touch)) return;
@@ -128,7 +128,7 @@ static void nsvcd__gather_contact(nsvcd__proof *p, const nsvcd__couple *couple,
 // Among the moving block, posed `at`, and a block of the window: looks for a contact a share u of
 // the arc later than its start.
 static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j, size_t n,
-                                             const nsvcd__placement *at, double u,
+                                             const nsvcd__dtransform *at, double u,
                                              float margin) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const double clearance = p->ask.clearance;
@@ -142,35 +142,35 @@ static nsvcd__outcome nsvcd__find_witness_in(nsvcd__proof *p, size_t i, size_t j
       if (clearance > 0) met = nsvcd__left_by_last(p, i, j, l, fixed, 1, NULL, margin, met);
       if (!met) break;
       const size_t listing = p->moving_block.first + l;
-      const nsvcd__couple couple =
-          nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+      const nsvcd__triangle_pair pair =
+          nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
       nsvcd__d3 posed[3];
       nsvcd__nearest nearest = {0, {0, 0, 0}, {0, 0, 0}};
-      nsvcd__place_triangle(at, couple.moving, posed);
+      nsvcd__place_triangle(at, pair.moving, posed);
       p->work++;
-      if (p->ask.gathers == NSVCD__SUPPORTING) {
-        nsvcd__gather_places(p, &couple, posed);
+      if (p->ask.collects == NSVCD__SUPPORTING) {
+        nsvcd__collect_places(p, &pair, posed);
         continue;
       }
-      if (nsvcd__triangles_meet(posed, couple.fixed, &nearest.on_b)) {
+      if (nsvcd__triangles_meet(posed, pair.fixed, &nearest.on_b)) {
         nearest.on_a = nearest.on_b;
       } else {
         if (!(clearance > 0)) continue;
-        nearest = nsvcd__nearest_of(posed, couple.fixed);
+        nearest = nsvcd__nearest_of(posed, pair.fixed);
         if (!(nearest.square <= clearance * clearance)) {
           const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
-          p->memo.parting = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
+          p->memo.separating = nsvcd__d3_scale(way, 1 / sqrt(nearest.square));
           continue;
         }
       }
-      if (p->ask.gathers == NSVCD__TOUCHING) {
-        nsvcd__gather_contact(p, &couple, posed);
+      if (p->ask.collects == NSVCD__TOUCHING) {
+        nsvcd__collect_touch(p, &pair, posed);
         continue;
       }
-      const nsvcd__outcome contact = nsvcd__take_contact(p, &couple, u, &nearest);
+      const nsvcd__outcome contact = nsvcd__take_contact(p, &pair, u, &nearest);
       if (contact == NSVCD__ANSWERED) return contact;
       // They may touch sooner, or come closer.
-      const nsvcd__outcome better = nsvcd__settle_couple(p, &couple, 0, 1);
+      const nsvcd__outcome better = nsvcd__resolve_pair(p, &pair, 0, 1);
       return better == NSVCD__ANSWERED ? better : contact;
     }
   }
@@ -191,7 +191,7 @@ static void nsvcd__moving_block_load(nsvcd__proof *p, size_t i, size_t first) {
 static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, uint32_t first,
                                           double u) {
   const nsvcd__arc *arc = nsvcd__arc_at(p, first);
-  const nsvcd__placement at = nsvcd__placement_at(arc, u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(arc, u);
   const nsvcd__transform rounded = nsvcd__transform_of(&at);
   const float lengths = p->given.lengths + nsvcd__f3_length(rounded.position);
   const float margin =
@@ -208,7 +208,7 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
       nsvcd__block_box(p, 1);
       for (size_t n = 0; n < p->memo.window; n++) {
         p->work++;
-        if (nsvcd__is_spent(p)) return NSVCD__NOTHING;
+        if (nsvcd__is_exhausted(p)) return NSVCD__NOTHING;
         const nsvcd__outcome found = nsvcd__find_witness_in(p, i, j, n, &at, u, margin);
         if (found != NSVCD__NOTHING) return found;
       }
@@ -217,25 +217,25 @@ static nsvcd__outcome nsvcd__find_witness(nsvcd__proof *p, size_t i, size_t j, u
   return NSVCD__NOTHING;
 }
 
-// The arc, and the share of it, that a time counted in ticks is in: it begins at the last knot that
-// is not after that time.
-static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *share) {
+// The arc, and the share of it, that a time counted in ticks is in: it begins at the last keyframe
+// that is not after that time.
+static uint32_t nsvcd__arc_of(const nsvcd__motion *motion, double at, double *fraction) {
   const uint32_t last = motion->ticks - 1;
   const uint32_t tick = at < (double)last ? (uint32_t)at : last;
   const uint32_t a =
       nsvcd__tick_of(&motion->moving, nsvcd__pose_before(&motion->moving, tick));
   const uint32_t b = nsvcd__tick_of(&motion->fixed, nsvcd__pose_before(&motion->fixed, tick));
   const uint32_t first = a > b ? a : b;
-  *share = (at - (double)first) / (double)(nsvcd__next_knot(motion, first) - first);
+  *fraction = (at - (double)first) / (double)(nsvcd__next_keyframe(motion, first) - first);
   return first;
 }
 
-// Looks for a contact of an item where its spheres are nearest, if that still matters.
-static nsvcd__outcome nsvcd__seek_item(nsvcd__proof *p, const nsvcd__search *search,
-                                       nsvcd__item *item) {
+// Looks for a contact of a patch pair where its spheres are nearest, if that still matters.
+static nsvcd__outcome nsvcd__seek_in_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+                                                nsvcd__patch_pair *item) {
   const double start = (double)search->begin[item->segment];
   const double end = nsvcd__min((double)search->begin[item->segment + 1u], p->clipped_end);
-  const double tick = start + (double)item->share * (end - start);
+  const double tick = start + (double)item->fraction * (end - start);
   double u;
   item->sought = 1;
   if (!(tick < p->ask.end)) return NSVCD__NOTHING;

@@ -134,7 +134,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 }
 
 // The candidate for which this is greatest decides.
-static float nsvcd__doubt(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__unresolved(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
@@ -170,8 +170,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float here = nsvcd__doubt(task, &items[i]);
-      const float d = here - nsvcd__doubt(task, &items[best]);
+      const float here = nsvcd__unresolved(task, &items[i]);
+      const float d = here - nsvcd__unresolved(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
@@ -193,22 +193,22 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const float doubt = nsvcd__doubt(task, portion[k]);
-      if (!(doubt > most)) continue;
-      most = doubt;
+      const float unresolved_pair = nsvcd__unresolved(task, portion[k]);
+      if (!(unresolved_pair > most)) continue;
+      most = unresolved_pair;
       nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
 }
 
 // Does this motion, cut already, clearly collide where the hint says?
-static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
-                                              nsvcd_opinion *out) {
+static NSVCD__NOINLINE int nsvcd__collides_again(nsvcd__query *query, const nsvcd__hint *hint,
+                                                 nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const nsvcd__settings *settings = &task->settings;
   nsvcd__candidates kept;
   nsvcd__candidates_start(&kept, query->kept, NSVCD__PORTION);
-  nsvcd__sheets_begin(&query->broad_phase, settings->swell);
+  nsvcd__plane_cache_begin(&query->broad_phase, settings->swell);
   nsvcd__search_patch(&query->broad_phase, task->moving, hint->moving / NSVCD__GROUP,
                       task->fixed, hint->fixed, &kept);
   if (!nsvcd__score(task, &kept, 1, kept.count)) return 0;
@@ -222,7 +222,7 @@ static NSVCD__APART int nsvcd__collides_again(nsvcd__query *query, const nsvcd__
 
 // Searches a motion that has been cut, looking at pairs as they are found, until one is clear or
 // all are known.
-static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
+static NSVCD__NOINLINE void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opinion *out) {
   const nsvcd__task *task = &query->task;
   const size_t shortlist = task->settings.shortlist;
   nsvcd__search *search = &query->broad_phase;
@@ -230,16 +230,16 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
   size_t worth = shortlist < NSVCD__FIRST_LOOK ? shortlist : NSVCD__FIRST_LOOK;
   size_t left = NSVCD__LOOKS * shortlist;
   int clear = 0;
-  nsvcd__sheets_begin(search, task->settings.swell);
+  nsvcd__plane_cache_begin(search, task->settings.swell);
   int more = nsvcd__search_begin(task->moving, task->fixed, ~(uint64_t)0, search);
   if (more && !nsvcd__of_distance(task)) {
-    // What collides deeply shows in the first pair of groups, whether or not a plane parts any pair
-    // there; planes would take most of the time.
+    // What collides deeply shows in the first pair of groups, whether or not a plane separates any
+    // pair there; planes would take most of the time.
     nsvcd__candidates_start(&kept, query->kept, worth);
-    const int unasked = search->sheets->unasked;
-    search->sheets->unasked = 1;
+    const int unasked = search->cache->unasked;
+    search->cache->unasked = 1;
     nsvcd__search_pair(search, &kept);
-    search->sheets->unasked = unasked;
+    search->cache->unasked = unasked;
     if (nsvcd__score(task, &kept, worth, worth)) {
       left -= worth;
       clear = nsvcd__is_clear(task, &kept, 0, NSVCD__FIRST_CLEAR, out);
@@ -265,7 +265,7 @@ static NSVCD__APART void nsvcd__search_and_judge(nsvcd__query *query, nsvcd_opin
 }
 
 // Is a part of one body inside of the other at the start?
-static NSVCD__APART int nsvcd__starts_inside(const nsvcd__task *task) {
+static NSVCD__NOINLINE int nsvcd__starts_inside(const nsvcd__task *task) {
   const nsvcd__transform pose = nsvcd__motion_pose(&task->motion, 0);
   return nsvcd__is_contained(task->moving, task->fixed, task->motion.scale, &pose);
 }

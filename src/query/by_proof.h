@@ -9,13 +9,13 @@
 // Where a body is at time t in [0,1], in the world.
 static nsvcd__dquat nsvcd__turn_at(const nsvcd__motion *motion, const nsvcd__track *track,
                                    double t, nsvcd__d3 *position) {
-  nsvcd__leg leg;
+  nsvcd__slerp slerp;
   nsvcd__d3 ends[2];
   double u;
   const uint32_t first = nsvcd__arc_of(motion, t * (double)motion->ticks, &u);
-  nsvcd__leg_init(track, first, nsvcd__next_knot(motion, first) - first, &leg, ends);
+  nsvcd__slerp_init(track, first, nsvcd__next_keyframe(motion, first) - first, &slerp, ends);
   *position = nsvcd__d3_mix(ends[0], ends[1], u);
-  return nsvcd__leg_at(&leg, u);
+  return nsvcd__slerp_at(&slerp, u);
 }
 
 // From the fixed body's frame and units to the world, at time t.
@@ -49,10 +49,11 @@ static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
 
 // The share of the motion in which no point of the moving body goes farther than `to`, if that is
 // asked for, nor longer than `share`, if that is. Of a short motion a quarter of its way, so that
-// not all of it is lost to a contact, if that is more than the hairs that a safe place is before.
-static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
+// not all of it is lost to a contact, if that is more than the epsilons that a safe place is
+// before.
+static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   const nsvcd__motion *motion = p->ask.motion;
-  const double most = share > 0 ? share : 1;
+  const double most = fraction > 0 ? fraction : 1;
   double fastest = 0;  // per tick
   // that of the question before
   p->arc.ticks = 0;
@@ -62,7 +63,7 @@ static double nsvcd__share_of(nsvcd__proof *p, double to, double share) {
     first += arc->ticks;
   }
   const double whole = fastest * (double)motion->ticks;
-  const double least = fmin(to, fmax(0.25 * whole, NSVCD__HAIRS * nsvcd__hair(p)));
+  const double least = fmin(to, fmax(0.25 * whole, NSVCD__EPSILONS * nsvcd__epsilon(p)));
   return least < most * whole ? least / whole : most;
 }
 
@@ -86,14 +87,15 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int is_verdict = q->ask != NSVCD_ASK_DISTANCE;
   const size_t most = is_verdict ? NSVCD_DEFAULT_VERDICT_WORK : NSVCD_DEFAULT_WORK;
   p->given.work = p->ask.limit = p->ask.most = q->work ? q->work : most;
-  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__IN_DOUBT;
+  p->given.aside = (q->work ? q->work : NSVCD_DEFAULT_WORK) / NSVCD__AFTER_UNRESOLVED;
   p->given.grows = q->work == 0;
   p->given.tells = q->ask != NSVCD_ASK_HIT || p->given.skin > 0;
-  p->ask.measure = p->ask.first = p->ask.share = p->low = p->given.share = p->given.width = 0;
+  p->ask.measure = p->ask.first = p->ask.fraction = p->low = p->given.fraction =
+      p->given.width = 0;
   p->normal_count = 0;
   p->high = HUGE_VAL;
   p->work = 0;
-  p->ask.gathers = NSVCD__CONTACTS;
+  p->ask.collects = NSVCD__CONTACTS;
   p->ask.is_brief = p->within = p->unclear = p->wide = p->starts_free = 0;
   p->in_open = 0;
   const double to = nsvcd__to_of(task);
@@ -101,8 +103,8 @@ static void nsvcd__proof_begin(nsvcd__query *query) {
   const int by_time = q->to_time > 0 && !(q->to > 0);
   if (q->ask == NSVCD_ASK_DISTANCE) p->given.width = to;
   if (q->ask == NSVCD_ASK_FIRST)
-    p->given.share = nsvcd__share_of(p, by_time ? 0 : to, (double)q->to_time);
-  p->ask.share = p->given.share;
+    p->given.fraction = nsvcd__fraction_of(p, by_time ? 0 : to, (double)q->to_time);
+  p->ask.fraction = p->given.fraction;
   nsvcd__proof_restart(p);
 }
 
@@ -114,8 +116,9 @@ static float nsvcd__time_above(double time) {
 
 // The contact that a proof has found: when, where, and of what. Where the two were swapped it is
 // the fixed body that counts as lifted, the other way.
-static NSVCD__APART void nsvcd__tell_contact(const nsvcd__query *query,
-                                             const nsvcd__contact *found, nsvcd_contact *out) {
+static NSVCD__NOINLINE void nsvcd__tell_contact(const nsvcd__query *query,
+                                                const nsvcd__pair_contact *found,
+                                                nsvcd_contact *out) {
   const nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   const nsvcd__motion *motion = &task->motion;
@@ -155,8 +158,8 @@ static nsvcd_pose nsvcd__pose_of(nsvcd__dquat turn, nsvcd__d3 place) {
 static int nsvcd__takes_lift(const nsvcd__task *task) {
   return !task->swapped || !(task->motion.fixed_moves || task->motion.moving.count == 1);
 }
-static NSVCD__APART void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
-                                         nsvcd_pose *moving, nsvcd_pose *fixed) {
+static NSVCD__NOINLINE void nsvcd__poses_at(const nsvcd__task *task, double t, nsvcd__d3 lift,
+                                            nsvcd_pose *moving, nsvcd_pose *fixed) {
   const nsvcd__motion *motion = &task->motion;
   const int moving_takes_it = nsvcd__takes_lift(task);
   const nsvcd__to_world world = nsvcd__to_world_at(motion, t);
@@ -186,7 +189,7 @@ static double nsvcd__told_within(const nsvcd__proof *p, double t) {
 // to a little more than what they are pressed in by at the start, or to a little before they are in
 // contact. Returns how far they are lifted then, which is proven to be free, and all the way down
 // to it. All else that was known of the question is lost.
-static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
+static NSVCD__NOINLINE nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
   nsvcd__motion *whole = p->ask.motion;
@@ -196,9 +199,9 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   const nsvcd__track moves = {moving, NULL, takes_it ? 2u : 1u, 0, 0};
   const nsvcd__track rests = {fixed, NULL, takes_it ? 1u : 2u, 0, 0};
   const nsvcd__d3 lift = nsvcd__d3_widen(whole->lift);
-  // nearer to each other than stored triangles are known, nothing would be parted
-  const double hairs = 4 * nsvcd__hair(p) + nsvcd__told_within(p, t);
-  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, hairs);
+  // nearer to each other than stored triangles are known, nothing would be separated
+  const double epsilons = 4 * nsvcd__epsilon(p) + nsvcd__told_within(p, t);
+  const double kept = fmax(NSVCD__SET_DOWN * p->ask.skin, epsilons);
   const nsvcd__d3 least = nsvcd__lift_off(p, kept, 1);
   const nsvcd__d3 by = nsvcd__d3_sub(lift, least);
   const double way = nsvcd__d3_length(by);
@@ -208,15 +211,16 @@ static NSVCD__APART nsvcd__d3 nsvcd__set_down(nsvcd__query *query, double t) {
   nsvcd__motion_set_tracks(&down, moves, rests);
   down.lift = nsvcd__f3_of(0, 0, 0);
   p->ask.motion = &down;
-  p->ask.share = kept / way;
+  p->ask.fraction = kept / way;
   p->ask.measure = 0;
   p->ask.clearance = p->given.clearance;
   p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   p->ask.motion = whole;
   const double until = nsvcd__clear_until(p) / (double)down.ticks;
-  // up to a doubt it is proven, but not so that it is proven anew from there
-  const double clear = p->known.unsure < p->ask.end ? until - 0.5 * p->ask.share : until;
+  // up to an unresolved pair it is proven, but not so that it is proven anew from there
+  const double clear =
+      p->known.unresolved < p->ask.end ? until - 0.5 * p->ask.fraction : until;
   return nsvcd__d3_sub(lift, nsvcd__d3_scale(by, fmin(fmax(clear, 0), 1)));
 }
 
@@ -243,15 +247,16 @@ static nsvcd__motion nsvcd__rest_at(const nsvcd__task *task, double t, nsvcd_pos
 // The directions that the contacts of a manifold may be about: the normal of the contact that was
 // found, and those of its faces that are not against it, where the bodies do not leave along them.
 // Returns how many. How the bodies go: 0 at the start, where they only touch.
-static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__contact *found,
-                                                nsvcd__twist *twist, nsvcd__d3 *normals) {
+static NSVCD__NOINLINE int nsvcd__manifold_normals(nsvcd__proof *p,
+                                                   const nsvcd__pair_contact *found,
+                                                   nsvcd__twist *twist, nsvcd__d3 *normals) {
   nsvcd__approach now;
   int count = 1;
   nsvcd__approach_at(p, found, found->tick, &now);
   memset(twist, 0, sizeof *twist);
   if (found->tick > 0) *twist = now.twist;
   p->of.kept.manifold.normal = normals[0] = found->normal;
-  const nsvcd__facing facing = nsvcd__facing_of(p, &now.couple, now.touch.moving);
+  const nsvcd__facing facing = nsvcd__facing_of(p, &now.pair, now.touch.moving);
   for (int k = 1; k >= 0; k--) {
     const nsvcd__d3 n = facing.faces[k];
     const nsvcd__d3 all[2] = {found->normal, found->normal};
@@ -266,13 +271,13 @@ static NSVCD__APART int nsvcd__manifold_normals(nsvcd__proof *p, const nsvcd__co
 // The manifold of the contact that was found. Where a body stands, that may be one of a side that
 // rises from what it stands on: the normal of either triangle is tried, and what spans more counts.
 // All else that was known of the question is lost.
-static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   const nsvcd__task *task = &query->task;
-  const nsvcd__contact found = p->known.found;
+  const nsvcd__pair_contact found = p->known.found;
   const nsvcd__asked asked = p->ask;
-  const double hair = nsvcd__hair(p);
-  const double same = hair + 1e-5 * (double)p->given.lengths;
+  const double epsilon = nsvcd__epsilon(p);
+  const double same = epsilon + 1e-5 * (double)p->given.lengths;
   const float radius = task->motion.scale * task->moving->radius;
   const double extent = (double)fminf(radius, task->fixed->radius);
   const nsvcd__manifold *m = &p->of.kept.manifold;
@@ -283,8 +288,8 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
   int tries = nsvcd__manifold_normals(p, &found, &twist, normals);
   nsvcd__motion still = nsvcd__rest_at(task, (double)answer->nearest.time, poses);
   p->ask.motion = &still;
-  p->ask.gathers = NSVCD__SUPPORTING;
-  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * hair);
+  p->ask.collects = NSVCD__SUPPORTING;
+  p->ask.clearance = p->given.clearance + fmax(nsvcd__to_of(task), 4 * epsilon);
   p->ask.limit = p->work + p->given.aside;
   (void)nsvcd__prove_anew(p, &query->broad_phase);
   for (int k = 0; k < tries; k++) {
@@ -302,7 +307,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
     if (count > 2 && area > 0.1 * extent * extent) tries = 1;
     answer->contact_count = (size_t)count;
     for (int n = 0; n < count; n++) {
-      nsvcd__contact support = m->supports[chosen[n]];
+      nsvcd__pair_contact support = m->supports[chosen[n]];
       support.tick = found.tick;
       nsvcd__tell_contact(query, &support, &answer->contacts[n]);
       // which body a corner is of
@@ -314,7 +319,7 @@ static NSVCD__APART void nsvcd__tell_manifold(nsvcd__query *query, nsvcd_answer 
 
 // Where the bodies may go, which are proven free until answer->time.low; and how deep they are in
 // contact at the start. Where one may be inside of the other no lift helps, and they stay.
-static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
+static NSVCD__NOINLINE void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answer *answer) {
   const nsvcd__task *task = &query->task;
   const nsvcd__proof *p = query->proof;
   const double t = (double)answer->safe.time;
@@ -334,8 +339,8 @@ static NSVCD__APART void nsvcd__tell_safe_place(nsvcd__query *query, nsvcd_answe
 }
 
 // Why not all is answered. More work, or finer triangles, would not tell what is in an open solid.
-static void nsvcd__settle_why(const nsvcd__proof *p, nsvcd_answer *answer) {
-  const int is_near = p->known.unsure < NSVCD__NEVER || p->unclear;
+static void nsvcd__resolve_why(const nsvcd__proof *p, nsvcd_answer *answer) {
+  const int is_near = p->known.unresolved < NSVCD__NEVER || p->unclear;
   if (p->wide || answer->verdict == NSVCD_UNDECIDED) answer->why = NSVCD_WHY_WORK;
   if (answer->why && !p->wide && is_near) answer->why = NSVCD_WHY_TOO_NEAR;
   if (answer->why && p->in_open) answer->why = NSVCD_WHY_OPEN;
@@ -350,24 +355,25 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   nsvcd__proof *p = query->proof;
   nsvcd__proof_begin(query);
   if (p->given.skin > 0) nsvcd__lift_motion(p, search);
-  nsvcd__verdict verdict = nsvcd__prove(p, search);
-  if (p->given.width > 0 && verdict != NSVCD__WITHIN) {
+  nsvcd__finding verdict = nsvcd__prove(p, search);
+  if (p->given.width > 0 && verdict != NSVCD__FOUND_INSIDE) {
     nsvcd__measure(p, search, verdict, p->given.width);
     // A distance decides what was left undecided, but tells nothing of what is inside of what.
     const int meets = p->known.has_contact && p->known.found.distance <= p->given.clearance;
     const int is_clear =
         p->low > 0 && p->low >= p->given.clearance && !p->unclear && !p->within;
-    if (verdict == NSVCD__UNDECIDED && (meets || is_clear))
-      verdict = meets ? NSVCD__MEETS : NSVCD__FREE;
+    if (verdict == NSVCD__FOUND_NEITHER && (meets || is_clear))
+      verdict = meets ? NSVCD__FOUND_CONTACT : NSVCD__FOUND_FREE;
   }
 
-  // The triangles that the answer names are those of a contact, or else of a doubt.
-  const int has_doubt = p->known.unsure < NSVCD__NEVER;
-  const int names = p->known.has_contact || (verdict == NSVCD__UNDECIDED && has_doubt);
-  const int is_within = verdict == NSVCD__WITHIN;
-  if (names && !is_within) nsvcd__settle_normal(p);
-  const int is_free = verdict == NSVCD__FREE;
-  const int is_hit = is_within || verdict == NSVCD__MEETS;
+  // The triangles that the answer names are those of a contact, or else of an unresolved pair.
+  const int has_unresolved = p->known.unresolved < NSVCD__NEVER;
+  const int names =
+      p->known.has_contact || (verdict == NSVCD__FOUND_NEITHER && has_unresolved);
+  const int is_within = verdict == NSVCD__FOUND_INSIDE;
+  if (names && !is_within) nsvcd__resolve_normal(p);
+  const int is_free = verdict == NSVCD__FOUND_FREE;
+  const int is_hit = is_within || verdict == NSVCD__FOUND_CONTACT;
   nsvcd__answer_begin(task,
                       is_free  ? NSVCD_FREE
                       : is_hit ? NSVCD_HIT
@@ -377,22 +383,23 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   if (names || is_within) nsvcd__tell_contact(query, &p->known.found, &answer->nearest);
   if (is_within) answer->nearest.gap = HUGE_VALF;
   if (is_hit) answer->time.high = answer->nearest.time;
-  if (verdict == NSVCD__MEETS) answer->contacts[answer->contact_count++] = answer->nearest;
+  if (verdict == NSVCD__FOUND_CONTACT)
+    answer->contacts[answer->contact_count++] = answer->nearest;
 
   // What is proven of times and distances.
-  if (p->given.share > 0 && !is_free && !is_within) {
+  if (p->given.fraction > 0 && !is_free && !is_within) {
     const nsvcd__motion *motion = p->ask.motion;
     const double ticks = (double)motion->ticks;
     const double until = fmin(fmax(nsvcd__clear_until(p) / ticks, 0), 1);
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
-    if (late > p->given.share * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
+    if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
     // nearer than this it is proven on the way, but who asks again from there would not be told so
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
-    const double hairs = NSVCD__HAIRS * nsvcd__hair(p) + nsvcd__told_within(p, until);
-    const double back = way > hairs ? hairs / way : p->given.share;
+    const double epsilons = NSVCD__EPSILONS * nsvcd__epsilon(p) + nsvcd__told_within(p, until);
+    const double back = way > epsilons ? epsilons / way : p->given.fraction;
     answer->safe.time = (float)(fmax(0, until - back) * (1 - 1e-7));
   }
   const double low = (is_free ? fmax(p->given.clearance, p->low) : p->low) - p->given.round;
@@ -406,7 +413,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
   high = fmax(high - p->given.round, 0);
   answer->distance.low = (float)(fmax(low, 0) * unit * (1 - 1e-6));
   answer->distance.high = is_within ? 0 : (float)(high * unit * (1 + 1e-6));
-  nsvcd__settle_why(p, answer);
+  nsvcd__resolve_why(p, answer);
 
   // By what the moving body was lifted, in the world at the start.
   const nsvcd__d3 lift = nsvcd__d3_widen(task->motion.lift);
@@ -415,7 +422,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const nsvcd__d3 turned = nsvcd__dmat3_apply(&start.rotation, lift);
     nsvcd__f3_store(nsvcd__f3_round(nsvcd__d3_scale(turned, start.unit)), answer->lift);
   }
-  if (q->manifold && verdict == NSVCD__MEETS) nsvcd__tell_manifold(query, answer);
+  if (q->manifold && verdict == NSVCD__FOUND_CONTACT) nsvcd__tell_manifold(query, answer);
   nsvcd__tell_safe_place(query, answer);
   answer->work = p->work;
 }

@@ -133,8 +133,9 @@ static size_t nsvcd__sweep_size(const nsvcd_question *question) {
 }
 
 // Checks a question, and that the workspace is large enough for it.
-static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
-                                              const void *workspace, size_t workspace_size) {
+static NSVCD__NOINLINE nsvcd_result nsvcd__answer_question(const nsvcd_question *question,
+                                                           const void *workspace,
+                                                           size_t workspace_size) {
   const nsvcd_result result = nsvcd__question_check(question);
   if (result) return result;
   if (!workspace || !nsvcd__is_aligned(workspace)) return NSVCD_ERROR_WORKSPACE;
@@ -144,8 +145,8 @@ static NSVCD__APART nsvcd_result nsvcd__check(const nsvcd_question *question,
 }
 
 // Lays a question that has been checked out in the workspace, and chooses who moves.
-static NSVCD__APART nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
-                                                    void *workspace) {
+static NSVCD__NOINLINE nsvcd__query *nsvcd__query_open(const nsvcd_question *question,
+                                                       void *workspace) {
   const nsvcd__needs needs = nsvcd__needs_of(question);
   nsvcd__query *query = (nsvcd__query *)workspace;
   nsvcd__task *task = &query->task;
@@ -219,15 +220,16 @@ static void nsvcd__answer_query(nsvcd__query *query, nsvcd__hint *hint, nsvcd_an
 }
 
 // As nsvcd_sweep_batch.
-static nsvcd_result nsvcd__sweep_batch(const nsvcd_question *questions, size_t count,
-                                       void *workspace, size_t workspace_size,
-                                       nsvcd_answer *answers) {
+static nsvcd_result nsvcd__run_batch(const nsvcd_question *questions, size_t count,
+                                     void *workspace, size_t workspace_size,
+                                     nsvcd_answer *answers) {
   const nsvcd__hint none = {0, 0, 0, 0};
   nsvcd__hint hint = none;
   int swapped = 0;
   if (count > 0 && (!questions || !answers)) return NSVCD_ERROR_ARGUMENT;
   for (size_t k = 0; k < count; k++) {
-    const nsvcd_result result = nsvcd__check(&questions[k], workspace, workspace_size);
+    const nsvcd_result result =
+        nsvcd__answer_question(&questions[k], workspace, workspace_size);
     if (result) return result;
   }
   for (size_t k = 0; k < count; k++) {

@@ -1,12 +1,12 @@
-// In: nothing. Out: does this build reckon as it should?
+// In: nothing. Out: does this build compute as it should?
 #pragma once
-#include "../proof/couples.h"
+#include "../proof/triangle_pairs.h"
 
 // As nsvcd_self_test. The place of a body's point (1, 0, 0) at 16 ticks: the body turns by 90
 // degrees about z on its way from (4, 0, 0) to (-4, 0, 0), and is seen by one at (1, 2, 3) whose x,
 // y, z are y, z, x. Then two triangles that meet, and, as one is lifted, are apart.
-static nsvcd_result nsvcd__self_test(void) {
-  // or the compiler would reckon instead
+static nsvcd_result nsvcd__run_self_test(void) {
+  // or the compiler would compute instead
   const volatile float half = 0.70710678f;
   const float turn = half;
   const nsvcd_pose path[2] = {{{4, 0, 0}, {0, 0, 0, 1}}, {{-4, 0, 0}, {0, 0, turn, turn}}};
@@ -17,14 +17,14 @@ static nsvcd_result nsvcd__self_test(void) {
   // in a block: the stack is shared with what comes after it
   {
     nsvcd__motion motion;
-    nsvcd__knots knots;
+    nsvcd__keyframes keyframes;
     uint32_t ticks[NSVCD__LANES];
     for (uint32_t l = 0; l < NSVCD__LANES; l++) ticks[l] = l;
     nsvcd__motion_init(&moving, &fixed, &motion);
     nsvcd__motion_set_ticks(&motion, NSVCD__LANES);
-    nsvcd__knots_read(&motion, ticks, NSVCD__LANES, &knots);
+    nsvcd__keyframes_read(&motion, ticks, NSVCD__LANES, &keyframes);
     NSVCD__EACH_SLICE(l) {
-      const nsvcd__v_poses at = nsvcd__knots_load(&motion, &knots, l);
+      const nsvcd__v_poses at = nsvcd__keyframes_load(&motion, &keyframes, l);
       const nsvcd__v_pose seen = nsvcd__v_seen(&motion, &at);
       const nsvcd__v3 arm = nsvcd__v3_set(nsvcd__f3_of(1, 0, 0));
       const nsvcd__vmat3 rotation = nsvcd__vmat3_of(seen.rotation);

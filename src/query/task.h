@@ -3,7 +3,7 @@
 //
 //   check       is it in order, which method can answer it, and is the workspace large enough?
 //   lay out     what it needs, and where in the workspace that is
-//   who moves   of its two bodies; all is reckoned in the other's frame and units
+//   who moves   of its two bodies; all is computed in the other's frame and units
 //   answer      by proof, or by the network
 //   write       what was found about moving and fixed, as facts about a and b
 //
@@ -41,8 +41,8 @@
 // pairs that the chosen decoder sees at once, until one is clear: nsvcd__judge; and pairs that are
 // kept where the last of a batch collided: nsvcd__collides_again
 #define NSVCD__PORTION 4
-// that patches swell before planes part them, shares of their radii, at N = 32 and less the more
-// there are: at a recall of 0.999, and of 0.9999
+// that patches swell before planes separate them, shares of their radii, at N = 32 and less the
+// more there are: at a recall of 0.999, and of 0.9999
 #define NSVCD__SWELL 0.04f
 #define NSVCD__SWELL_MOST 0.1f
 // and where a distance is asked for: patches are told of within their radii
@@ -67,7 +67,7 @@ typedef struct nsvcd__settings {
   int int8;
   // subtracted from the decoder's logit
   float threshold;
-  // of patches, shares of their radii, before planes part them
+  // of patches, shares of their radii, before planes separate them
   float swell;
 } nsvcd__settings;
 
@@ -134,7 +134,7 @@ typedef char nsvcd__proof_constants_hold
 #ifndef NSVCD_NO_NETWORK
 typedef char
     nsvcd__network_constants_hold[NSVCD__SHORTLIST * sizeof(nsvcd__candidate) <= 112 &&
-                                          sizeof(nsvcd__sheets) <= 576 &&
+                                          sizeof(nsvcd__plane_cache) <= 576 &&
                                           NSVCD__LATENT == 40 &&
                                           sizeof(float) * NSVCD__DECODER_IN <=
                                               sizeof(uint16_t) * NSVCD__GROUP * NSVCD__LANES
@@ -157,9 +157,9 @@ static size_t nsvcd__query_layout(const nsvcd__needs *needs, char *base) {
   query->kept = (nsvcd__candidate *)kept;
   const size_t asked = needs->candidates > 0;
   const size_t meetings = asked * NSVCD__GROUP * needs->segments;
-  void *sheets = nsvcd__take(base, &network, asked, sizeof(nsvcd__sheets));
+  void *cache = nsvcd__take(base, &network, asked, sizeof(nsvcd__plane_cache));
   void *met = nsvcd__take(base, &network, meetings, sizeof(uint16_t));
-  query->broad_phase.sheets = (nsvcd__sheets *)sheets;
+  query->broad_phase.cache = (nsvcd__plane_cache *)cache;
   query->broad_phase.met = (uint16_t *)met;
   end = network;
 #endif

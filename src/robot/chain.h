@@ -8,7 +8,7 @@
 //   proofs      a certificate of a pair, as the joints move it
 //   trees       configurations, and the nearest of them
 //   postures    one configuration: what is near, a way out; which pairs can meet
-//   ramps       from one state to another, within limits of speed and acceleration
+//   blends       from one state to another, within limits of speed and acceleration
 //   smooth      a way in time, then smooth
 //   route       a start and goals: two trees of proven edges, shortcuts
 //
@@ -30,7 +30,7 @@
 #define NSVCD__CORNER 1e-3
 // metres that a part may stray at first; each time a pair is asked again it may by this share of it
 #define NSVCD__COARSE 2e-3
-#define NSVCD__STRAY_SHARE 8
+#define NSVCD__STRAY_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
 #define NSVCD__PAIR_GLANCE 200

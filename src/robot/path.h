@@ -155,7 +155,7 @@ NSVCDDEF nsvcd_result nsvcd_checker_open(const nsvcd_scene *scene, void *memory,
     const nsvcd__d3 centre = nsvcd__d3_scale(nsvcd__d3_load(facts.centre), scale);
     const nsvcd__frame sphere = {{0, 0, 0, 1}, centre};
     m->centre = nsvcd__frame_in(&m->frame, &sphere).place;
-    // spheres are reckoned in float
+    // spheres are computed in float
     m->radius = 1.000001 * scale * (double)(facts.radius - facts.round);
     m->extent = 1.000001 * scale * (double)facts.extent;
     const nsvcd__d3 low = nsvcd__d3_load(facts.low);
@@ -193,9 +193,9 @@ static void nsvcd__sample_put(nsvcd_checker *c, const nsvcd__configuration *at, 
     c->frames[m->row + k] = frame;
     c->boxes[m->row + k] = box;
     m->box = k ? nsvcd__box_over(&m->box, &box) : box;
-    // some 5e-16 of its lever for each joint
-    const double lever = reach + nsvcd__d3_length(frame.place) + m->extent;
-    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * lever);
+    // some 5e-16 of its moment arm for each joint
+    const double arm = reach + nsvcd__d3_length(frame.place) + m->extent;
+    m->rounding = nsvcd__max(k ? m->rounding : 0, NSVCD__FRAME_ROUNDING * arm);
   }
 }
 
@@ -455,12 +455,12 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
           (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
       const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
       const size_t k = spell->first + within;
-      const double share = at - (double)within;
-      const double time = c->times[k] + share * (c->times[k + 1] - c->times[k]);
+      const double fraction = at - (double)within;
+      const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
-      answer->share = nsvcd__share_at(motion, answer->piece, time);
+      answer->fraction = nsvcd__fraction_at(motion, answer->piece, time);
     }
-    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->share, joints,
+    nsvcd__joints_at(motion, c->scene->joint_count, answer->piece, answer->fraction, joints,
                      NULL);
     result = nsvcd__ask_at(c, pair, joints, options, answer);
     if (answer->verdict == NSVCD_HIT) return result;
@@ -484,7 +484,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = nsvcd__piece_at(motion, t0);
-  answer->share = nsvcd__share_at(motion, answer->piece, t0);
+  answer->fraction = nsvcd__fraction_at(motion, answer->piece, t0);
   for (size_t k = 0; k <= steps; k++)
     c->times[k] = k < steps ? t0 + (t1 - t0) * (double)k / (double)steps : t1;
   nsvcd__sample(c, motion, steps);
@@ -528,7 +528,7 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
     left = kept;
     if (left == 0) break;
     if (steps == 0 || allowed <= (double)options->finest) return NSVCD_OK;
-    allowed = nsvcd__max(allowed / NSVCD__STRAY_SHARE, (double)options->finest);
+    allowed = nsvcd__max(allowed / NSVCD__STRAY_FRACTION, (double)options->finest);
   }
   answer->pair = NSVCD_NONE;
   answer->verdict = NSVCD_FREE;
@@ -633,7 +633,7 @@ NSVCDDEF nsvcd_result nsvcd_check(nsvcd_checker *checker, const nsvcd_joint_moti
   if (result) return result;
   if (found.verdict == NSVCD_FREE) {
     found.piece = NSVCD_NONE;
-    found.share = 0;
+    found.fraction = 0;
     found.why = NSVCD_WHY_NOTHING;
   }
   *answer = found;

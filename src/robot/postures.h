@@ -11,7 +11,7 @@
 #define NSVCD__LEAST_SKIN 0.015625f
 #define NSVCD__DEPTH_HALVINGS 12
 // of the depth: what is looked at to see which faces part last; and the least share of a lift that
-// parts them, of which a slope is told
+// separates them, of which a slope is told
 #define NSVCD__DEPTH_BEYOND 1.01
 #define NSVCD__LEAST_RATE 0.1
 #define NSVCD__FARTHEST_ESCAPE 0.5
@@ -60,9 +60,9 @@ static void nsvcd__slope_add(const nsvcd_checker *c, size_t part, const nsvcd__s
   const uint32_t link = c->scene->parts[part].link;
   for (uint32_t path = link ? c->links[link - 1].path : 0; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
-    const nsvcd__d3 lever = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
+    const nsvcd__d3 arm = nsvcd__d3_sub(point, c->at.frames[j + 1].place);
     const nsvcd__d3 speed =
-        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], lever);
+        nsvcd__slides(c, j) ? c->at.axes[j] : nsvcd__d3_cross(c->at.axes[j], arm);
     slope[j] += sign * nsvcd__d3_dot(normal, speed);
   }
 }
@@ -78,13 +78,13 @@ static nsvcd_result nsvcd__ask_lifted(nsvcd_checker *c, const nsvcd_question *qu
   return nsvcd_sweep(&asked, c->query, c->query_size, found);
 }
 
-// A lift of a off b that parts them, by the least of some skins, each four times the one before,
-// that is enough. 0: none up to `deepest` is.
-static nsvcd_result nsvcd__parting_lift(nsvcd_checker *c, nsvcd_question question,
-                                        float deepest, nsvcd__d3 *lift) {
+// A lift of a off b that separates them, by the least of some skins, each four times the one
+// before, that is enough. 0: none up to `deepest` is.
+static nsvcd_result nsvcd__separating_lift(nsvcd_checker *c, nsvcd_question question,
+                                           float deepest, nsvcd__d3 *lift) {
   nsvcd_answer found;
-  for (float share = NSVCD__LEAST_SKIN; share <= 1; share *= 4) {
-    question.skin = share * deepest;
+  for (float fraction = NSVCD__LEAST_SKIN; fraction <= 1; fraction *= 4) {
+    question.skin = fraction * deepest;
     const nsvcd_result result = nsvcd_sweep(&question, c->query, c->query_size, &found);
     if (result) return result;
     *lift = nsvcd__d3_load(found.lift);
@@ -106,7 +106,7 @@ static nsvcd_result nsvcd__touching_gap(nsvcd_checker *c, nsvcd_question questio
   double high = 1;
   question.ask = NSVCD_ASK_HIT;
   question.to = 0;
-  nsvcd_result result = nsvcd__parting_lift(c, question, o->deepest, &lift);
+  nsvcd_result result = nsvcd__separating_lift(c, question, o->deepest, &lift);
   const double length = nsvcd__d3_length(lift);
   if (result || !(length > 0)) return result;
   for (size_t n = 0; n < NSVCD__DEPTH_HALVINGS && !result; n++) {

@@ -7,7 +7,7 @@
 // that slides 1. Then
 //   |y''| <= sum over j of A_j L_j + V_j (2 sum over outer k of V_k L_k + V_j L_j)
 // the second term of joints that turn alone, and y leaves its chord by an eighth of it at most. The
-// bound of robot/stray is a better one, from where the links are; this one a checker can reckon
+// bound of robot/stray is a better one, from where the links are; this one a checker can compute
 // again in a few lines.
 // Source: this library.
 #pragma once
@@ -25,18 +25,18 @@ typedef struct nsvcd__carried {
   size_t base;
 } nsvcd__carried;
 
-static double nsvcd__knot_of(const nsvcd_joint_motion *m, size_t k) {
+static double nsvcd__keyframe_of(const nsvcd_joint_motion *m, size_t k) {
   const double first = nsvcd__piece_start(m, 0);
   const double whole = nsvcd__piece_start(m, m->pieces) - first;
   return nsvcd__stored((nsvcd__piece_start(m, k) - first) / whole);
 }
 
-static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
+static size_t nsvcd__keyframe_before(const nsvcd_joint_motion *m, double t) {
   size_t low = 0;
   size_t high = m->pieces;
   while (high - low > 1) {
     const size_t middle = low + (high - low) / 2;
-    if (nsvcd__knot_of(m, middle) <= t)
+    if (nsvcd__keyframe_of(m, middle) <= t)
       low = middle;
     else
       high = middle;
@@ -50,9 +50,9 @@ static size_t nsvcd__knot_before(const nsvcd_joint_motion *m, double t) {
 static double nsvcd__curve_of(const nsvcd__carried *c, size_t joint, double t0, double t1,
                               double *p) {
   const nsvcd_joint_motion *m = &c->motion;
-  const size_t piece = nsvcd__knot_before(m, 0.5 * (t0 + t1));
-  const double start = nsvcd__knot_of(m, piece);
-  const double whole = nsvcd__knot_of(m, piece + 1) - start;
+  const size_t piece = nsvcd__keyframe_before(m, 0.5 * (t0 + t1));
+  const double start = nsvcd__keyframe_of(m, piece);
+  const double whole = nsvcd__keyframe_of(m, piece + 1) - start;
   const double from = nsvcd__max((t0 - start) / whole, 0);
   const double to = nsvcd__min((t1 - start) / whole, 1);
   double most = 0;
@@ -91,7 +91,7 @@ static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
 
 static double nsvcd__carried_next(const void *motion, double t) {
   const nsvcd_joint_motion *m = &((const nsvcd__carried *)motion)->motion;
-  return nsvcd__knot_of(m, nsvcd__knot_before(m, t) + 1);
+  return nsvcd__keyframe_of(m, nsvcd__keyframe_before(m, t) + 1);
 }
 
 // THE CHORDS of the banner: all in pairs, what does not depend on the distance from the part's
@@ -144,7 +144,7 @@ static uint32_t nsvcd__digest_double(uint32_t digest, double x) {
 }
 
 // A digest of what carries a part, and by how much its places can be off: lengths that they are
-// reckoned from.
+// computed from.
 static nsvcd_motion_model nsvcd__carried_model(const nsvcd__carried *c) {
   const nsvcd_scene *scene = c->checker->scene;
   const nsvcd_part *part = &scene->parts[c->part];
@@ -186,7 +186,7 @@ static int nsvcd__is_provable(const nsvcd_checker *c, const nsvcd_joint_motion *
   if (m->pieces < 1 || m->pieces > NSVCD_MAX_POSES) return 0;
   for (size_t i = 0; i <= m->pieces * m->degree; i++) {
     const size_t piece = i > 0 ? (i - 1) / m->degree : 0;
-    const double whole = nsvcd__knot_of(m, piece + 1) - nsvcd__knot_of(m, piece);
+    const double whole = nsvcd__keyframe_of(m, piece + 1) - nsvcd__keyframe_of(m, piece);
     if (!(whole >= 1.001e-9)) return 0;
     for (size_t j = 0; j < joints; j++) {
       const double *value = &m->points[i * joints + j];

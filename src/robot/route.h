@@ -68,7 +68,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   // what is given is not counted as a node
   const size_t nodes = o->nodes + problem->goal_count + problem->guess_count + 1;
   for (size_t k = 0; k < 2; k++) {
-    nsvcd__tree *t = &r->trees[k];
+    nsvcd__rrt *t = &r->trees[k];
     t->joints = joints;
     t->points = (double *)nsvcd__take(base, &used, nodes * joints, sizeof(double));
     t->parents = (uint32_t *)nsvcd__take(base, &used, nodes, sizeof(uint32_t));
@@ -81,7 +81,7 @@ static size_t nsvcd__router_layout(const nsvcd_checker *checker,
   r->way = (double *)nsvcd__take(base, &used, rows, joints * sizeof(double));
   nsvcd__course_take(&r->course, base, &used, NSVCD__MOST_PIECES, joints);
   nsvcd__course_take(&r->other, base, &used, NSVCD__MOST_PIECES, joints);
-  nsvcd__course_take(&r->ramp, base, &used, NSVCD__RAMP_PIECES, joints);
+  nsvcd__course_take(&r->blend, base, &used, NSVCD__BLEND_PIECES, joints);
   *router = (nsvcd__router *)at;
   return used <= SIZE_MAX ? (size_t)used : 0;
 }
@@ -113,7 +113,7 @@ static double nsvcd__draw_joint(nsvcd__router *r, size_t j, int is_wide) {
 // often along a joint, and no other edge of some length is free there.
 static void nsvcd__draw(nsvcd__router *r, size_t turn, double *out) {
   const size_t joints = r->joints;
-  const nsvcd__tree *t = &r->trees[turn % 2];
+  const nsvcd__rrt *t = &r->trees[turn % 2];
   if (r->idle[turn % 2] >= NSVCD__IDLE && turn / 2 % 2) {
     const size_t node = (size_t)(nsvcd__random(&r->random) * (double)t->count);
     const size_t joint = (size_t)(nsvcd__random(&r->random) * (double)joints);
@@ -134,7 +134,7 @@ static int nsvcd__is_at_limit(const nsvcd__router *r) {
 // Grows a tree from its node nearest to a configuration, edge by edge until it is there or, unless
 // `is_greedy`, once. Returns the last node that is new in *node, or the nearest one; *is_there: it
 // is the configuration.
-static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *to,
+static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__rrt *t, const double *to,
                                 int is_greedy, size_t *node, int *is_there) {
   const size_t joints = r->joints;
   *node = nsvcd__tree_nearest(t, to);
@@ -164,8 +164,8 @@ static nsvcd_result nsvcd__grow(nsvcd__router *r, nsvcd__tree *t, const double *
 static void nsvcd__way_through(nsvcd__router *r, size_t from_start, size_t from_goal) {
   const size_t joints = r->joints;
   const size_t bytes = joints * sizeof(double);
-  const nsvcd__tree *start = &r->trees[0];
-  const nsvcd__tree *goal = &r->trees[1];
+  const nsvcd__rrt *start = &r->trees[0];
+  const nsvcd__rrt *goal = &r->trees[1];
   size_t count = 1;
   for (size_t n = from_start; start->parents[n] != n; n = start->parents[n]) count++;
   r->way_count = count;
@@ -188,7 +188,7 @@ static nsvcd_result nsvcd__take_guess(nsvcd__router *r, int *is_found) {
   // which goal it leads to
   if (last > 0) nodes[1] = nsvcd__tree_nearest(&r->trees[1], p->guess + (last - 1) * joints);
   for (int side = 0; side < 2; side++) {
-    nsvcd__tree *t = &r->trees[side];
+    nsvcd__rrt *t = &r->trees[side];
     for (is_free = 1; is_free && first < last;) {
       const double *to = p->guess + (side ? last - 1 : first) * joints;
       const nsvcd_result result =
@@ -227,8 +227,8 @@ static nsvcd_result nsvcd__seek(nsvcd__router *r) {
     return NSVCD_OK;
   }
   for (size_t turn = 0; !r->is_stopped; turn++) {
-    nsvcd__tree *grown = &r->trees[turn % 2];
-    nsvcd__tree *other = &r->trees[1 - turn % 2];
+    nsvcd__rrt *grown = &r->trees[turn % 2];
+    nsvcd__rrt *other = &r->trees[1 - turn % 2];
     double drawn[NSVCD_MAX_JOINTS];
     size_t node, met;
     int is_there;
@@ -262,8 +262,9 @@ static size_t nsvcd__way_at(const nsvcd__router *r, double gone, double *at) {
   }
   const double *from = r->way + k * joints;
   const double length = sqrt(nsvcd__way2(from, from + joints, joints));
-  const double share = length > 0 ? nsvcd__min(gone / length, 1) : 0;
-  for (size_t j = 0; j < joints; j++) at[j] = from[j] + share * (from[j + joints] - from[j]);
+  const double fraction = length > 0 ? nsvcd__min(gone / length, 1) : 0;
+  for (size_t j = 0; j < joints; j++)
+    at[j] = from[j] + fraction * (from[j + joints] - from[j]);
   return k;
 }
 
@@ -362,7 +363,7 @@ static nsvcd_result nsvcd__take_in(nsvcd__router *r, const double *at, double *o
 }
 
 // Adds a root to a tree, and takes it into the range of all roots.
-static void nsvcd__plant_root(nsvcd__router *r, nsvcd__tree *t, const double *at) {
+static void nsvcd__plant_root(nsvcd__router *r, nsvcd__rrt *t, const double *at) {
   const int is_first = r->trees[0].count == 0;
   for (size_t j = 0; j < r->joints; j++) {
     r->low[j] = is_first ? at[j] : nsvcd__min(r->low[j], at[j]);
@@ -402,8 +403,8 @@ static nsvcd_result nsvcd__time_way(nsvcd__router *r) {
   const double *last = r->way + (r->way_count - 1) * joints;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &r->scene->joints[j];
-    const double time = nsvcd__ramp_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
-                                         nsvcd__acceleration_of(joint));
+    const double time = nsvcd__blend_time(r->way[j], 0, last[j], 0, nsvcd__speed_of(joint),
+                                          nsvcd__acceleration_of(joint));
     r->answer.unhindered = nsvcd__max(r->answer.unhindered, time);
   }
   int is_free = 0;

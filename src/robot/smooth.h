@@ -1,12 +1,12 @@
 // In: a way, a polyline that is proven. Out: a motion in time along it, then one that is smooth.
 //
 // Each edge is gone along from rest to rest. Then, again and again, two times are drawn: the motion
-// between them is replaced by a ramp, if that is quicker and proven. Where it still rests, the two
+// between them is replaced by a blend, if that is quicker and proven. Where it still rests, the two
 // times are drawn about that.
 // Source: Hauser and Ng-Thow-Hing (2010).
 #pragma once
 #include "../interface/routes.h"
-#include "ramps.h"
+#include "blends.h"
 
 // of a motion, at most
 #define NSVCD__MOST_PIECES 2048
@@ -15,7 +15,7 @@
 #define NSVCD__WINDOWS 6
 // of the duration without obstacles: there is nothing to win
 #define NSVCD__FAST_ENOUGH 1.001
-// what a ramp is to win, to be worth its proof: a share of its own time, and, unless a rest goes
+// what a blend is to win, to be worth its proof: a share of its own time, and, unless a rest goes
 // with it, of what the motion takes longer than without obstacles
 #define NSVCD__LEAST_GAIN 1e-4
 #define NSVCD__WORTHY_GAIN 0.02
@@ -44,13 +44,13 @@ typedef struct nsvcd__router {
   int is_stopped;
   // turns since each tree has grown
   size_t idle[2];
-  nsvcd__tree trees[2];  // from the start, from the goals
+  nsvcd__rrt trees[2];  // from the start, from the goals
   // (F): the range of their roots
   double low[NSVCD_MAX_JOINTS], high[NSVCD_MAX_JOINTS];
   size_t *goals;  // (G): of those that are free, which; the roots of trees[1]
   double *way;    // (nodes of both trees + shortcuts, F)
   size_t way_count;
-  nsvcd__course course, other, ramp;
+  nsvcd__course course, other, blend;
   nsvcd_route_answer answer;
 } nsvcd__router;
 
@@ -121,8 +121,8 @@ static int nsvcd__course_along(nsvcd__router *r) {
       const nsvcd_joint *joint = &r->scene->joints[j];
       const double d = fabs(to[j] - from[j]);
       if (!(d > 0)) continue;
-      speed = nsvcd__min(speed, NSVCD__RAMP_SHARE * nsvcd__speed_of(joint) / d);
-      most = nsvcd__min(most, NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint) / d);
+      speed = nsvcd__min(speed, NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint) / d);
+      most = nsvcd__min(most, NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint) / d);
     }
     if (!(speed < HUGE_VAL)) continue;
     const double up = nsvcd__min(speed / most, sqrt(1 / most));
@@ -170,8 +170,8 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
     for (size_t j = 0; j < joints; j++) {
       double points[NSVCD_MAX_DEGREE + 1];
       nsvcd__joint_points(&motion, p, joints, j, points);
-      nsvcd__cut_curve(points, 2, nsvcd__share_at(&motion, p, from),
-                       nsvcd__share_at(&motion, p, to));
+      nsvcd__cut_curve(points, 2, nsvcd__fraction_at(&motion, p, from),
+                       nsvcd__fraction_at(&motion, p, to));
       middle[j] = points[1];
       end[j] = points[2];
     }
@@ -180,7 +180,7 @@ static int nsvcd__course_copy(const nsvcd__course *c, size_t joints, double t0, 
   return 1;
 }
 
-// Replaces the course from time t0 to t1 by a ramp, if that is quicker by `gain` and proven.
+// Replaces the course from time t0 to t1 by a blend, if that is quicker by `gain` and proven.
 static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, double gain) {
   const size_t joints = r->joints;
   double states[4][NSVCD_MAX_JOINTS];
@@ -188,27 +188,27 @@ static nsvcd_result nsvcd__smooth_once(nsvcd__router *r, double t0, double t1, d
   const double times[2] = {t0, t1};
   for (size_t n = 0; n < 2; n++) {
     const size_t piece = nsvcd__piece_at(&motion, times[n]);
-    nsvcd__joints_at(&motion, joints, piece, nsvcd__share_at(&motion, piece, times[n]),
+    nsvcd__joints_at(&motion, joints, piece, nsvcd__fraction_at(&motion, piece, times[n]),
                      states[n], states[n + 2]);
   }
-  nsvcd__course *ramp = &r->ramp;
-  ramp->pieces =
-      nsvcd__ramp_write(r->scene, states, t1 - t0 - gain, ramp->points, ramp->times);
-  if (!ramp->pieces) return NSVCD_OK;
-  // the whole as it would be: what is left of the course, and the ramp between
+  nsvcd__course *blend = &r->blend;
+  blend->pieces =
+      nsvcd__blend_write(r->scene, states, t1 - t0 - gain, blend->points, blend->times);
+  if (!blend->pieces) return NSVCD_OK;
+  // the whole as it would be: what is left of the course, and the blend between
   nsvcd__course *out = &r->other;
   nsvcd__course_begin(out, joints, r->course.points);
   const double end = r->course.times[r->course.pieces];
   if (!nsvcd__course_copy(&r->course, joints, 0, t0, out)) return NSVCD_OK;
-  if (out->pieces + ramp->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
-  for (size_t p = 0; p < ramp->pieces; p++) {
-    const double *middle = ramp->points + (2 * p + 1) * joints;
+  if (out->pieces + blend->pieces > NSVCD__MOST_PIECES) return NSVCD_OK;
+  for (size_t p = 0; p < blend->pieces; p++) {
+    const double *middle = blend->points + (2 * p + 1) * joints;
     nsvcd__course_add(out, joints, middle, middle + joints,
-                      ramp->times[p + 1] - ramp->times[p]);
+                      blend->times[p + 1] - blend->times[p]);
   }
   if (!nsvcd__course_copy(&r->course, joints, t1, end, out)) return NSVCD_OK;
   int is_free;
-  const nsvcd_joint_motion asked = nsvcd__motion_of(ramp);
+  const nsvcd_joint_motion asked = nsvcd__motion_of(blend);
   const nsvcd_result result = nsvcd__ask_motion(r, &asked, &is_free);
   if (result || !is_free) return result;
   const nsvcd__course was = r->course;

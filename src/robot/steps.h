@@ -41,7 +41,7 @@ static size_t nsvcd__piece_at(const nsvcd_joint_motion *motion, double time) {
 }
 
 // The share of a piece that has gone by at a time.
-static double nsvcd__share_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
+static double nsvcd__fraction_at(const nsvcd_joint_motion *motion, size_t piece, double time) {
   const double start = nsvcd__piece_start(motion, piece);
   if (time >= nsvcd__piece_start(motion, piece + 1)) return 1;
   return time > start ? (time - start) / nsvcd__piece_time(motion, piece) : 0;
@@ -69,7 +69,7 @@ static void nsvcd__cut_curve(double *p, size_t degree, double s0, double s1) {
 
 // The joints in a piece at a share of it, and, unless NULL, their speeds.
 static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, size_t piece,
-                             double share, double *at, double *speeds) {
+                             double fraction, double *at, double *speeds) {
   const size_t degree = motion->degree;
   for (size_t j = 0; j < joints; j++) {
     double p[NSVCD_MAX_DEGREE + 1];
@@ -79,7 +79,7 @@ static void nsvcd__joints_at(const nsvcd_joint_motion *motion, size_t joints, si
         speeds[j] = (double)degree * (p[1] - p[0]) / nsvcd__piece_time(motion, piece);
       // both ends exactly
       for (size_t i = 0; i < level; i++)
-        p[i] = share < 1 ? p[i] + share * (p[i + 1] - p[i]) : p[i + 1];
+        p[i] = fraction < 1 ? p[i] + fraction * (p[i + 1] - p[i]) : p[i + 1];
     }
     at[j] = p[0];
   }
@@ -89,7 +89,7 @@ NSVCDDEF void nsvcd_motion_at(const nsvcd_joint_motion *motion, size_t joints, d
                               double *out) {
   const nsvcd_joint_motion m = nsvcd__motion_meant(motion);
   const size_t piece = nsvcd__piece_at(&m, time);
-  nsvcd__joints_at(&m, joints, piece, nsvcd__share_at(&m, piece, time), out, NULL);
+  nsvcd__joints_at(&m, joints, piece, nsvcd__fraction_at(&m, piece, time), out, NULL);
 }
 
 // By how much the speed of a joint jumps where a piece begins.
@@ -114,8 +114,9 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
   double square = 0;
   const double h = t1 - t0;
   while (last + 1 < motion->pieces && nsvcd__piece_start(motion, last + 1) < t1) last++;
-  const double end = nsvcd__share_at(motion, last, t1);
-  nsvcd__joints_at(motion, joints, first, nsvcd__share_at(motion, first, t0), step->from, v0);
+  const double end = nsvcd__fraction_at(motion, last, t1);
+  nsvcd__joints_at(motion, joints, first, nsvcd__fraction_at(motion, first, t0), step->from,
+                   v0);
   nsvcd__joints_at(motion, joints, last, end, step->to, v1);
   for (size_t j = 0; j < joints; j++) {
     const double d = step->to[j] - step->from[j];
@@ -133,7 +134,7 @@ static void nsvcd__step_of(const nsvcd_joint_motion *motion, size_t joints, doub
     double jumps = 0;
     for (size_t piece = first; piece <= last; piece++) {
       double p[NSVCD_MAX_DEGREE + 1], second[NSVCD_MAX_DEGREE + 1];
-      const double s0 = piece == first ? nsvcd__share_at(motion, piece, t0) : 0;
+      const double s0 = piece == first ? nsvcd__fraction_at(motion, piece, t0) : 0;
       const double s1 = piece == last ? end : 1;
       const double steps = h / nsvcd__piece_time(motion, piece);
       nsvcd__joint_points(motion, piece, joints, j, p);

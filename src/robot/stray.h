@@ -28,17 +28,17 @@ static double nsvcd__angle_between(nsvcd__dquat a, nsvcd__dquat b) {
   return 4 * asin(nsvcd__min(0.5 * sqrt(nsvcd__dquat_dot(chord, chord)), 1));
 }
 
-// The bound of the banner, from levers r (F) on the path of joints. turn: w.
+// The bound of the banner, from moment arms r (F) on the path of joints. turn: w.
 static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, uint32_t path,
-                              const double *levers, double turn, double extent) {
+                              const double *moment_arms, double turn, double extent) {
   double bend = 0;
   double second = 0;
   double inner = 0;
   for (; path; path &= path - 1) {
     const size_t j = nsvcd__low_bit(path);
     const double own = nsvcd__slides(c, j) ? 0 : step->way[j];
-    bend += step->bend[j] * levers[j];
-    second += step->way[j] * levers[j] * (2 * inner + own);
+    bend += step->bend[j] * moment_arms[j];
+    second += step->way[j] * moment_arms[j] * (2 * inner + own);
     inner += own;
   }
   return (bend + second + turn * turn * extent) / 8;
@@ -46,8 +46,8 @@ static double nsvcd__stray_by(const nsvcd_checker *c, const nsvcd__step *step, u
 
 // r of the banner: how far points of a part can be from the axes of the joints on its path, during
 // a step that begins in a configuration; 1 of what slides.
-static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
-                             const nsvcd__configuration *from, double *levers) {
+static void nsvcd__moment_arms_of(const nsvcd_checker *c, size_t part, const nsvcd__step *step,
+                                  const nsvcd__configuration *from, double *moment_arms) {
   const nsvcd__member *m = &c->members[part];
   const size_t link = c->scene->parts[part].link;
   const uint32_t path = c->links[link - 1].path;
@@ -57,12 +57,13 @@ static void nsvcd__levers_of(const nsvcd_checker *c, size_t part, const nsvcd__s
   double moved = 0;  // by joints beyond this one
   for (size_t j = link; j-- > 0;) {
     if (!(path >> j & 1)) continue;
-    levers[j] = 1;
+    moment_arms[j] = 1;
     if (!nsvcd__slides(c, j)) {
       const nsvcd__d3 off = nsvcd__d3_sub(centre, from->frames[j + 1].place);
-      levers[j] = nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
+      moment_arms[j] =
+          nsvcd__d3_length(nsvcd__d3_cross(from->axes[j], off)) + m->radius + moved;
     }
-    moved += step->reach[j] * levers[j];
+    moved += step->reach[j] * moment_arms[j];
   }
 }
 
@@ -71,9 +72,9 @@ static double nsvcd__stray_of(const nsvcd_checker *c, size_t part, const nsvcd__
                               const nsvcd__configuration *from,
                               const nsvcd__configuration *to) {
   const size_t link = c->scene->parts[part].link;
-  double levers[NSVCD_MAX_JOINTS];
+  double moment_arms[NSVCD_MAX_JOINTS];
   const double turn = nsvcd__angle_between(from->frames[link].turn, to->frames[link].turn);
-  nsvcd__levers_of(c, part, step, from, levers);
-  return nsvcd__stray_by(c, step, c->links[link - 1].path, levers, turn,
+  nsvcd__moment_arms_of(c, part, step, from, moment_arms);
+  return nsvcd__stray_by(c, step, c->links[link - 1].path, moment_arms, turn,
                          c->members[part].extent);
 }

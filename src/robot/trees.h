@@ -17,13 +17,13 @@ typedef struct nsvcd__cell {
   uint32_t first, count;
 } nsvcd__cell;
 
-typedef struct nsvcd__tree {
+typedef struct nsvcd__rrt {
   size_t joints, count, cell_count;
   double *points;      // (nodes, F)
   uint32_t *parents;   // (nodes): of a root, itself
   uint32_t *next;      // (nodes): in a leaf
   nsvcd__cell *cells;  // (2 nodes)
-} nsvcd__tree;
+} nsvcd__rrt;
 
 static double nsvcd__way2(const double *a, const double *b, size_t joints) {
   double sum = 0;
@@ -32,7 +32,7 @@ static double nsvcd__way2(const double *a, const double *b, size_t joints) {
 }
 
 // Cuts a leaf, unless all its points are the same.
-static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
+static void nsvcd__leaf_cut(nsvcd__rrt *t, size_t index) {
   nsvcd__cell *cell = &t->cells[index];
   size_t widest = 0;
   double width = 0;
@@ -72,7 +72,7 @@ static void nsvcd__leaf_cut(nsvcd__tree *t, size_t index) {
 }
 
 // parent: t->count of a root. Returns the node.
-static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
+static size_t nsvcd__tree_add(nsvcd__rrt *t, const double *at, size_t parent) {
   const size_t node = t->count++;
   size_t index = 0;
   memcpy(&t->points[node * t->joints], at, t->joints * sizeof *at);
@@ -91,8 +91,8 @@ static size_t nsvcd__tree_add(nsvcd__tree *t, const double *at, size_t parent) {
 }
 
 // Looks in a cell, which is `off` from the point, joint by joint, for what is nearer than *best.
-static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *at,
-                              double *off, double off2, size_t *nearest, double *best) {
+static void nsvcd__nearest_in(const nsvcd__rrt *t, size_t index, const double *at, double *off,
+                              double off2, size_t *nearest, double *best) {
   const nsvcd__cell *cell = &t->cells[index];
   if (!(off2 < *best)) return;
   if (cell->joint == NSVCD_MAX_JOINTS) {
@@ -115,7 +115,7 @@ static void nsvcd__nearest_in(const nsvcd__tree *t, size_t index, const double *
 }
 
 // The node nearest to a configuration, of a tree that has one.
-static size_t nsvcd__tree_nearest(const nsvcd__tree *t, const double *at) {
+static size_t nsvcd__tree_nearest(const nsvcd__rrt *t, const double *at) {
   double off[NSVCD_MAX_JOINTS] = {0};
   double best = HUGE_VAL;
   size_t nearest = 0;

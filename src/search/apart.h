@@ -1,9 +1,9 @@
 // In: 16 moving patches whose balls meet that of a resting one in a segment. Out: those that no
-// plane parts from it all the time, by the hulls of their tips.
+// plane separates from it all the time, by the hulls of their tips.
 //
 // Planes are tried along the resting patch's normal, the moving patches', both together, the lines
-// between the centres, and the last few that parted others of the same query: what stands on a
-// table is parted from all of it by one plane, whole groups at a time. The tips go on chords, as
+// between the centres, and the last few that separated others of the same query: what stands on a
+// table is separated from all of it by one plane, whole groups at a time. The tips go on chords, as
 // centres do, and what points stray from theirs is allowed for. But tips are not all of a patch, so
 // that this is no proof: where a greater recall is asked for, patches swell before.
 #pragma once
@@ -63,8 +63,8 @@ NSVCD__INLINE void nsvcd__tips_along(const int8_t *tips, nsvcd__v3 u, nsvcd__v *
 }
 
 // Lanes in which a plane across u parts both, on either side.
-NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd__resting *rest,
-                                           nsvcd__v3 u) {
+NSVCD__INLINE uint32_t nsvcd__separated_along(const nsvcd__passing *p,
+                                              const nsvcd__resting *rest, nsvcd__v3 u) {
   const nsvcd__v3 at_start = nsvcd__vmat3_apply_transpose(p->start, u);
   const nsvcd__v3 at_end = nsvcd__vmat3_apply_transpose(p->end, u);
   const nsvcd__v height = nsvcd__v3_dot(u, p->from);
@@ -88,7 +88,7 @@ NSVCD__INLINE uint32_t nsvcd__parted_along(const nsvcd__passing *p, const nsvcd_
   return nsvcd__v_lt(above, least) | nsvcd__v_lt(most, below);
 }
 
-// ---- planes that parted others
+// ---- planes that separated others
 
 // What 16 patches reach along a plane's normal.
 typedef struct nsvcd__ranges {
@@ -98,9 +98,9 @@ typedef struct nsvcd__ranges {
 // planes that are remembered
 #define NSVCD__PLANES 2
 
-// Planes that parted others, and a pair of groups along them: the moving one in one segment.
-typedef struct nsvcd__sheets {
-  // normals; how many were found, of which the last ones are kept; the one that parted last
+// Planes that separated others, and a pair of groups along them: the moving one in one segment.
+typedef struct nsvcd__plane_cache {
+  // normals; how many were found, of which the last ones are kept; the one that separated last
   nsvcd__f3 planes[NSVCD__PLANES];
   uint32_t found, best;
   float swell;  // of patches, shares of their radii
@@ -108,20 +108,20 @@ typedef struct nsvcd__sheets {
   nsvcd__ranges moving[NSVCD__PLANES], resting[NSVCD__PLANES];
   // bits of planes
   uint16_t moving_known, resting_known;
-} nsvcd__sheets;
+} nsvcd__plane_cache;
 
 // Begins the search of a motion.
-static void nsvcd__sheets_begin(nsvcd__search *search, float swell) {
-  search->sheets->found = search->sheets->best = 0;
-  search->sheets->swell = swell;
+static void nsvcd__plane_cache_begin(nsvcd__search *search, float swell) {
+  search->cache->found = search->cache->best = 0;
+  search->cache->swell = swell;
   // patches whose balls meet are then no farther apart than that
-  search->sheets->unasked = swell >= 1;
+  search->cache->unasked = swell >= 1;
   search->balls_met = 0;
 }
 
 // share: of their radii, by which they swell.
 static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 normal,
-                                  float share, nsvcd__ranges *out) {
+                                  float fraction, nsvcd__ranges *out) {
   const nsvcd__spheres patches =
       nsvcd__spheres_from(nsvcd__body_patches(body), NSVCD__GROUP * h);
   const nsvcd__v3 u = nsvcd__v3_set(normal);
@@ -131,7 +131,7 @@ static void nsvcd__resting_ranges(const nsvcd_body *body, size_t h, nsvcd__f3 no
     const nsvcd__v step = nsvcd__v_scale(nsvcd__v_load(patches.r + l), 1.0f / 127);
     const nsvcd__v height = nsvcd__v3_dot(u, nsvcd__v3_centres(patches, l));
     nsvcd__tips_along(nsvcd__group_tips(body, h) + l, u, &low, &high);
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * share);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * fraction);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(nsvcd__v_fma(step, low, height), swell));
     nsvcd__v_store(out->high + l, nsvcd__v_add(nsvcd__v_fma(step, high, height), swell));
   }
@@ -167,7 +167,7 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
     high = nsvcd__v_fma(step, high, height);
     low = nsvcd__v_min(low, nsvcd__v_fma(step, low_end, height_end));
     high = nsvcd__v_max(high, nsvcd__v_fma(step, high_end, height_end));
-    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->sheets->swell);
+    const nsvcd__v swell = nsvcd__v_scale(step, 127 * search->scale * search->cache->swell);
     const nsvcd__v off = nsvcd__v_plus(swell, stray);
     nsvcd__v_store(out->low + l, nsvcd__v_sub(low, off));
     nsvcd__v_store(out->high + l, nsvcd__v_add(high, off));
@@ -176,26 +176,25 @@ static void nsvcd__moving_ranges(const nsvcd__search *search, size_t g, size_t s
 
 // Fills in the ranges along plane n of group h of the fixed body.
 static void nsvcd__resting_know(const nsvcd__search *search, size_t h, size_t n) {
-  nsvcd__sheets *sheets = search->sheets;
-  if (sheets->resting_known >> n & 1) return;
-  nsvcd__resting_ranges(search->fixed, h, sheets->planes[n], sheets->swell,
-                        &sheets->resting[n]);
-  sheets->resting_known = (uint16_t)(sheets->resting_known | 1u << n);
+  nsvcd__plane_cache *cache = search->cache;
+  if (cache->resting_known >> n & 1) return;
+  nsvcd__resting_ranges(search->fixed, h, cache->planes[n], cache->swell, &cache->resting[n]);
+  cache->resting_known = (uint16_t)(cache->resting_known | 1u << n);
 }
 
 // The same, and those of moving group g in segment s.
-static void nsvcd__sheets_know(const nsvcd__search *search, size_t g, size_t s, size_t h,
-                               size_t n, float stray) {
-  nsvcd__sheets *sheets = search->sheets;
-  const nsvcd__f3 normal = sheets->planes[n];
+static void nsvcd__plane_cache_knows(const nsvcd__search *search, size_t g, size_t s, size_t h,
+                                     size_t n, float stray) {
+  nsvcd__plane_cache *cache = search->cache;
+  const nsvcd__f3 normal = cache->planes[n];
   nsvcd__resting_know(search, h, n);
-  if (!(sheets->moving_known >> n & 1))
-    nsvcd__moving_ranges(search, g, s, stray, normal, &sheets->moving[n]);
-  sheets->moving_known = (uint16_t)(sheets->moving_known | 1u << n);
+  if (!(cache->moving_known >> n & 1))
+    nsvcd__moving_ranges(search, g, s, stray, normal, &cache->moving[n]);
+  cache->moving_known = (uint16_t)(cache->moving_known | 1u << n);
 }
 
 static size_t nsvcd__planes_known(const nsvcd__search *search) {
-  const size_t found = search->sheets->found;
+  const size_t found = search->cache->found;
   return found < NSVCD__PLANES ? found : NSVCD__PLANES;
 }
 
@@ -207,25 +206,25 @@ static float nsvcd__least_lane(const float *lanes, float sign) {
   return nsvcd__v_least(least);
 }
 
-// Of the segments `wanted`, those in which the plane that parted last does not part the ball of a
-// moving group, whose chords these are, from all of group h of the fixed body.
+// Of the segments `wanted`, those in which the plane that separated last does not separate the ball
+// of a moving group, whose chords these are, from all of group h of the fixed body.
 static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
                                          uint64_t wanted) {
-  nsvcd__sheets *sheets = search->sheets;
-  const size_t n = sheets->best;
+  nsvcd__plane_cache *cache = search->cache;
+  const size_t n = cache->best;
   uint64_t parted = 0;
   if (n >= nsvcd__planes_known(search)) return wanted;
   nsvcd__resting_know(search, h, n);
-  const nsvcd__ranges *resting = &sheets->resting[n];
+  const nsvcd__ranges *resting = &cache->resting[n];
   const nsvcd__v below = nsvcd__v_set(nsvcd__least_lane(resting->low, 1));
   const nsvcd__v above = nsvcd__v_set(-nsvcd__least_lane(resting->high, -1));
-  const nsvcd__v3 u = nsvcd__v3_set(sheets->planes[n]);
+  const nsvcd__v3 u = nsvcd__v3_set(cache->planes[n]);
   for (size_t s = 0; s < search->segments; s += NSVCD__LANES) {
     const nsvcd__chords *c = &search->group[s / NSVCD__LANES];
     NSVCD__EACH_SLICE(l) {
       const nsvcd__v start = nsvcd__v3_dot(u, nsvcd__chords_start(c, l));
       const nsvcd__v end = nsvcd__v3_dot_add(u, nsvcd__chords_way(c, l), start);
-      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + sheets->swell);
+      const nsvcd__v reach = nsvcd__v_scale(nsvcd__v_load(c->reach + l), 1 + cache->swell);
       const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
       const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
@@ -235,17 +234,17 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
   return wanted & ~parted;
 }
 
-// Of the members `bits` of group h of the fixed body, those that the same plane does not part from
-// all of moving group g, in segment s.
+// Of the members `bits` of group h of the fixed body, those that the same plane does not separate
+// from all of moving group g, in segment s.
 static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, size_t s,
                                         size_t h, float stray, uint32_t bits) {
-  nsvcd__sheets *sheets = search->sheets;
-  const size_t n = sheets->best;
+  nsvcd__plane_cache *cache = search->cache;
+  const size_t n = cache->best;
   if (n >= nsvcd__planes_known(search)) return bits;
-  nsvcd__sheets_know(search, g, s, h, n, stray);
-  const nsvcd__ranges *resting = &sheets->resting[n];
-  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(sheets->moving[n].low, 1));
-  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(sheets->moving[n].high, -1));
+  nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+  const nsvcd__ranges *resting = &cache->resting[n];
+  const nsvcd__v low = nsvcd__v_set(nsvcd__least_lane(cache->moving[n].low, 1));
+  const nsvcd__v high = nsvcd__v_set(-nsvcd__least_lane(cache->moving[n].high, -1));
   NSVCD__EACH_SLICE(l) {
     bits &= ~(nsvcd__v_lt(high, nsvcd__v_load(resting->low + l)) << l);
     bits &= ~(nsvcd__v_lt(nsvcd__v_load(resting->high + l), low) << l);
@@ -255,23 +254,23 @@ static uint32_t nsvcd__unparted_members(const nsvcd__search *search, size_t g, s
 
 // Of the lanes `met` of moving group g in segment s, those that no plane remembered parts from
 // member k of group h of the fixed body.
-static uint32_t nsvcd__not_parted_again(nsvcd__search *search, size_t g, size_t s, size_t h,
-                                        size_t k, float stray, uint32_t met) {
-  nsvcd__sheets *sheets = search->sheets;
+static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size_t s, size_t h,
+                                           size_t k, float stray, uint32_t met) {
+  nsvcd__plane_cache *cache = search->cache;
   const size_t planes = nsvcd__planes_known(search);
   for (size_t m = 0; m < planes && met; m++) {
-    // the one that parted last, first
-    const size_t n = (sheets->best + m) % planes;
-    nsvcd__sheets_know(search, g, s, h, n, stray);
-    const nsvcd__ranges *moving = &sheets->moving[n];
-    const nsvcd__v low = nsvcd__v_set(sheets->resting[n].low[k]);
-    const nsvcd__v high = nsvcd__v_set(sheets->resting[n].high[k]);
+    // the one that separated last, first
+    const size_t n = (cache->best + m) % planes;
+    nsvcd__plane_cache_knows(search, g, s, h, n, stray);
+    const nsvcd__ranges *moving = &cache->moving[n];
+    const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
+    const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
     uint32_t parted = 0;
     NSVCD__EACH_SLICE(l) {
       parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
       parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) sheets->best = (uint32_t)n;
+    if (met & parted) cache->best = (uint32_t)n;
     met &= ~parted;
   }
   return met;
@@ -288,8 +287,8 @@ enum {
 };
 
 // Fills in how the moving body is turned in segment s.
-static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
-                                              nsvcd__passing *p) {
+static NSVCD__NOINLINE void nsvcd__passing_turns(const nsvcd__search *search, size_t s,
+                                                 nsvcd__passing *p) {
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, s % NSVCD__LANES);
   const nsvcd__mat3 turned = nsvcd__mat3_lane(block->turned, s % NSVCD__LANES);
@@ -300,9 +299,10 @@ static NSVCD__APART void nsvcd__passing_turns(const nsvcd__search *search, size_
 
 // Of the lanes `met` of moving group g in segment s, those that no plane of their own parts from a
 // patch j of the fixed body. A plane that does is remembered, in place of the oldest.
-static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_t g, size_t s,
-                                                    size_t j, float stray, uint32_t met) {
-  nsvcd__sheets *sheets = search->sheets;
+static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search, size_t g,
+                                                          size_t s, size_t j, float stray,
+                                                          uint32_t met) {
+  nsvcd__plane_cache *cache = search->cache;
   const nsvcd__resting rest = nsvcd__resting_of(search->fixed, j);
   const int8_t *tips = nsvcd__group_tips(search->moving, g);
   const nsvcd_body *moving = search->moving;
@@ -319,8 +319,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
       p.step = nsvcd__v_scale(nsvcd__v_load(nsvcd__body_r(moving) + i), 1.0f / 127);
       p.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(rest.centre));
       p.way = nsvcd__chords_way(c, l);
-      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * sheets->swell);
-      p.stray = nsvcd__v_plus(swell, stray + rest.radius * sheets->swell);
+      const nsvcd__v swell = nsvcd__v_scale(p.step, 127 * search->scale * cache->swell);
+      p.stray = nsvcd__v_plus(swell, stray + rest.radius * cache->swell);
       nsvcd__v3 u = nsvcd__v3_set(rest.normal);
       if (n == NSVCD__ALONG_LINE) {
         u = nsvcd__v3_unit(nsvcd__v3_fma(nsvcd__v_set(0.5f), p.way, p.from));
@@ -333,7 +333,8 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
             nsvcd__v3_unit(nsvcd__v3_add(before, nsvcd__vmat3_apply(p.end, area)));
         u = n == NSVCD__ALONG_MOVING ? own : nsvcd__v3_unit(nsvcd__v3_sub(u, own));
       }
-      const uint32_t here = nsvcd__parted_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
+      const uint32_t here =
+          nsvcd__separated_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
       if (here && !parted) {
         float lanes[3 * NSVCD__SLICE];
         nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
@@ -343,10 +344,10 @@ static NSVCD__APART uint32_t nsvcd__not_parted_anew(nsvcd__search *search, size_
     }
     met &= ~parted;
     if (!parted) continue;
-    const size_t oldest = sheets->found++ % NSVCD__PLANES;
-    sheets->planes[oldest] = plane;
-    sheets->moving_known = (uint16_t)(sheets->moving_known & ~(1u << oldest));
-    sheets->resting_known = (uint16_t)(sheets->resting_known & ~(1u << oldest));
+    const size_t oldest = cache->found++ % NSVCD__PLANES;
+    cache->planes[oldest] = plane;
+    cache->moving_known = (uint16_t)(cache->moving_known & ~(1u << oldest));
+    cache->resting_known = (uint16_t)(cache->resting_known & ~(1u << oldest));
   }
   return met;
 }
@@ -359,11 +360,11 @@ static uint32_t nsvcd__members_meet(nsvcd__search *search, size_t g, size_t s, s
                                     uint32_t before) {
   uint32_t met = nsvcd__meet(&search->members[s], ball);
   search->balls_met |= met != 0;
-  if (search->sheets->unasked) return met;
-  if (met) met = nsvcd__not_parted_again(search, g, s, h, k, stray, met);
+  if (search->cache->unasked) return met;
+  if (met) met = nsvcd__not_separated_again(search, g, s, h, k, stray, met);
   const uint32_t fresh = met & ~before;
   if (!fresh) return met;
   const size_t j = NSVCD__GROUP * h + k;
-  return (met & before) | nsvcd__not_parted_anew(search, g, s, j, stray, fresh);
+  return (met & before) | nsvcd__not_separated_anew(search, g, s, j, stray, fresh);
 }
 #endif  // NSVCD_NO_NETWORK

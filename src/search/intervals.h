@@ -59,10 +59,10 @@ typedef struct nsvcd__intervals {
 } nsvcd__intervals;
 
 // The time at a share of segment s: at 1 that of its end, to the bit.
-static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float share) {
+static float nsvcd__time_in_segment(const nsvcd__search *search, size_t s, float fraction) {
   const float start = search->time[s];
   const float end = search->time[s + 1];
-  return share < 1 ? start + share * (end - start) : end;
+  return fraction < 1 ? start + fraction * (end - start) : end;
 }
 
 // Ends the intervals of `lanes` of a slice and hands them on. Its first lane is patch i of the
@@ -92,13 +92,13 @@ static void nsvcd__intervals_close(nsvcd__intervals *intervals, uint32_t lanes,
   float least_segment[NSVCD__SLICE], least[NSVCD__SLICE], depth[NSVCD__SLICE];
   const nsvcd__v before = nsvcd__v_sqrt(nsvcd__v_max(intervals->first_half2, zero));
   const nsvcd__v after = nsvcd__v_sqrt(nsvcd__v_max(intervals->last_half2, zero));
-  const nsvcd__v share = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
+  const nsvcd__v fraction = nsvcd__v_div(nsvcd__v_sqrt(intervals->square), radii);
   nsvcd__v_store(first, intervals->first);
   nsvcd__v_store(least_segment, intervals->least_segment);
   nsvcd__v_store(enter, nsvcd__v_max(nsvcd__v_sub(intervals->first_nearest, before), zero));
   nsvcd__v_store(leave, nsvcd__v_min(nsvcd__v_add(intervals->last_nearest, after), one));
   nsvcd__v_store(least, intervals->least);
-  nsvcd__v_store(depth, nsvcd__v_sub(one, share));
+  nsvcd__v_store(depth, nsvcd__v_sub(one, fraction));
   for (; lanes; lanes &= lanes - 1) {
     const size_t l = nsvcd__low_bit(lanes);
     nsvcd__candidate candidate;
@@ -141,10 +141,10 @@ static uint64_t nsvcd__interval_cuts(const nsvcd__search *search, const uint16_t
 
 // A slice of the moving patches, from patch i on, against patch j of the fixed body, in the
 // segments `wanted`, in which the lanes met[s] of the group meet it. cuts: nsvcd__interval_cuts.
-static NSVCD__APART void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
-                                                    size_t j, uint64_t wanted,
-                                                    const uint16_t *all_met, uint64_t cuts,
-                                                    nsvcd__candidates *kept) {
+static NSVCD__NOINLINE void nsvcd__slice_against_patch(const nsvcd__search *search, size_t i,
+                                                       size_t j, uint64_t wanted,
+                                                       const uint16_t *all_met, uint64_t cuts,
+                                                       nsvcd__candidates *kept) {
   const nsvcd__v one = nsvcd__v_set(1);
   const nsvcd__v zero = nsvcd__v_set(0);
   const nsvcd__v half = nsvcd__v_set(0.5f);

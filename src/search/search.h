@@ -334,8 +334,8 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
   const size_t stride = search->most_segments;
   uint64_t left[NSVCD__GROUP] = {0};
   uint32_t any = 0;
-  nsvcd__sheets *sheets = search->sheets;
-  sheets->resting_known = 0;
+  nsvcd__plane_cache *cache = search->cache;
+  cache->resting_known = 0;
   wanted = nsvcd__unparted_segments(search, h, wanted);
   for (; wanted; wanted &= wanted - 1) {
     const size_t s = nsvcd__low_bit(wanted);
@@ -344,7 +344,7 @@ static void nsvcd__group_against_group(nsvcd__search *search, size_t g, size_t h
     if (!bits) continue;
     nsvcd__pose_members(search, g, (uint64_t)1 << s);
     const float stray = nsvcd__segment_stray(search, s);
-    sheets->moving_known = 0;
+    cache->moving_known = 0;
     bits = nsvcd__unparted_members(search, g, s, h, stray, bits);
     for (; bits; bits &= bits - 1) {
       const size_t k = nsvcd__low_bit(bits);
@@ -382,7 +382,7 @@ static void nsvcd__search_pair(nsvcd__search *search, nsvcd__candidates *kept) {
 
 // A step of the search: all contact intervals of one pair of groups. Returns 1 if there are more
 // steps to take.
-static NSVCD__APART int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
+static NSVCD__NOINLINE int nsvcd__search_step(nsvcd__search *search, nsvcd__candidates *kept) {
   nsvcd__search_pair(search, kept);
   search->waiting &= ~((uint32_t)1 << search->at);
   if (search->waiting)

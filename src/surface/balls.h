@@ -73,7 +73,7 @@ typedef struct nsvcd__border {
 
 // The least ball that holds the border (1 to 5 points) among those through the last of them and up
 // to three others. Keeps in the border only the points that it goes through. 0 if there is none.
-static NSVCD__APART int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
+static NSVCD__NOINLINE int nsvcd__ball_of_few(nsvcd__border *border, nsvcd__ball *ball) {
   const unsigned last = 1u << (border->count - 1);
   unsigned best = 0;
   for (unsigned set = last; set < 2 * last; set++) {

@@ -7,12 +7,12 @@
 
 #if !defined(NSVCD_NO_ENCODER) && !defined(NSVCD_NO_PROOF)
 // What points extend to along a direction.
-typedef struct nsvcd__range {
+typedef struct nsvcd__drange {
   double low, high;
-} nsvcd__range;
+} nsvcd__drange;
 
-static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction) {
-  nsvcd__range range = {HUGE_VAL, -HUGE_VAL};
+static nsvcd__drange nsvcd__drange_along(nsvcd__points points, nsvcd__d3 direction) {
+  nsvcd__drange range = {HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < points.count; i++) {
     const double at = nsvcd__d3_dot(points.at[i], direction);
     range.low = at < range.low ? at : range.low;
@@ -22,7 +22,7 @@ static nsvcd__range nsvcd__range_along(nsvcd__points points, nsvcd__d3 direction
 }
 
 static double nsvcd__thickness(nsvcd__points points, nsvcd__d3 direction) {
-  const nsvcd__range range = nsvcd__range_along(points, direction);
+  const nsvcd__drange range = nsvcd__drange_along(points, direction);
   return range.high - range.low;
 }
 
@@ -114,7 +114,7 @@ static nsvcd__disc nsvcd__fit_disc(nsvcd__points points, nsvcd__d3 normal, doubl
   // Shorter than 1 by more than the roundings: |n| <= 1 holds for what is stored.
   const nsvcd__f3 n = nsvcd__f3_round(nsvcd__d3_scale(best, 1 - 1.5e-7));
   const nsvcd__d3 stored = nsvcd__d3_widen(n);
-  const nsvcd__range range = nsvcd__range_along(points, stored);
+  const nsvcd__drange range = nsvcd__drange_along(points, stored);
   double squared = 0;
   for (size_t i = 0; i < points.count; i++) {
     const nsvcd__d3 moment = nsvcd__d3_cross(points.at[i], stored);

@@ -14,7 +14,7 @@ typedef struct nsvcd__simplex {
 // Moves the weights to the simplex's point nearest to the origin, and drops the corners that do not
 // bear it (Wolfe, "Finding the nearest point in a polytope", 1976). 0 if roundings are in the way:
 // the weights still are weights.
-static int nsvcd__simplex_settle(nsvcd__simplex *s) {
+static int nsvcd__simplex_resolve(nsvcd__simplex *s) {
   for (;;) {
     // Weights, of any sign, of the point nearest to the origin in the plane of all corners.
     nsvcd__d3 edges[3];
@@ -62,12 +62,12 @@ static double nsvcd__hull_distance(nsvcd__points hull, nsvcd__d3 point, double e
     if (least >= 0.998 * best) break;
     s.points[s.count] = nsvcd__d3_sub(hull.at[support], point);
     s.weights[s.count++] = 0;
-    const int settled = nsvcd__simplex_settle(&s);
+    const int resolved = nsvcd__simplex_resolve(&s);
     nearest = nsvcd__d3_scale(s.points[0], s.weights[0]);
     for (size_t i = 1; i < s.count; i++)
       nearest = nsvcd__d3_fma(s.weights[i], s.points[i], nearest);
     const double squared = nsvcd__d3_dot(nearest, nearest);
-    if (!settled || squared >= best) break;
+    if (!resolved || squared >= best) break;
     best = squared;
   }
   return sqrt(best);

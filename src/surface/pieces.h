@@ -28,7 +28,7 @@
 // metres, added to that: keeps clear of what float cannot hold
 #define NSVCD__SURFACE_TINY 1e-30
 // of the radius: a hull as near as this to all corners is good
-#define NSVCD__HULL_SHARE 1e-4
+#define NSVCD__HULL_FRACTION 1e-4
 // corners of a piece, at most
 #define NSVCD__PIECE_CORNERS 16
 // polygons that wait for their turn (12 at most were seen)
@@ -50,7 +50,7 @@ typedef struct nsvcd__list {
   size_t count, capacity;
 } nsvcd__list;
 
-// Room for `more` items of so many bytes; 0 without memory, and the list is as it was.
+// Room for `more` patch pairs of so many bytes; 0 without memory, and the list is as it was.
 static int nsvcd__list_reserve(nsvcd__list *list, size_t more, size_t size,
                                nsvcd__arena *arena) {
   if (list->capacity - list->count >= more) return 1;
@@ -199,8 +199,8 @@ static int nsvcd__divide(nsvcd__pieces *pieces, const nsvcd__convex *from,
     const nsvcd__d3 a = nsvcd__point_at(pieces, from->points[i]);
     const nsvcd__d3 b = nsvcd__point_at(pieces, from->points[j]);
     const uint32_t number = vertices + (uint32_t)pieces->points.count;
-    const double share = beyond[i] / (beyond[i] - beyond[j]);
-    points[pieces->points.count++] = nsvcd__d3_mix(a, b, share);
+    const double fraction = beyond[i] / (beyond[i] - beyond[j]);
+    points[pieces->points.count++] = nsvcd__d3_mix(a, b, fraction);
     near_part->points[near_part->count++] = number;
     far_part->points[far_part->count++] = number;
   }

@@ -60,7 +60,7 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
 
   size_t chosen[NSVCD__HULL];
   double farthest;
-  const double enough = NSVCD__HULL_SHARE * (double)ball->radius;
+  const double enough = NSVCD__HULL_FRACTION * (double)ball->radius;
   const size_t count =
       nsvcd__choose_hull(about, NSVCD__HULL, enough, sorted->bounds, chosen, &farthest);
   s->slacks[to] = nsvcd__float_above(farthest + pieces->margin);
@@ -69,8 +69,8 @@ static void nsvcd__describe_patch(nsvcd__sorted *sorted, size_t i, nsvcd__surfac
     sorted->hulls[NSVCD__HULL * i + k] = sorted->met[chosen[k]];
 }
 
-// What patch i lists for its k-th piece: the piece's corners where its triangle is parted, else the
-// triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
+// What patch i lists for its k-th piece: the piece's corners where its triangle is separated, else
+// the triangle's. Returns how many corners; 0: nothing more, for pieces of one triangle follow each
 // other in a patch, and a whole triangle is listed with the first of them.
 static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_t k,
                                     const uint32_t **corners) {

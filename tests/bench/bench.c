@@ -49,7 +49,7 @@ static double accuracy_of(const row *r) {
   double right = (double)(r->counts[0][0] + r->counts[1][1]);
   return 100 * right / (right + (double)(r->counts[0][1] + r->counts[1][0]));
 }
-static double share(size_t part, size_t rest) {
+static double fraction(size_t part, size_t rest) {
   return part + rest ? 100.0 * (double)part / (double)(part + rest) : 0;
 }
 
@@ -234,7 +234,7 @@ static void start_sampler(sampler *s, const nsvcd_pose *poses, size_t pose_count
   memcpy(s->origin, fixed->position, sizeof s->origin);
 }
 
-static void sample(const sampler *s, size_t first, size_t last, placement *out) {
+static void sample(const sampler *s, size_t first, size_t last, transform *out) {
   float segments = (float)(s->pose_count - 1);
   float m[9];
   float p[3];
@@ -274,7 +274,7 @@ static void sample(const sampler *s, size_t first, size_t last, placement *out) 
 // Placements are made in growing portions: a collision found early spares the rest.
 static int sweep_discrete(const method *m, const void *moving, const void *fixed, const sampler *s,
                           float activation) {
-  placement at[MAX_SAMPLES];
+  transform at[MAX_SAMPLES];
   for (size_t done = 0, portion = 4; done < s->count; portion *= 2) {
     size_t end = done + portion < s->count ? done + portion : s->count;
     sample(s, done, end, at);
@@ -740,7 +740,7 @@ static void write_rows(FILE *file, const problem_set *set, const table *t) {
     const row *r = &t->rows[i];
     fprintf(file, "%s\t%s\t%s\t%d\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.0f\t%.2f\n",
             set->name, r->method, r->setting, r->front, accuracy_of(r),
-            share(r->counts[1][0], r->counts[1][1]), share(r->counts[0][1], r->counts[0][0]),
+            fraction(r->counts[1][0], r->counts[1][1]), fraction(r->counts[0][1], r->counts[0][0]),
             r->median, r->mean, r->high, r->worst, r->bytes, r->prepare);
   }
 }
@@ -790,8 +790,8 @@ static void print_rows(const problem_set *set, const table *t) {
     printf(
         "| %s, %s%s | %.2f [%.2f, %.2f] | %.2f | %.2f | %.1f / %.1f / %.0f / %.0f | %.1f | %.1f |",
         r->method, r->setting, undecided, accuracy_of(r), 100 * low, 100 * high,
-        share(r->counts[1][0], r->counts[1][1]), share(r->counts[0][1], r->counts[0][0]), r->median,
-        r->mean, r->high, r->worst, r->bytes / 1024, r->prepare);
+        fraction(r->counts[1][0], r->counts[1][1]), fraction(r->counts[0][1], r->counts[0][0]),
+        r->median, r->mean, r->high, r->worst, r->bytes / 1024, r->prepare);
     const row *same = match(t, r, 1);
     const row *fast = match(t, r, 0);
     int ours = strcmp(r->method, "NeuralSVCD") == 0 || strcmp(r->method, "proof") == 0;

@@ -119,7 +119,7 @@ static double grid_distance(const known *moving, const known *fixed, const nsvcd
   for (size_t n = 0; n < a->count; n++) {
     const nsvcd_pose seen = nsvcd__relative_pose(&a->poses[n], &b->poses[0]);
     const nsvcd__mat3 turn = nsvcd__mat3_of(nsvcd__quat_load(seen.rotation));
-    placement at;
+    transform at;
     nsvcd__f3_store(nsvcd__f3_scale(turn.x, ratio), at.rotation);
     nsvcd__f3_store(nsvcd__f3_scale(turn.y, ratio), at.rotation + 3);
     nsvcd__f3_store(nsvcd__f3_scale(turn.z, ratio), at.rotation + 6);

@@ -60,8 +60,8 @@ static double least_apart(const arm_scene *s, const nsvcd_joint_motion *m, size_
     double q[ARM_JOINTS];
     const double t = fmin(end, step * (double)k);
     while (piece + 1 < m->pieces && m->times[piece + 1] <= t) piece++;
-    const double share = (t - m->times[piece]) / (m->times[piece + 1] - m->times[piece]);
-    joints_of_piece(m->points + 2 * piece * ARM_JOINTS, 2, ARM_JOINTS, share, q);
+    const double fraction = (t - m->times[piece]) / (m->times[piece + 1] - m->times[piece]);
+    joints_of_piece(m->points + 2 * piece * ARM_JOINTS, 2, ARM_JOINTS, fraction, q);
     least = fmin(least, arm_apart(s, q, least));
     for (size_t j = 0; j < ARM_JOINTS; j++) {
       const nsvcd_joint *joint = &s->joints[j];

@@ -248,7 +248,7 @@ typedef struct scene {
   double pressed;  // by so much into them
   double size, speed, turn;
   // what is told in float is off by, metres
-  double hair;
+  double epsilon;
   int lifted_with;  // the part with which a lift turns
 } scene;
 
@@ -478,7 +478,7 @@ static void scene_wanders(scene *s, shapes_rng *rng, travel *a, travel *b) {
 static const struct {
   const char *name;
   void (*draw)(scene *s, shapes_rng *rng, travel *a, travel *b);
-  int share;
+  int fraction;
 } makers[] = {
     {"stands", scene_stands, 5},   {"corner", scene_corner, 2},  {"stacked", scene_stacked, 2},
     {"glides", scene_glides, 2},   {"passes", scene_passes, 3},  {"far", scene_far, 2},
@@ -492,8 +492,8 @@ static oracle_pose part_at(const part *p, double t) {
   if (!p->timed) return oracle_pose_at(p->poses, p->count, t);
   while (k + 2 < p->count && (double)p->times[k + 1] <= t) k++;
   const double from = (double)p->times[k];
-  const double share = (t - from) / ((double)p->times[k + 1] - from);
-  return oracle_pose_between(&p->poses[k], &p->poses[k + 1], share);
+  const double fraction = (t - from) / ((double)p->times[k + 1] - from);
+  return oracle_pose_between(&p->poses[k], &p->poses[k + 1], fraction);
 }
 
 // Of every third part the poses are at times of their own, of 20 bits. rng: a copy.
@@ -566,9 +566,9 @@ static void draw_scene(scene *s, uint64_t seed) {
   size_t maker = 0;
   memset(s, 0, sizeof *s);
   memset(go, 0, sizeof go);
-  for (size_t k = 0; k < MAKERS; k++) total += makers[k].share;
-  for (int n = shapes_pick(&rng, total); n >= makers[maker].share; maker++)
-    n -= makers[maker].share;
+  for (size_t k = 0; k < MAKERS; k++) total += makers[k].fraction;
+  for (int n = shapes_pick(&rng, total); n >= makers[maker].fraction; maker++)
+    n -= makers[maker].fraction;
   s->seed = seed;
   s->name = makers[maker].name;
   s->scale = scales[shapes_pick(&rng, 6)];
@@ -598,7 +598,7 @@ static void draw_scene(scene *s, uint64_t seed) {
   for (int k = 0; k < 2; k++)
     for (size_t i = 0; i < s->parts[k].count; i++)
       away = fmax(away, oracle_length(s->parts[k].poses[i].position));
-  s->hair = 1.2e-7 * (s->size + away);
+  s->epsilon = 1.2e-7 * (s->size + away);
   nsvcd_question none;
   memset(&none, 0, sizeof none);
   const nsvcd_question q = question_of(s, &none, 0);
@@ -751,7 +751,7 @@ static void find(const scene *s, kind what, const ask *k, const ask *other, doub
   snprintf(text, sizeof text,
            "%llu %s, %s on %s: %s%s%s (%g; hair %g, least %g, at start %g, pressed %g)",
            (unsigned long long)s->seed, s->name, name_of(s->parts[0].of), name_of(s->parts[1].of),
-           one, other ? "\n      and " : "", two, by, s->hair, k->world ? k->world->least : -1,
+           one, other ? "\n      and " : "", two, by, s->epsilon, k->world ? k->world->least : -1,
            k->world ? k->world->at_start : -1, s->pressed);
   findings[what].count++;
   if (findings[what].last != s->seed) {
@@ -914,8 +914,8 @@ static const char *broken(const scene *s, const ask *k) {
   if (!(first_of(o) > 0) && w->safe.time < w->time.low) return "safe place before time.low";
   // where both move, they may hardly move against each other
   const int one_rests = s->parts[0].count == 1 || s->parts[1].count == 1;
-  const double hairs = 12 * s->hair / fmax(s->speed, 1e-9);
-  if (one_rests && (double)w->safe.time < fmax((double)w->time.low - hairs - 1e-6, 0))
+  const double epsilons = 12 * s->epsilon / fmax(s->speed, 1e-9);
+  if (one_rests && (double)w->safe.time < fmax((double)w->time.low - epsilons - 1e-6, 0))
     return "safe place hairs before time.low";
   if (w->verdict == NSVCD_HIT && (w->time.high < w->nearest.time || w->time.high > w->nearest.time))
     return "time.high";
@@ -933,14 +933,14 @@ static void judge_place(const scene *s, const ask *k, const oracle_triangle *a,
   double x[3], y[3], unused[3];
   const double apart = sqrt(oracle_triangles(a, b, DBL_MAX, x, y));
   double direction = 0;
-  for (int i = 0; i < 3 && apart > 50 * s->hair; i++)
+  for (int i = 0; i < 3 && apart > 50 * s->epsilon; i++)
     direction += (double)w->nearest.normal[i] * (x[i] - y[i]) / apart;
-  if (apart > 50 * s->hair + 50 * moved && direction < 0.99 - 8 * (s->hair + moved) / apart)
+  if (apart > 50 * s->epsilon + 50 * moved && direction < 0.99 - 8 * (s->epsilon + moved) / apart)
     find(s, BAD_PLACE, k, NULL, direction);
   const double off = fmax(oracle_triangles(a, &point, DBL_MAX, x, unused),
                           oracle_triangles(b, &point, DBL_MAX, x, unused));
-  const double most = fmax(apart + s->hair, (double)w->distance.high);
-  const double allowed = most + s->hair + moved + 1e-6 * oracle_length(point.v[0]);
+  const double most = fmax(apart + s->epsilon, (double)w->distance.high);
+  const double allowed = most + s->epsilon + moved + 1e-6 * oracle_length(point.v[0]);
   if (sqrt(off) > allowed && !(k->swapped && k->options.skin > 0))
     find(s, BAD_PLACE, k, NULL, sqrt(off) - allowed);
 }
@@ -955,21 +955,21 @@ static void judge_triangles(const scene *s, const ask *k) {
   const oracle_triangle b = triangle_of(s, k->world, 1, w->nearest.triangle_b, t);
   const double apart = sqrt(oracle_triangles(&a, &b, DBL_MAX, x, y));
   if (apart > (double)w->distance.high + moved) find(s, HIGH_TOO_LOW, k, NULL, apart);
-  if (apart < (double)w->distance.high - 4 * s->hair - moved)
+  if (apart < (double)w->distance.high - 4 * s->epsilon - moved)
     find(s, PART_FARTHER, k, NULL, apart);  // it is about a part of a large triangle
   else
     judge_place(s, k, &a, &b, moved);
   if (status_of(w) != STATUS_WITNESS) return;
-  if (apart > (double)k->options.clearance + s->hair + moved)
+  if (apart > (double)k->options.clearance + s->epsilon + moved)
     find(s, WITNESS_APART, k, NULL, apart);
-  if ((double)w->distance.high > ((double)k->options.clearance + s->hair) * (1 + 1e-5) + 1e-9)
+  if ((double)w->distance.high > ((double)k->options.clearance + s->epsilon) * (1 + 1e-5) + 1e-9)
     find(s, BAD_ANSWER, k, NULL, (double)w->distance.high);
 }
 
 static void judge_distances(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   const double clearance = (double)k->options.clearance;
-  const double hair = 1e-6 * clearance + 1e-10 * s->size;
+  const double epsilon = 1e-6 * clearance + 1e-10 * s->size;
   const int is_free = w->verdict == NSVCD_FREE;
   const int all = is_free || measure_of(&k->options) > 0;
   double until = DBL_MAX;
@@ -980,9 +980,9 @@ static void judge_distances(const scene *s, const ask *k) {
     if (m->t < (double)w->time.low) until = fmin(until, m->d);
     if (all || m->t < (double)w->time.low) low = fmin(low, m->d);
   }
-  if (clearance > 0 ? until < clearance - hair : !(until > 0))
+  if (clearance > 0 ? until < clearance - epsilon : !(until > 0))
     find(s, is_free ? FREE_BUT_NEAR : UNTIL_BUT_NEAR, k, NULL, until);
-  if (low < (double)w->distance.low - hair - 1e-6 * (double)w->distance.low)
+  if (low < (double)w->distance.low - epsilon - 1e-6 * (double)w->distance.low)
     find(s, LOW_TOO_HIGH, k, NULL, low);
   if (is_free && k->world->inside && k->world->at_start > 1e-9 * s->size)
     find(s, FREE_BUT_INSIDE, k, NULL, 0);
@@ -1000,7 +1000,7 @@ static void judge_inside(const scene *s, const ask *k) {
     oracle_rotate_back(m, d, at);
     most = fmax(most, fabs(oracle_winding(&s->parts[n].mesh, at)));
   }
-  if (start > s->hair && most < 0.4 && !(k->swapped && k->options.skin > 0))
+  if (start > s->epsilon && most < 0.4 && !(k->swapped && k->options.skin > 0))
     find(s, INSIDE_POINT, k, NULL, most);
   if (start > 1e-9 * s->size && !k->world->inside) find(s, INSIDE_FALSE, k, NULL, start);
   // who asks for yes or no alone is told what is known first; a witness is sought for some units only
@@ -1012,8 +1012,8 @@ static void judge_inside(const scene *s, const ask *k) {
 static void judge_effort(const scene *s, const ask *k) {
   const nsvcd_answer *w = &k->answer;
   const nsvcd_question *o = &k->options;
-  const double allowed =
-      (double)o->clearance + (double)o->tolerance + 4 * s->hair + 4e-6 * (s->size + 10 * s->scale);
+  const double allowed = (double)o->clearance + (double)o->tolerance + 4 * s->epsilon +
+                         4e-6 * (s->size + 10 * s->scale);
   if (w->work > o->work + 10000) find(s, OVER_WORK, k, NULL, (double)w->work);
   if (w->verdict == NSVCD_UNDECIDED && w->work < o->work && k->world->least > allowed)
     find(s, GAVE_UP, k, NULL, k->world->least);
@@ -1029,8 +1029,8 @@ static void judge_effort(const scene *s, const ask *k) {
     if (late > (double)first_of(o) * 1.0001 + 1e-6 && there > allowed && w->work < o->work)
       find(s, w->work < o->work / 8 ? LATE : LATE_IN_DOUBT, k, NULL, there);
   }
-  const double wide = (double)(w->distance.high - w->distance.low) - s->hair;
-  const double least = 2 * (s->hair + (double)o->tolerance);
+  const double wide = (double)(w->distance.high - w->distance.low) - s->epsilon;
+  const double least = 2 * (s->epsilon + (double)o->tolerance);
   const double allowed_wide =
       fmax((double)measure_of(o), least) + 4e-6 * (s->size + k->world->least);
   if (measure_of(o) > 0 && !w->inside && w->work < o->work)
@@ -1051,7 +1051,7 @@ static void judge_skin(const scene *s, const ask *k) {
   if (!s->rests || s->pressed + clearance > 0.9 * skin) return;
   if (!(oracle_length(lift) > 0)) {
     if (start <= clearance && w->verdict != NSVCD_FREE) find(s, SKIN_RESTS, k, NULL, start);
-  } else if (start < clearance - 2 * s->hair || !(start > 0)) {
+  } else if (start < clearance - 2 * s->epsilon || !(start > 0)) {
     find(s, SKIN_SHORT, k, NULL, start);
   }
 }
@@ -1102,7 +1102,7 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   const nsvcd_question *y = &j->options;
   const status was = status_of(&i->answer);
   const int is_free = was == STATUS_CERTIFIED_FREE;
-  const double margin = (double)(y->clearance + y->tolerance) + 4 * s->hair + 4e-6 * s->size;
+  const double margin = (double)(y->clearance + y->tolerance) + 4 * s->epsilon + 4e-6 * s->size;
   kind lost = KINDS;
   // an eighth of the work is kept for that
   if (by == BY_FIRST && !(first_of(x) > 0) && 10 * i->answer.work < y->work) lost = LOST_BY_FIRST;
@@ -1118,7 +1118,7 @@ static void judge_losses(const scene *s, const ask *i, const ask *j, int by) {
   if (lost == KINDS || (is_free && i->world->least < margin)) return;
   // what does not meet, or comes hardly nearer than the clearance, may be undecided
   if (was == STATUS_WITNESS && i->world->least > 0 &&
-      i->world->least > (double)y->clearance - s->hair)
+      i->world->least > (double)y->clearance - s->epsilon)
     return;
   find(s, lost, j, i, (double)i->answer.work / (double)x->work);
 }
@@ -1143,7 +1143,7 @@ static void judge_pair(const scene *s, const ask *i, const ask *j) {
   if (by == BY_MEASURE && measure_of(&j->options) < measure_of(&i->options) &&
       measure_of(&j->options) > 0 &&
       (double)(x->distance.low - y->distance.low) >
-          (double)(measure_of(&j->options) + 2 * j->options.tolerance) + 2 * s->hair +
+          (double)(measure_of(&j->options) + 2 * j->options.tolerance) + 2 * s->epsilon +
               4e-6 * (s->size + i->world->least))
     find(s, COARSER_LOW, j, i, (double)(x->distance.low - y->distance.low));
   if (by == BY_SWAPPING && i < j) {
@@ -1181,7 +1181,7 @@ static void judge_step(const scene *s, const ask *i, const ask *j) {
   if (measures && y->distance.low < x->distance.low * 0.999f - 1e-9f)
     find(s, LADDER_LOW, j, i, (double)(x->distance.low - y->distance.low));
   const int named = x->nearest.triangle_a != NSVCD_NO_TRIANGLE;
-  if (measures && named && y->distance.high > x->distance.high * 1.001f + (float)s->hair)
+  if (measures && named && y->distance.high > x->distance.high * 1.001f + (float)s->epsilon)
     find(s, LADDER_HIGH, j, i, (double)(y->distance.high - x->distance.high));
 }
 

@@ -330,10 +330,10 @@ static void check_manifold(const resting *r, const double *up, shapes_rng *rng) 
   const int topples = area_of(places, count + 1) > 1.0001 * full;
   free(places);
   if (!(full > 1e-6) || topples) return;
-  const double share = area_of(told, answer.contact_count) / full;
-  least_area = fmin(least_area, share);
+  const double fraction = area_of(told, answer.contact_count) / full;
+  least_area = fmin(least_area, fraction);
   // of a round base four places span 0.64
-  if (share < 0.6) blame(r, "area spanned, of all", share, 0.6);
+  if (fraction < 0.6) blame(r, "area spanned, of all", fraction, 0.6);
 }
 
 int main(int argc, char **argv) {

@@ -102,7 +102,7 @@ int main(int count, char **values) {
       if (answer.verdict == NSVCD_HIT) {
         double q[NSVCD_MAX_JOINTS];
         joints_of_piece(points + answer.piece * degree * r.scene.joint_count, degree,
-                        r.scene.joint_count, answer.share, q);
+                        r.scene.joint_count, answer.fraction, q);
         good = robot_apart(&r, &r.pairs[answer.pair], q, 0.1) <= clearance + 5e-5;
       }
       if (good) continue;

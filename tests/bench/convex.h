@@ -892,7 +892,7 @@ static size_t convex_bytes(const void *body) {
 typedef struct convex_pair {  // what libccd's callbacks need, of one body
   const float *vertices;
   uint32_t padded;
-  const placement *at;  // NULL: the fixed body
+  const transform *at;  // NULL: the fixed body
   float unit;           // 1 / the size of the bodies: libccd's tolerances are absolute
   float grow;           // metres, added all round
   float *axis;          // the last direction asked for, if not NULL
@@ -901,7 +901,7 @@ typedef struct convex_pair {  // what libccd's callbacks need, of one body
 
 typedef struct convex_query {
   const convex_body *moving, *fixed;
-  const placement *at;
+  const transform *at;
   float activation, unit;
   ccd_t ccd;
   size_t nearest[2];  // the pair that came closest last
@@ -1069,7 +1069,7 @@ static int convex_hits_at(convex_query *q) {
   }
   return 0;
 }
-static int convex_hits(const void *moving, const void *fixed, const placement *at, size_t count,
+static int convex_hits(const void *moving, const void *fixed, const transform *at, size_t count,
                        float activation) {
   convex_query q;
   q.moving = (const convex_body *)moving;

@@ -329,7 +329,7 @@ typedef struct grid_lanes {
   float x[3][GRID_WIDTH], beyond[GRID_WIDTH];
 } grid_lanes;
 
-static void grid_place(grid_query *q, const placement *at) {
+static void grid_place(grid_query *q, const transform *at) {
   for (int i = 0; i < 9; i++) q->r[i] = at->rotation[i] * q->inverse;
   for (int i = 0; i < 3; i++) q->p[i] = (at->position[i] - q->fixed->low[i]) * q->inverse;
 }
@@ -428,7 +428,7 @@ static int grid_search(grid_query *q, float *nearest) {
   }
   return found;
 }
-static int grid_hits(const void *moving, const void *fixed, const placement *at, size_t count,
+static int grid_hits(const void *moving, const void *fixed, const transform *at, size_t count,
                      float activation) {
   grid_query q;
   q.moving = (const grid_body *)moving;

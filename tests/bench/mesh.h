@@ -642,7 +642,7 @@ typedef struct mesh_bvh_query {
 static void mesh_bvh_set_frame(mesh_bvh_frame *f) {
   for (int i = 0; i < 9; i++) f->m[i] = fabsf(f->r[i]) + 1e-6f;
 }
-static void mesh_bvh_place(mesh_bvh_query *q, const placement *at) {
+static void mesh_bvh_place(mesh_bvh_query *q, const transform *at) {
   mesh_bvh_frame *f = &q->moving_in_fixed;
   mesh_bvh_frame *g = &q->fixed_in_moving;
   memcpy(f->r, at->rotation, sizeof f->r);
@@ -770,7 +770,7 @@ static int mesh_bvh_collide(const mesh_bvh_query *q) {
   return 0;
 }
 // Do the bounding spheres stay apart?
-static int mesh_bvh_far(const mesh_bvh *moving, const mesh_bvh *fixed, const placement *at,
+static int mesh_bvh_far(const mesh_bvh *moving, const mesh_bvh *fixed, const transform *at,
                         float activation) {
   float reach = moving->radius + fixed->radius + activation;
   float sum = 0;
@@ -781,7 +781,7 @@ static int mesh_bvh_far(const mesh_bvh *moving, const mesh_bvh *fixed, const pla
   }
   return sum > reach * reach;
 }
-static int mesh_bvh_hits(const void *moving, const void *fixed, const placement *at, size_t count,
+static int mesh_bvh_hits(const void *moving, const void *fixed, const transform *at, size_t count,
                          float activation) {
   mesh_bvh_query q;
   q.moving = (const mesh_bvh *)moving;

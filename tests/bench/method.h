@@ -13,10 +13,10 @@
 #include "../../neuralsvcd.h"  // nsvcd_mesh, nsvcd_pose
 
 // The moving body in the frame of the fixed one: fixed = rotation * moving + position.
-typedef struct placement {
+typedef struct transform {
   float rotation[9];  // row-major
   float position[3];  // metres
-} placement;
+} transform;
 
 typedef struct preparation {  // what a body depends on; each method says which fields it reads
   float detail;               // length or share, see the method
@@ -33,7 +33,7 @@ typedef struct method {
   size_t (*bytes)(const void *body);
   // 1 at the first of the `count` placements at which the bodies are nearer than `activation`
   // metres (negative: where they overlap by more than that), else 0.
-  int (*hits)(const void *moving, const void *fixed, const placement *at, size_t count,
+  int (*hits)(const void *moving, const void *fixed, const transform *at, size_t count,
               float activation);
 } method;
 

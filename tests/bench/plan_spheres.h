@@ -525,7 +525,7 @@ static void plan_spheres_matrix(const float *q, float *m) {
   m[7] = y * q[2] + x * q[3];
   m[8] = 1 - x * q[0] - y * q[1];
 }
-static inline void plan_spheres_move(const placement *at, const plan_spheres_eight *eight,
+static inline void plan_spheres_move(const transform *at, const plan_spheres_eight *eight,
                                      float (*x)[8]) {
   for (int i = 0; i < 3; i++) {
     const float *r = at->rotation + 3 * i;
@@ -537,7 +537,7 @@ static inline void plan_spheres_move(const placement *at, const plan_spheres_eig
 }
 // Eight spheres against a mesh.
 static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
-                                    const placement *at, const plan_spheres_eight *eight,
+                                    const transform *at, const plan_spheres_eight *eight,
                                     int derive, plan_spheres_sum *sum) {
   const plan_spheres_grid *g = &b->grid;
   const float e = s->activation;
@@ -596,7 +596,7 @@ static inline void plan_spheres_add(plan_spheres *s, const plan_spheres_body *b,
 }
 // All spheres of a against b, of which a is seen `at`.
 static void plan_spheres_meet(plan_spheres *s, const plan_spheres_body *a,
-                              const plan_spheres_body *b, const placement *at, int derive,
+                              const plan_spheres_body *b, const transform *at, int derive,
                               plan_spheres_sum *sum) {
   const plan_spheres_grid *g = &b->grid;
   const mesh_bvh_box *box = &b->fit->tree->box;
@@ -689,7 +689,7 @@ static float plan_spheres_pair(plan_spheres *s, int ia, int ib, size_t samples, 
     const float *p = plan_spheres_placed(s, ia, n);
     const float *q = plan_spheres_placed(s, ib, n);
     plan_spheres_sum sum = {0, {0, 0, 0}, {0, 0, 0}, 0};
-    placement at;
+    transform at;
     float d[3];
     float outside = 0;
     if ((p[12] < low[0]) | (p[12] > high[0]) | (p[13] < low[1]) | (p[13] > high[1]) |

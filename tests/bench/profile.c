@@ -66,7 +66,7 @@ static void run_stages(const question *q, nsvcd__query *work, double *times) {
   start = seconds();
   nsvcd__cut_motion(&motion, q->moving->extent + q->fixed->extent, &work->broad_phase);
   keep_least(times, CUT, start);
-  nsvcd__sheets_begin(&work->broad_phase, 0);
+  nsvcd__plane_cache_begin(&work->broad_phase, 0);
   start = seconds();
   int more = nsvcd__search_begin(q->moving, q->fixed, ~(uint64_t)0, &work->broad_phase);
   keep_least(times, BEGIN, start);

@@ -64,8 +64,8 @@ static void peer_rotation(const float *q, float *m) {
 }
 
 // a in the frame of b.
-static placement peer_placement(const nsvcd_pose *a, const nsvcd_pose *b) {
-  placement out;
+static transform peer_placement(const nsvcd_pose *a, const nsvcd_pose *b) {
+  transform out;
   float ma[9], mb[9];
   peer_rotation(a->rotation, ma);
   peer_rotation(b->rotation, mb);
@@ -82,7 +82,7 @@ static placement peer_placement(const nsvcd_pose *a, const nsvcd_pose *b) {
 }
 
 static int peer_hits(const nsvcd_body_pair *pair, const nsvcd_pose *poses) {
-  const placement at = peer_placement(&poses[pair->a], &poses[pair->b]);
+  const transform at = peer_placement(&poses[pair->a], &poses[pair->b]);
   return peer_now->by->hits(peer_bodies[pair->a], peer_bodies[pair->b], &at, 1, 0);
 }
 

@@ -469,7 +469,7 @@ static int spheres_hit(const spheres_body *fixed, const float *x, float radius, 
   return radius >= 0 || !spheres_near(fixed->tree, x, -radius);
 }
 // Places a sphere's centre. 1 if it is certainly farther from the mesh than `radius`.
-static inline int spheres_place(const spheres_body *fixed, const placement *at,
+static inline int spheres_place(const spheres_body *fixed, const transform *at,
                                 const spheres_ball *ball, float radius, float *x, float *known,
                                 float *away) {
   const mesh_bvh_box *box = &fixed->tree->box;
@@ -484,7 +484,7 @@ static inline int spheres_place(const spheres_body *fixed, const placement *at,
   return *known - *away > radius;
 }
 static int spheres_collide(const spheres_body *moving, const spheres_body *fixed,
-                           const placement *at, float activation) {
+                           const transform *at, float activation) {
   float x[3], known, away;
   for (size_t i = 0; i < moving->node_count;) {
     const spheres_node *node = &moving->nodes[i];
@@ -502,7 +502,7 @@ static int spheres_collide(const spheres_body *moving, const spheres_body *fixed
   }
   return 0;
 }
-static int spheres_hits(const void *moving, const void *fixed, const placement *at, size_t count,
+static int spheres_hits(const void *moving, const void *fixed, const transform *at, size_t count,
                         float activation) {
   for (size_t i = 0; i < count; i++)
     if (spheres_collide((const spheres_body *)moving, (const spheres_body *)fixed, &at[i],

@@ -33,7 +33,7 @@ static void a_hit_is_one_in_the_configuration_that_is_named(void) {
   arm_open(&a, at(2, 0.3f, 0));
   const nsvcd_check_answer hit = check_of(&a, &motion, 0);
   CHECK_EQ(hit.verdict, NSVCD_HIT);
-  nsvcd_motion_at(&motion, ARM_JOINTS, (double)hit.piece + hit.share, joints);
+  nsvcd_motion_at(&motion, ARM_JOINTS, (double)hit.piece + hit.fraction, joints);
   nsvcd_checker_place(a.checker, joints, poses);
   const nsvcd_body_pair pair = a.pairs[hit.pair];
   nsvcd_question question = question_about(a.parts[pair.a].body, &poses[pair.a], 1, a.post);

@@ -275,7 +275,7 @@ _JointMotion = _struct("nsvcd_joint_motion", pieces=c_size_t, degree=c_size_t, p
 _CheckOptions = _struct("nsvcd_check_options", clearance=c_float, finest=c_float, work=c_size_t, stop=_STOP,
                         user=c_void_p)
 _CheckAnswer = _struct(
-    "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, share=c_double, contact=_Contact,
+    "nsvcd_check_answer", verdict=c_int, why=c_int, pair=c_size_t, piece=c_size_t, fraction=c_double, contact=_Contact,
     joint=c_size_t, placed=c_size_t, sweeps=c_size_t)
 _Gap = _struct("nsvcd_gap", pair=c_size_t, verdict=c_int, why=c_int, distance=_Range, depth=c_float, contact=_Contact,
                slope=c_double * _MAX_JOINTS)
@@ -1556,7 +1556,7 @@ class Checked(NamedTuple):
     verdict       FREE: at all times of the joints' own motion
     why           it is UNDECIDED
     pair          of a HIT, or of what is UNDECIDED: its index, or None
-    piece, share  where in the motion, or None; of a HIT, which need not be the first
+    piece, fraction  where in the motion, or None; of a HIT, which need not be the first
     point, normal of a HIT
     joint         one that leaves its limits, or None
     placed, sweeps  what it took
@@ -1565,7 +1565,7 @@ class Checked(NamedTuple):
     why: Why
     pair: Optional[int]
     piece: Optional[int]
-    share: float
+    fraction: float
     point: Optional[Vector]
     normal: Optional[Vector]
     joint: Optional[int]
@@ -1628,7 +1628,7 @@ def _index_or_none(index: int) -> Optional[int]:
 
 def _checked(c: Any) -> Checked:
     is_hit = _VERDICTS[c.verdict] is Verdict.HIT
-    return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.share,
+    return Checked(_VERDICTS[c.verdict], _WHYS[c.why], _index_or_none(c.pair), _index_or_none(c.piece), c.fraction,
                    _vector(c.contact.point) if is_hit else None, _vector(c.contact.normal) if is_hit else None,
                    _index_or_none(c.joint), c.placed, c.sweeps)
 

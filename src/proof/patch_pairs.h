@@ -1,5 +1,5 @@
-// In: fresh items, as the search finds them. Out: each is parted by a plane between its hulls or by
-// its triangles, or in contact, or kept as a doubt.
+// In: fresh patch pairs, as the search finds them. Out: each is separated by a plane between its
+// hulls or by its triangles, or in contact, or kept as an unresolved pair.
 #pragma once
 #include "../interface/plans.h"
 #include "witnesses.h"
@@ -7,8 +7,8 @@
 #ifndef NSVCD_NO_PROOF
 // Does the plane that separated a triangle pair last separate all of patches i and j from u0 to u1
 // of the arc, in double? Where flat lies on flat by less than floats tell, it mostly does.
-static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
-                                             double u1) {
+static NSVCD__NOINLINE int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j, double u0,
+                                                double u1) {
   const size_t moving_first = p->moving.first_triangle[i];
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_first = p->fixed.first_triangle[j];
@@ -19,22 +19,22 @@ static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j
     nsvcd__d3 corners[3];
     nsvcd__facet_triangle(&p->fixed, j, b, corners);
     for (size_t k = 0; k < 3; k++) {
-      const double height = nsvcd__d3_dot(p->memo.parting, corners[k]);
+      const double height = nsvcd__d3_dot(p->memo.separating, corners[k]);
       if (height > highest) top = b;
       highest = nsvcd__max(highest, height);
     }
   }
   p->work += (fixed_end - fixed_first) / NSVCD__LANES;
   for (size_t a = moving_first; a < moving_end; a++) {
-    const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, top);
+    const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, top);
     if ((a - moving_first) % 4 == 0) p->work++;
-    if (!nsvcd__plane_parts(p, &couple, u0, u1, p->memo.parting)) return 0;
+    if (!nsvcd__plane_separates(p, &pair, u0, u1, p->memo.separating)) return 0;
   }
 #ifdef NSVCD__CERTIFIES
   for (size_t a = moving_first; a < moving_end; a++) {
     for (size_t b = fixed_first; b < fixed_end; b++) {
-      const nsvcd__couple couple = nsvcd__couple_of(p, i, j, a, b);
-      nsvcd__certify_couple(p, &couple, u0, u1);
+      const nsvcd__triangle_pair pair = nsvcd__pair_of(p, i, j, a, b);
+      nsvcd__certify_triangle_pair(p, &pair, u0, u1);
     }
   }
 #endif
@@ -42,50 +42,53 @@ static NSVCD__APART int nsvcd__patches_apart(nsvcd__proof *p, size_t i, size_t j
 }
 
 // Lane l of the moving block, posed at both ends of a span from u0 to u1 of the arc, and block n of
-// the window: couples that planes do not part are settled one by one, and what parts one may part
-// others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more than
-// `patience` parts of the span; without any, when there is such a couple.
-static nsvcd__outcome nsvcd__settle_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
-                                        size_t n, const nsvcd__span *span, nsvcd__lever lever,
-                                        float margin, double u0, double u1, size_t patience) {
+// the window: triangle pairs that planes do not part are resolved one by one, and what parts one
+// may part others, or, ALL_SETTLED, all of both patches. TOO_LONG when they have asked for more
+// than `patience` parts of the span; without any, when there is such a triangle pair.
+static nsvcd__outcome nsvcd__resolve_row(nsvcd__proof *p, size_t i, size_t j, size_t l,
+                                         size_t n, const nsvcd__span *span, nsvcd__arm arm,
+                                         float margin, double u0, double u1, size_t patience) {
   nsvcd__block *fixed = &p->fixed_blocks[n];
   const float quanta = nsvcd__quanta_of(p, i, j);
   p->work++;
   uint32_t met = nsvcd__row_left(p, i, j, l, fixed, 2, span, margin);
   for (; met; met &= met - 1) {
-    const nsvcd__d3 before = p->memo.parting;
+    const nsvcd__d3 before = p->memo.separating;
     const nsvcd__f3 last = nsvcd__f3_round(before);
     const float along =
-        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation(span, last, lever);
+        quanta + span->rounding + nsvcd__clearance(p) + nsvcd__deviation_of(span, last, arm);
     met = nsvcd__left_by_last(p, i, j, l, fixed, 2, span, along, met);
     if (!met) break;
     if (patience == 0) return NSVCD__TOO_LONG;
     if (p->memo.shared > NSVCD__SHARED * p->all_tried) {
       p->all_tried++;
-      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_SETTLED;
+      if (nsvcd__patches_apart(p, i, j, u0, u1)) return NSVCD__ALL_RESOLVED;
     }
     const size_t listing = p->moving_block.first + l;
-    const nsvcd__couple couple =
-        nsvcd__couple_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
-    const nsvcd__outcome one = nsvcd__settle_couple(p, &couple, u0, u1);
-    if (one != NSVCD__SETTLED) return one;
+    const nsvcd__triangle_pair pair =
+        nsvcd__pair_of(p, i, j, listing, fixed->first + nsvcd__low_bit(met));
+    const nsvcd__outcome one = nsvcd__resolve_pair(p, &pair, u0, u1);
+    if (one != NSVCD__RESOLVED) return one;
     if (p->parts > patience) return NSVCD__TOO_LONG;
-    p->memo.shared = nsvcd__d3_distance2(p->memo.parting, before) > 0 ? 0 : p->memo.shared + 1;
+    p->memo.shared =
+        nsvcd__d3_distance2(p->memo.separating, before) > 0 ? 0 : p->memo.shared + 1;
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-// All couples of an item's patches over a span from u0 to u1 of the arc.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size_t i, size_t j,
-                                                           const nsvcd__span *span, double u0,
-                                                           double u1, size_t patience) {
+// All triangle pairs of a patch pair's patches over a span from u0 to u1 of the arc.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_triangles(nsvcd__proof *p, size_t i,
+                                                               size_t j,
+                                                               const nsvcd__span *span,
+                                                               double u0, double u1,
+                                                               size_t patience) {
   const size_t moving_end = p->moving.first_triangle[i + 1];
   const size_t fixed_end = p->fixed.first_triangle[j + 1];
   const nsvcd__f3 axis = nsvcd__own_axis(span);
   const float stays =
       nsvcd__quanta_of(p, i, j) + (span->rounding + span->drift) + nsvcd__clearance(p);
   const float extent = p->moving.body->extent + p->moving.quanta[i];
-  const nsvcd__lever all = {extent, extent};
+  const nsvcd__arm all = {extent, extent};
   const int bends =
       span->bulge * extent > 0.25f * stays;  // else it is not worth to look closely
   p->parts = 0;
@@ -95,9 +98,8 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
     nsvcd__window_load(p, j, b);
     for (size_t a = p->moving.first_triangle[i]; a < moving_end; a += NSVCD__LANES) {
       nsvcd__moving_block_load(p, i, a);
-      const nsvcd__lever lever =
-          bends ? nsvcd__block_lever(p, axis, p->moving.quanta[i]) : all;
-      const float margin = stays + nsvcd__bulge_of(span, lever);
+      const nsvcd__arm arm = bends ? nsvcd__block_arm(p, axis, p->moving.quanta[i]) : all;
+      const float margin = stays + nsvcd__bulge_of(span, arm);
       nsvcd__block_pose(p, &span->start, 0);
       nsvcd__block_pose(p, &span->end, 1);
       nsvcd__block_box(p, 2);
@@ -107,24 +109,24 @@ static NSVCD__APART nsvcd__outcome nsvcd__settle_triangles(nsvcd__proof *p, size
         const uint32_t lanes =
             nsvcd__lanes_left_by_last(p, i, j, fixed, 2, span, margin, nearby);
         p->work++;
-        if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+        if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
         for (size_t l = 0; l < p->moving_block.count; l++) {
           if (!(nearby >> l & 1))
             NSVCD__CERTIFY_BLOCK(p, i, j, l, fixed, span, 0xffff, 0, NULL, 0);
           if (!(lanes >> l & 1)) continue;
           const nsvcd__outcome row =
-              nsvcd__settle_row(p, i, j, l, n, span, lever, margin, u0, u1, patience);
-          if (row == NSVCD__ALL_SETTLED) return NSVCD__SETTLED;
-          if (row != NSVCD__SETTLED) return row;
+              nsvcd__resolve_row(p, i, j, l, n, span, arm, margin, u0, u1, patience);
+          if (row == NSVCD__ALL_RESOLVED) return NSVCD__RESOLVED;
+          if (row != NSVCD__RESOLVED) return row;
         }
       }
     }
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
-                                const nsvcd__item *item) {
+static void nsvcd__certify_patch_pair(const nsvcd__proof *p, const nsvcd__span *span,
+                                      const nsvcd__patch_pair *item) {
   const float normal[3] = {p->memo.held.x, p->memo.held.y, p->memo.held.z};
   NSVCD__CERTIFY(NSVCD__BY_HULL, item->moving, item->fixed, NSVCD_NONE, NSVCD_NONE,
                  span->t_start, span->t_end, normal);
@@ -133,10 +135,10 @@ static void nsvcd__certify_item(const nsvcd__proof *p, const nsvcd__span *span,
   (void)item;
 }
 
-// Settles an item that no plane parts over its segment, arc by arc. Each arc is halved as often as
-// need be: a part of it is parted by a plane between the hulls, or by its triangles.
-static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *search,
-                                         const nsvcd__item *item) {
+// Resolves a patch pair that no plane separates over its segment, arc by arc. Each arc is halved as
+// often as need be: a part of it is separated by a plane between the hulls, or by its triangles.
+static nsvcd__outcome nsvcd__resolve_patch_pair(nsvcd__proof *p, const nsvcd__search *search,
+                                                const nsvcd__patch_pair *item) {
   const nsvcd__motion *motion = p->ask.motion;
   const uint32_t last = search->begin[item->segment + 1u];
   double *ends = p->arc_ends;
@@ -144,10 +146,10 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
   for (uint32_t at = search->begin[item->segment]; at < last && (double)at < p->ask.end;) {
     double u;
     const uint32_t first = nsvcd__arc_of(motion, (double)at, &u);
-    const uint32_t knot = nsvcd__next_knot(motion, first);
-    at = last < knot ? last : knot;
+    const uint32_t keyframe = nsvcd__next_keyframe(motion, first);
+    at = last < keyframe ? last : keyframe;
     is_tried = is_tried && at == last;
-    ends[0] = (double)(at - first) / (double)(knot - first);
+    ends[0] = (double)(at - first) / (double)(keyframe - first);
     for (size_t left = 1; left > 0;) {
       NSVCD__PAUSE(p);
       nsvcd__arc_at(p, first);
@@ -158,28 +160,29 @@ static nsvcd__outcome nsvcd__settle_item(nsvcd__proof *p, const nsvcd__search *s
           !is_tried && nsvcd__hulls_are_apart(p, item->moving, item->fixed, &p->span);
       is_tried = 0;
       if (apart) {
-        nsvcd__certify_item(p, &p->span, item);
+        nsvcd__certify_patch_pair(p, &p->span, item);
       } else {
         const int may_halve = end - u > NSVCD__SHORTEST && left < NSVCD__ARC_PARTS;
         const size_t patience = may_halve ? NSVCD__PATIENCE_TO_PART : (size_t)-1;
         const nsvcd__outcome part =
-            nsvcd__settle_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
-        if (part == NSVCD__ANSWERED || part == NSVCD__SPENT) return part;
+            nsvcd__resolve_triangles(p, item->moving, item->fixed, &p->span, u, end, patience);
+        if (part == NSVCD__ANSWERED || part == NSVCD__EXHAUSTED) return part;
         if (part == NSVCD__TOO_LONG) ends[left++] = 0.5 * (u + end);
-        if (part != NSVCD__SETTLED) continue;
+        if (part != NSVCD__RESOLVED) continue;
       }
       u = end;
       left--;
     }
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
-// Does a plane with the normal that held last part an item's patches over its segment? Neighbours
-// of an item that a plane parts ask for the same again: so heights over it are remembered, of a
-// moving patch in a segment the least, all allowances taken off, and of a resting one the greatest.
+// Does a plane with the normal that held last part a patch pair's patches over its segment?
+// Neighbours of a patch pair that a plane separates ask for the same again: so heights over it are
+// remembered, of a moving patch in a segment the least, all allowances taken off, and of a resting
+// one the greatest.
 static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
-                             const nsvcd__item *item) {
+                             const nsvcd__patch_pair *item) {
   const size_t i = item->moving;
   const size_t j = item->fixed;
   const size_t s = item->segment;
@@ -204,7 +207,7 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     above->plane = memo->plane;
     above->key = key;
     above->height =
-        lowest - slack - nsvcd__deviation(span, n, nsvcd__patch_lever(&p->moving, i, span));
+        lowest - slack - nsvcd__deviation_of(span, n, nsvcd__patch_arm(&p->moving, i, span));
   }
   if (below->plane != memo->plane || below->key != j) {
     // negated
@@ -218,31 +221,32 @@ static int nsvcd__held_again(nsvcd__proof *p, const nsvcd__search *search,
     below->height = p->fixed.slacks[j] * length - highest;
   }
   if (!(above->height > below->height + nsvcd__clearance(p) * length)) return 0;
-  nsvcd__certify_item(p, span, item);
+  nsvcd__certify_patch_pair(p, span, item);
   return 1;
 }
 
 // Is there any plane that does?
-static int nsvcd__item_is_parted(nsvcd__proof *p, const nsvcd__search *search,
-                                 const nsvcd__item *item) {
+static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
+                               const nsvcd__patch_pair *item) {
   const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
   if (!nsvcd__hulls_are_apart(p, item->moving, item->fixed, span)) return 0;
-  nsvcd__certify_item(p, span, item);
+  nsvcd__certify_patch_pair(p, span, item);
   return 1;
 }
 
-// Is an item to be looked at before another? The deeper; with `first` the one that is nearest
+// Is a patch pair to be looked at before another? The deeper; with `first` the one that is nearest
 // earlier in their segment, and once there is a contact that of the earlier segment.
-static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__item *a,
-                            const nsvcd__item *b) {
+static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
+                            const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;
-  if (a->segment == b->segment) return a->share < b->share;
+  if (a->segment == b->segment) return a->fraction < b->fraction;
   return p->known.has_contact ? a->segment < b->segment : a->depth > b->depth;
 }
 
-static void nsvcd__sort_items(const nsvcd__proof *p, nsvcd__item *items, size_t count) {
+static void nsvcd__sort_patch_pairs(const nsvcd__proof *p, nsvcd__patch_pair *items,
+                                    size_t count) {
   for (size_t n = 1; n < count; n++) {
-    const nsvcd__item item = items[n];
+    const nsvcd__patch_pair item = items[n];
     size_t at = n;
     for (; at > 0 && nsvcd__is_before(p, &item, &items[at - 1]); at--)
       items[at] = items[at - 1];
@@ -258,7 +262,7 @@ static int nsvcd__matters(const nsvcd__proof *p, const nsvcd__search *search, si
 // Where the end of what matters lies within a segment, that segment is cut off there. What leaves a
 // chord by some length leaves that of a part of the time by no more than twice that, along any
 // direction.
-static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *search) {
   size_t s = 0;
   double u;
   if (!(p->ask.end < p->clipped_end)) return;
@@ -268,7 +272,7 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   nsvcd__segments *block = &search->blocks[s / NSVCD__LANES];
   const size_t l = s % NSVCD__LANES;
   const uint32_t first = nsvcd__arc_of(p->ask.motion, p->ask.end, &u);
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, first), u);
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, first), u);
   const nsvcd__transform end = nsvcd__transform_of(&at);
   const nsvcd__mat3 start = nsvcd__mat3_lane(block->rotation, l);
   const nsvcd__mat3 turned = nsvcd__mat3_mix(1, &end.rotation, -1, &start);
@@ -292,29 +296,30 @@ static NSVCD__APART void nsvcd__clip_segment(nsvcd__proof *p, nsvcd__search *sea
   p->memo.plane += p->memo.plane > 0;
 }
 
-// Settles the items that no plane parts.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_items(nsvcd__proof *p,
-                                                       nsvcd__search *search) {
-  nsvcd__sort_items(p, p->of.kept.items, p->count);
+// Resolves the patch pairs that no plane separates.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_patch_pairs(nsvcd__proof *p,
+                                                                 nsvcd__search *search) {
+  nsvcd__sort_patch_pairs(p, p->of.kept.items, p->count);
   for (size_t n = 0; n < p->count; n++) {
-    const nsvcd__item *item = &p->of.kept.items[n];
+    const nsvcd__patch_pair *item = &p->of.kept.items[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
     const int is_clipped = (p->clipped >> item->segment & 1) != 0;
-    if (is_clipped && nsvcd__item_is_parted(p, search, item)) continue;
-    const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
-    if (outcome != NSVCD__SETTLED) return outcome;
+    if (is_clipped && nsvcd__is_separated(p, search, item)) continue;
+    const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+    if (outcome != NSVCD__RESOLVED) return outcome;
   }
   p->count = 0;
-  return nsvcd__is_spent(p) ? NSVCD__SPENT : NSVCD__SETTLED;
+  return nsvcd__is_exhausted(p) ? NSVCD__EXHAUSTED : NSVCD__RESOLVED;
 }
 
-// Looks at fresh items: parts those that planes can part, looks for a witness in the others, and
-// keeps them. The last plane that held is tried on all before anything else: it often holds for
+// Looks at fresh patch pairs: parts those that planes can part, looks for a witness in the others,
+// and keeps them. The last plane that held is tried on all before anything else: it often holds for
 // neighbours.
-static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__search *search) {
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__sift_patch_pairs(nsvcd__proof *p,
+                                                              nsvcd__search *search) {
   const int tells_more = p->ask.measure > 0 || p->ask.first > 0;
   size_t count = 0;
   nsvcd__clip_segment(p, search);
@@ -323,78 +328,79 @@ static NSVCD__APART nsvcd__outcome nsvcd__sift_items(nsvcd__proof *p, nsvcd__sea
     p->fresh[count++] = p->fresh[n];
   }
   p->fresh_count = 0;
-  nsvcd__sort_items(p, p->fresh, count);
+  nsvcd__sort_patch_pairs(p, p->fresh, count);
   if (count > 0 && p->fresh[0].depth > NSVCD__DEEP &&
-      nsvcd__seek_item(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
+      nsvcd__seek_in_patch_pair(p, search, &p->fresh[0]) == NSVCD__ANSWERED)
     return NSVCD__ANSWERED;
 
   for (size_t n = 0; n < count; n++) {
-    nsvcd__item *item = &p->fresh[n];
+    nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
     nsvcd__clip_segment(p, search);
     if (!nsvcd__matters(p, search, item->segment)) continue;
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__item_is_parted(p, search, item)) continue;
+    if (nsvcd__is_separated(p, search, item)) continue;
     double u;
     const uint32_t first = nsvcd__arc_of(p->ask.motion, search->begin[item->segment], &u);
     if ((p->ask.first > 0 || p->memo.shared > 0) &&
         nsvcd__is_straight(nsvcd__arc_at(p, first))) {
-      const nsvcd__outcome outcome = nsvcd__settle_item(p, search, item);
-      if (outcome != NSVCD__SETTLED) return outcome;
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pair(p, search, item);
+      if (outcome != NSVCD__RESOLVED) return outcome;
       continue;
     }
     if (p->misses >= NSVCD__HOPE) {
       const nsvcd__span *span = nsvcd__segment_span(p, search, item->segment);
       const nsvcd__outcome by_triangles =
-          nsvcd__settle_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
-      if (by_triangles == NSVCD__SETTLED) continue;
+          nsvcd__resolve_triangles(p, item->moving, item->fixed, span, 0, 0, 0);
+      if (by_triangles == NSVCD__RESOLVED) continue;
     }
     const int has_hope = tells_more || p->misses < NSVCD__DESPAIR;
-    if (has_hope && !item->sought && nsvcd__seek_item(p, search, item) == NSVCD__ANSWERED)
+    if (has_hope && !item->sought &&
+        nsvcd__seek_in_patch_pair(p, search, item) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     p->misses++;
-    if (p->count == NSVCD__ITEMS) {
-      const nsvcd__outcome outcome = nsvcd__settle_items(p, search);
-      if (outcome != NSVCD__SETTLED) return outcome;
+    if (p->count == NSVCD__PATCH_PAIRS) {
+      const nsvcd__outcome outcome = nsvcd__resolve_patch_pairs(p, search);
+      if (outcome != NSVCD__RESOLVED) return outcome;
     }
     p->of.kept.items[p->count++] = *item;
   }
-  return NSVCD__SETTLED;
+  return NSVCD__RESOLVED;
 }
 
 // Is there room for touches, and a way out of those that were gathered?
-static int nsvcd__gathers_on(const nsvcd__proof *p) {
+static int nsvcd__collects_on(const nsvcd__proof *p) {
   return p->touch_count < NSVCD__TOUCHES && !p->too_deep;
 }
 
-// Gathers what fresh items touch at the start, or the items where contact points may be. SPENT: as
-// much as can be looked at together, or as was allowed.
-static nsvcd__outcome nsvcd__gather_items(nsvcd__proof *p, nsvcd__search *search) {
-  for (size_t n = 0; n < p->fresh_count && nsvcd__gathers_on(p); n++) {
-    const nsvcd__item *item = &p->fresh[n];
+// Gathers what fresh patch pairs touch at the start, or the patch pairs where contact points may
+// be. SPENT: as much as can be looked at together, or as was allowed.
+static nsvcd__outcome nsvcd__collect_contacts(nsvcd__proof *p, nsvcd__search *search) {
+  for (size_t n = 0; n < p->fresh_count && nsvcd__collects_on(p); n++) {
+    const nsvcd__patch_pair *item = &p->fresh[n];
     NSVCD__PAUSE(p);
     if (p->memo.plane && nsvcd__held_again(p, search, item)) continue;
-    if (nsvcd__item_is_parted(p, search, item)) continue;
-    if (p->ask.gathers == NSVCD__TOUCHING) {
+    if (nsvcd__is_separated(p, search, item)) continue;
+    if (p->ask.collects == NSVCD__TOUCHING) {
       if (p->normal_count > 0) {
         // what was lifted off just so is farther than the clearance by less than floats tell
         (void)nsvcd__arc_at(p, 0);
         if (nsvcd__patches_apart(p, item->moving, item->fixed, 0, 0)) continue;
       }
       (void)nsvcd__find_witness(p, item->moving, item->fixed, 0, 0);
-    } else if (p->count < NSVCD__ITEMS) {
+    } else if (p->count < NSVCD__PATCH_PAIRS) {
       p->of.kept.items[p->count++] = *item;
     }
   }
   p->fresh_count = 0;
-  return nsvcd__gathers_on(p) && p->work <= p->ask.limit ? NSVCD__SETTLED : NSVCD__SPENT;
+  return nsvcd__collects_on(p) && p->work <= p->ask.limit ? NSVCD__RESOLVED : NSVCD__EXHAUSTED;
 }
 
-// How far places on both patches of an item, the moving one posed, can at most be along each
+// How far places on both patches of a patch pair, the moving one posed, can at most be along each
 // of these directions of a manifold: they are within both hulls.
 static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
-                            const nsvcd__item *item, int first, int last, float *most) {
+                            const nsvcd__patch_pair *item, int first, int last, float *most) {
   const nsvcd__manifold *m = &p->of.kept.manifold;
   const float scale = p->ask.motion->scale;
   const float moving_more = scale * p->moving.slacks[item->moving] + (float)m->reach;
@@ -414,14 +420,14 @@ static void nsvcd__bound_of(const nsvcd__proof *p, const nsvcd__transform *pose,
   }
 }
 
-// The manifold of the items that were gathered, in directions first to last - 1: at first of those
-// that may be farthest along one, then of what may still be farther. Where bodies are deep in each
-// other there are many, and few of their places are like a contact: so many are looked at, and no
-// more.
-static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
+// The manifold of the patch pairs that were gathered, in directions first to last - 1: at first of
+// those that may be farthest along one, then of what may still be farther. Where bodies are deep in
+// each other there are many, and few of their places are like a contact: so many are looked at, and
+// no more.
+static NSVCD__NOINLINE void nsvcd__seek_places(nsvcd__proof *p, int first, int last) {
   nsvcd__manifold *m = &p->of.kept.manifold;
-  nsvcd__item *items = p->of.kept.items;
-  const nsvcd__placement at = nsvcd__placement_at(nsvcd__arc_at(p, 0), 0);
+  nsvcd__patch_pair *items = p->of.kept.items;
+  const nsvcd__dtransform at = nsvcd__dtransform_at(nsvcd__arc_at(p, 0), 0);
   const nsvcd__transform pose = nsvcd__transform_of(&at);
   size_t looks = 0;
   float farthest[NSVCD__SUPPORTS];
@@ -439,7 +445,7 @@ static NSVCD__APART void nsvcd__seek_places(nsvcd__proof *p, int first, int last
   const size_t count = (size_t)(last - first);
   for (size_t n = 0; n < count + p->count && p->count > 0; n++) {
     const size_t which = n < count ? best[(size_t)first + n] : n - count;
-    nsvcd__item *item = &items[which];
+    nsvcd__patch_pair *item = &items[which];
     int matters = 0;
     nsvcd__bound_of(p, &pose, item, first, last, most);
     for (int k = first; k < last; k++) matters |= (double)most[k] > m->farthest[k] + m->same;

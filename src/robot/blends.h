@@ -8,11 +8,11 @@
 #pragma once
 #include "trees.h"
 
-// of a ramp: each joint has two times at which its acceleration changes
-#define NSVCD__RAMP_PIECES (2 * NSVCD_MAX_JOINTS + 1)
+// of a blend: each joint has two times at which its acceleration changes
+#define NSVCD__BLEND_PIECES (2 * NSVCD_MAX_JOINTS + 1)
 // share of the limits of speed and acceleration that is asked for: the rest is for rounding
-#define NSVCD__RAMP_SHARE (1 - 1e-6)
-#define NSVCD__RAMP_MOST (1 - 5e-7)
+#define NSVCD__BLEND_FRACTION (1 - 1e-6)
+#define NSVCD__BLEND_MOST (1 - 5e-7)
 // seconds: of shorter pieces rounding would say what their acceleration is; there are none. And two
 // changes no farther apart than that are one
 #define NSVCD__SLIVER 1e-4
@@ -25,14 +25,14 @@ static double nsvcd__acceleration_of(const nsvcd_joint *joint) {
   return joint->acceleration > 0 ? joint->acceleration : 1;
 }
 
-// A joint's way in a ramp: acceleration a until t1, none until t2, -a after that.
-typedef struct nsvcd__ramp_joint {
+// A joint's way in a blend: acceleration a until t1, none until t2, -a after that.
+typedef struct nsvcd__blend_joint {
   double a, t1, t2;
-} nsvcd__ramp_joint;
+} nsvcd__blend_joint;
 
 // The least time from place x0 and speed v0 to x1 and v1, both within the limits.
-static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, double speed,
-                               double most) {
+static double nsvcd__blend_time(double x0, double v0, double x1, double v1, double speed,
+                                double most) {
   const double way = x1 - x0;
   // changing speed takes this way: is there more to go, or less?
   const double least = 0.5 * (v0 + v1) * fabs(v1 - v0) / most;
@@ -47,8 +47,8 @@ static double nsvcd__ramp_time(double x0, double v0, double x1, double v1, doubl
 
 // The way with the least acceleration that takes this time. Returns 0 if there is none within the
 // limits.
-static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double speed,
-                             double most, double time, nsvcd__ramp_joint *out) {
+static int nsvcd__blend_solve(double x0, double v0, double x1, double v1, double speed,
+                              double most, double time, nsvcd__blend_joint *out) {
   const double way = x1 - x0;
   const double change = v1 - v0;
   // time^2 a^2 + b a - change^2 = 0: the root of the greater size
@@ -74,8 +74,8 @@ static int nsvcd__ramp_solve(double x0, double v0, double x1, double v1, double 
 }
 
 // Place and speed at a time of a way that begins with x0 and v0.
-static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, double t,
-                           double *x, double *v) {
+static void nsvcd__blend_at(const nsvcd__blend_joint *r, double x0, double v0, double t,
+                            double *x, double *v) {
   const double up = nsvcd__min(t, r->t1);
   const double even = nsvcd__max(nsvcd__min(t, r->t2) - r->t1, 0);
   const double down = nsvcd__max(t - r->t2, 0);
@@ -85,8 +85,8 @@ static void nsvcd__ramp_at(const nsvcd__ramp_joint *r, double x0, double v0, dou
 }
 
 // Does a joint turn round out of its limits on the way? Its ends are within.
-static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint *r, double x0,
-                              double v0, double time) {
+static int nsvcd__blend_leaves(const nsvcd_joint *joint, const nsvcd__blend_joint *r,
+                               double x0, double v0, double time) {
   if (joint->kind == NSVCD_JOINT_CONTINUOUS) return 0;
   // where it stands still
   const double turns[2] = {
@@ -96,40 +96,40 @@ static int nsvcd__ramp_leaves(const nsvcd_joint *joint, const nsvcd__ramp_joint 
     double x, v;
     const int is_there = k ? turns[k] > r->t2 && turns[k] < time : turns[k] < r->t1;
     if (!is_there || !(turns[k] > 0)) continue;
-    nsvcd__ramp_at(r, x0, v0, turns[k], &x, &v);
+    nsvcd__blend_at(r, x0, v0, turns[k], &x, &v);
     if (x < joint->low || x > joint->high) return 1;
   }
   return 0;
 }
 
-// Writes a ramp of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
-// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no ramp
+// Writes a blend of all joints as pieces: points (2 pieces + 1, F), times from 0. state: the joints
+// at the start and the end, and their speeds (4, F). Returns the pieces; 0 if there is no blend
 // within the limits that takes less than `longest`, or two of its changes nearly coincide.
-static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
-                                double longest, double *points, double *times) {
+static size_t nsvcd__blend_write(const nsvcd_scene *scene, double states[4][NSVCD_MAX_JOINTS],
+                                 double longest, double *points, double *times) {
   const size_t joints = scene->joint_count;
-  nsvcd__ramp_joint ramps[NSVCD_MAX_JOINTS];
-  double changes[NSVCD__RAMP_PIECES + 1];
+  nsvcd__blend_joint blends[NSVCD_MAX_JOINTS];
+  double changes[NSVCD__BLEND_PIECES + 1];
   size_t count = 0;
   double time = 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    time = nsvcd__max(time,
-                      nsvcd__ramp_time(states[0][j], states[2][j], states[1][j], states[3][j],
-                                       NSVCD__RAMP_SHARE * nsvcd__speed_of(joint),
-                                       NSVCD__RAMP_SHARE * nsvcd__acceleration_of(joint)));
+    time = nsvcd__max(
+        time, nsvcd__blend_time(states[0][j], states[2][j], states[1][j], states[3][j],
+                                NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint),
+                                NSVCD__BLEND_FRACTION * nsvcd__acceleration_of(joint)));
   }
   if (!(time < longest)) return 0;
   for (size_t j = 0; j < joints; j++) {
     const nsvcd_joint *joint = &scene->joints[j];
-    const double speed = NSVCD__RAMP_SHARE * nsvcd__speed_of(joint);
-    const double most = NSVCD__RAMP_MOST * nsvcd__acceleration_of(joint);
-    if (!nsvcd__ramp_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed, most,
-                           time, &ramps[j]))
+    const double speed = NSVCD__BLEND_FRACTION * nsvcd__speed_of(joint);
+    const double most = NSVCD__BLEND_MOST * nsvcd__acceleration_of(joint);
+    if (!nsvcd__blend_solve(states[0][j], states[2][j], states[1][j], states[3][j], speed,
+                            most, time, &blends[j]))
       return 0;
-    if (nsvcd__ramp_leaves(joint, &ramps[j], states[0][j], states[2][j], time)) return 0;
-    changes[count++] = ramps[j].t1;
-    changes[count++] = ramps[j].t2;
+    if (nsvcd__blend_leaves(joint, &blends[j], states[0][j], states[2][j], time)) return 0;
+    changes[count++] = blends[j].t1;
+    changes[count++] = blends[j].t2;
   }
   changes[count++] = time;
   // sorted, by insertion
@@ -150,9 +150,9 @@ static size_t nsvcd__ramp_write(const nsvcd_scene *scene, double states[4][NSVCD
     double *to = points + 2 * pieces * joints;
     for (size_t j = 0; j < joints; j++) {
       double x, v;
-      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], before, &x, &v);
+      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], before, &x, &v);
       to[joints + j] = to[j] + half * v;
-      nsvcd__ramp_at(&ramps[j], states[0][j], states[2][j], changes[k], &x, &v);
+      nsvcd__blend_at(&blends[j], states[0][j], states[2][j], changes[k], &x, &v);
       to[2 * joints + j] = x;
     }
     times[++pieces] = changes[k];

@@ -1,17 +1,17 @@
-// In: two triangles and a span. Out: parted, or in contact, or neither as long as it is halved.
+// In: two triangles and a span. Out: separated, or in contact, or neither as long as it is halved.
 #pragma once
 #include "../ground/triangles.h"
 #include "spans.h"
 
 #ifndef NSVCD_NO_PROOF
-static void nsvcd__place_triangle(const nsvcd__placement *at, const nsvcd__d3 *corners,
+static void nsvcd__place_triangle(const nsvcd__dtransform *at, const nsvcd__d3 *corners,
                                   nsvcd__d3 *out) {
   for (size_t k = 0; k < 3; k++) out[k] = nsvcd__place_point(at, corners[k]);
 }
 
 // Two triangles, one of each body, in their frames: the caller's own, of which listings may be
 // pieces. What separates a triangle separates its pieces, and what it meets the mesh meets.
-typedef struct nsvcd__couple {
+typedef struct nsvcd__triangle_pair {
   size_t moving_patch, fixed_patch, moving_listing, fixed_listing;
   nsvcd__d3 moving[3], fixed[3];
   // of the moving one, in its body's units: no point of it is farther from its body's origin, nor,
@@ -22,73 +22,72 @@ typedef struct nsvcd__couple {
   double rounding;
   // a part of the arc in which they come so near is not worth halving
   double close;
-} nsvcd__couple;
+} nsvcd__triangle_pair;
 
 // How far its moving triangle is from the origin and from the axis.
-static void nsvcd__couple_reaches(const nsvcd__arc *arc, nsvcd__couple *couple) {
-  couple->reach = couple->radial = 0;
+static void nsvcd__pair_reaches(const nsvcd__arc *arc, nsvcd__triangle_pair *pair) {
+  pair->reach = pair->radial = 0;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 corner = couple->moving[k];
+    const nsvcd__d3 corner = pair->moving[k];
     const nsvcd__d3 across = nsvcd__d3_cross(corner, arc->own_axis);
-    couple->reach = nsvcd__max(couple->reach, nsvcd__d3_length(corner));
-    couple->radial = nsvcd__max(couple->radial, nsvcd__d3_length(across));
+    pair->reach = nsvcd__max(pair->reach, nsvcd__d3_length(corner));
+    pair->radial = nsvcd__max(pair->radial, nsvcd__d3_length(across));
   }
-  couple->radial += (arc->waver + 1e-6) * couple->reach;
-  couple->radial = nsvcd__min(couple->radial, couple->reach);
+  pair->radial += (arc->waver + 1e-6) * pair->reach;
+  pair->radial = nsvcd__min(pair->radial, pair->reach);
 }
 
-static nsvcd__couple nsvcd__couple_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
-                                      size_t b) {
-  nsvcd__couple couple = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
-  nsvcd__facet_triangle(&p->moving, i, a, couple.moving);
-  nsvcd__facet_triangle(&p->fixed, j, b, couple.fixed);
-  nsvcd__couple_reaches(&p->arc, &couple);
-  couple.rounding =
+static nsvcd__triangle_pair nsvcd__pair_of(const nsvcd__proof *p, size_t i, size_t j, size_t a,
+                                           size_t b) {
+  nsvcd__triangle_pair pair = {i, j, a, b, {{0, 0, 0}}, {{0, 0, 0}}, 0, 0, 0, 0, 0};
+  nsvcd__facet_triangle(&p->moving, i, a, pair.moving);
+  nsvcd__facet_triangle(&p->fixed, j, b, pair.fixed);
+  nsvcd__pair_reaches(&p->arc, &pair);
+  pair.rounding =
       NSVCD__SAME_PLACE * ((double)p->given.lengths + nsvcd__d3_length(p->arc.from));
-  couple.slack = couple.rounding + nsvcd__off_meshes(p);
-  couple.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
-  couple.close =
-      couple.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
-  return couple;
+  pair.slack = pair.rounding + nsvcd__off_meshes(p);
+  pair.slack += NSVCD__SAME_PLACE * nsvcd__d3_length(p->arc.moved);
+  pair.close = pair.slack + NSVCD__TOO_NEAR * (double)p->given.lengths + p->given.tolerance;
+  return pair;
 }
 
 // Are these of closed surfaces, of which the winding says which side is out?
-static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__moving_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__facet_encloses(&p->moving, c->moving_patch, c->moving_listing);
 }
-static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__couple *c) {
+static int nsvcd__fixed_closed(const nsvcd__proof *p, const nsvcd__triangle_pair *c) {
   return nsvcd__facet_encloses(&p->fixed, c->fixed_patch, c->fixed_listing);
 }
 
 // What is said of two triangles a share u of the arc later than its start.
-static nsvcd__contact nsvcd__contact_at(const nsvcd__proof *p, const nsvcd__couple *couple,
-                                        double u, const nsvcd__nearest *nearest) {
-  const nsvcd__d3 face = nsvcd__face_direction(couple->fixed);
+static nsvcd__pair_contact nsvcd__contact_at(const nsvcd__proof *p,
+                                             const nsvcd__triangle_pair *pair, double u,
+                                             const nsvcd__nearest *nearest) {
+  const nsvcd__d3 face = nsvcd__face_direction(pair->fixed);
   const nsvcd__d3 apart = nsvcd__d3_sub(nearest->on_a, nearest->on_b);
   const double distance = sqrt(nearest->square);
-  const int touches = distance <= couple->rounding;
-  nsvcd__contact out;
+  const int touches = distance <= pair->rounding;
+  nsvcd__pair_contact out;
   out.tick = (double)p->arc.first + u * (double)p->arc.ticks;
   out.distance = touches ? 0 : distance;
   out.point = nearest->on_b;
   out.normal = touches ? face : nsvcd__d3_unit(apart, nsvcd__d3_of(0, 0, 0));
   out.moving_triangle =
-      nsvcd__facet_number(&p->moving, couple->moving_patch, couple->moving_listing);
-  out.fixed_triangle =
-      nsvcd__facet_number(&p->fixed, couple->fixed_patch, couple->fixed_listing);
-  out.moving_listing = (uint32_t)couple->moving_listing;
-  out.fixed_listing = (uint32_t)couple->fixed_listing;
-  out.moving_patch = (uint16_t)couple->moving_patch;
-  out.fixed_patch = (uint16_t)couple->fixed_patch;
+      nsvcd__facet_number(&p->moving, pair->moving_patch, pair->moving_listing);
+  out.fixed_triangle = nsvcd__facet_number(&p->fixed, pair->fixed_patch, pair->fixed_listing);
+  out.moving_listing = (uint32_t)pair->moving_listing;
+  out.fixed_listing = (uint32_t)pair->fixed_listing;
+  out.moving_patch = (uint16_t)pair->moving_patch;
+  out.fixed_patch = (uint16_t)pair->fixed_patch;
   return out;
 }
 
 // Two triangles come within the clearance a share u of the arc later than its start. ANSWERED if
 // that is an answer, SHRUNK if there may be a better one.
-static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u, const nsvcd__nearest *nearest) {
   p->known.has_contact = 1;
-  p->known.found = nsvcd__contact_at(p, couple, u, nearest);
+  p->known.found = nsvcd__contact_at(p, pair, u, nearest);
   if (p->ask.measure > 0) {
     p->high = p->known.found.distance;
     p->ask.clearance = nsvcd__max(p->low, p->high - p->ask.measure);
@@ -102,21 +101,22 @@ static nsvcd__outcome nsvcd__take_contact(nsvcd__proof *p, const nsvcd__couple *
 }
 
 // Two triangles come so near from u0 to u1 of the arc that it cannot be told whether they touch.
-static NSVCD__APART void nsvcd__take_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
-                                           double u0, double u1) {
+static NSVCD__NOINLINE void nsvcd__keep_unresolved(nsvcd__proof *p,
+                                                   const nsvcd__triangle_pair *pair, double u0,
+                                                   double u1) {
   const double tick = (double)p->arc.first + u0 * (double)p->arc.ticks;
   const double middle = 0.5 * (u0 + u1);
   nsvcd__d3 posed[3];
-  const size_t left = p->ask.in_doubt;
+  const size_t left = p->ask.after_unresolved;
   // a try is short, whatever it finds
-  const int is_first = !(p->known.unsure < NSVCD__NEVER) && !p->ask.is_brief;
+  const int is_first = !(p->known.unresolved < NSVCD__NEVER) && !p->ask.is_brief;
   if (is_first && p->work + left < p->ask.limit) p->ask.limit = p->work + left;
-  if (!(tick < p->known.unsure)) return;
-  nsvcd__place_triangle(nsvcd__placed_at(p, middle), couple->moving, posed);
-  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, couple->fixed);
-  p->known.doubt = nsvcd__contact_at(p, couple, middle, &nearest);
-  p->known.unsure = tick;
-  if (p->ask.doubts_end) p->ask.end = nsvcd__min(p->ask.end, tick);
+  if (!(tick < p->known.unresolved)) return;
+  nsvcd__place_triangle(nsvcd__placed_at(p, middle), pair->moving, posed);
+  const nsvcd__nearest nearest = nsvcd__nearest_of(posed, pair->fixed);
+  p->known.unresolved_pair = nsvcd__contact_at(p, pair, middle, &nearest);
+  p->known.unresolved = tick;
+  if (p->ask.unresolved_ends) p->ask.end = nsvcd__min(p->ask.end, tick);
 }
 
 // What of the arc matters: the share of it at which the rest does not.
@@ -124,36 +124,36 @@ static double nsvcd__arc_limit(const nsvcd__proof *p) {
   return (p->ask.end - (double)p->arc.first) / (double)p->arc.ticks;
 }
 
-// By how much the points of a couple's moving triangle are off their chords along a unit direction
-// n, at most, over all of the arc; over a share of it by the square of that share. A point at r
-// metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a| + twist r
-// + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
-static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__couple *couple,
+// By how much the points of a triangle pair's moving triangle are off their chords along a unit
+// direction n, at most, over all of the arc; over a share of it by the square of that share. A
+// point at r metres from the origin and rho from the axis a of the turn is off by bulge rho |n x a|
+// + twist r + drift; where both bodies turn, a strays by `waver`, and so do both distances from it.
+static double nsvcd__off_chord_along(const nsvcd__arc *arc, const nsvcd__triangle_pair *pair,
                                      nsvcd__d3 n) {
   const double across = nsvcd__d3_length(nsvcd__d3_cross(n, arc->axis));
   const double off_axis = nsvcd__min(1, across + arc->waver + 1e-6);
-  const double turn = arc->bulge * couple->radial * off_axis;
-  return turn + arc->twist * couple->reach + arc->drift;
+  const double turn = arc->bulge * pair->radial * off_axis;
+  return turn + arc->twist * pair->reach + arc->drift;
 }
 
-// Does the plane with this unit normal part the couple from u0 to u1 of the arc?
-static int nsvcd__plane_parts(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                              double u1, nsvcd__d3 normal) {
+// Does the plane with this unit normal part the triangle pair from u0 to u1 of the arc?
+static int nsvcd__plane_separates(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                                  double u1, nsvcd__d3 normal) {
   const nsvcd__arc *arc = &p->arc;
-  const nsvcd__placement *start = nsvcd__placed_at(p, u0);
-  const nsvcd__placement *end = nsvcd__placed_at(p, u1);
+  const nsvcd__dtransform *start = nsvcd__placed_at(p, u0);
+  const nsvcd__dtransform *end = nsvcd__placed_at(p, u1);
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (size_t k = 0; k < 3; k++) {
-    const nsvcd__d3 at_start = nsvcd__place_point(start, couple->moving[k]);
-    const nsvcd__d3 at_end = nsvcd__place_point(end, couple->moving[k]);
+    const nsvcd__d3 at_start = nsvcd__place_point(start, pair->moving[k]);
+    const nsvcd__d3 at_end = nsvcd__place_point(end, pair->moving[k]);
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_start));
     lowest = nsvcd__min(lowest, nsvcd__d3_dot(normal, at_end));
-    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, couple->fixed[k]));
+    highest = nsvcd__max(highest, nsvcd__d3_dot(normal, pair->fixed[k]));
   }
-  const double off = nsvcd__off_chord_along(arc, couple, normal);
+  const double off = nsvcd__off_chord_along(arc, pair, normal);
   const double deviation = (u1 - u0) * (u1 - u0) * off;
-  return lowest - highest > p->ask.clearance + couple->slack + deviation;
+  return lowest - highest > p->ask.clearance + pair->slack + deviation;
 }
 
 // Is the foot of x on the plane of a triangle within it, farther than `margin` from its edges?
@@ -187,7 +187,7 @@ static int nsvcd__changes_sides(nsvcd__d3 x0, const nsvcd__d3 *t0, nsvcd__d3 x1,
                             margin * nsvcd__d3_length(n1));
 }
 
-// A couple at three times: the moving triangle's corners.
+// A triangle pair at three times: the moving triangle's corners.
 typedef struct nsvcd__passage {
   nsvcd__d3 corners[3][3];
   // no point of it moves farther between these times, seen from the fixed one
@@ -223,17 +223,17 @@ static int nsvcd__edges_cross(const nsvcd__passage *passage, size_t k, nsvcd__d3
   return s > room_s && s < 1 - room_s && t > room_t && t < 1 - room_t;
 }
 
-// Has a couple met between u0 and u1 of the arc, at that speed, since a corner has passed through
-// the other triangle, or an edge through an edge? That is how faces meet which are parallel then:
-// at no single time can it be seen in rounded numbers.
-static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, double u0,
-                                double u1, double speed) {
-  const nsvcd__d3 *fixed = couple->fixed;
-  const double margin = couple->rounding;
+// Has a triangle pair met between u0 and u1 of the arc, at that speed, since a corner has passed
+// through the other triangle, or an edge through an edge? That is how faces meet which are parallel
+// then: at no single time can it be seen in rounded numbers.
+static int nsvcd__pair_passes(nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0,
+                              double u1, double speed) {
+  const nsvcd__d3 *fixed = pair->fixed;
+  const double margin = pair->rounding;
   const double times[3] = {u0, 0.5 * (u0 + u1), u1};
   nsvcd__passage passage;
   for (size_t n = 0; n < 3; n++)
-    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), couple->moving, passage.corners[n]);
+    nsvcd__place_triangle(nsvcd__placed_at(p, times[n]), pair->moving, passage.corners[n]);
   const nsvcd__d3 *start = passage.corners[0];
   const nsvcd__d3 *middle = passage.corners[1];
   const nsvcd__d3 *end = passage.corners[2];
@@ -251,25 +251,26 @@ static int nsvcd__couple_passes(nsvcd__proof *p, const nsvcd__couple *couple, do
   return 0;
 }
 
-static void nsvcd__certify_couple(const nsvcd__proof *p, const nsvcd__couple *couple,
-                                  double u0, double u1) {
-  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.parting);
+static void nsvcd__certify_triangle_pair(const nsvcd__proof *p,
+                                         const nsvcd__triangle_pair *pair, double u0,
+                                         double u1) {
+  const nsvcd__f3 plane = nsvcd__d3_narrow(p->memo.separating);
   const float normal[3] = {plane.x, plane.y, plane.z};
-  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, couple->moving_patch, couple->fixed_patch,
-                 couple->moving_listing, couple->fixed_listing, nsvcd__time_in_arc(p, u0),
+  NSVCD__CERTIFY(NSVCD__BY_TRIANGLES, pair->moving_patch, pair->fixed_patch,
+                 pair->moving_listing, pair->fixed_listing, nsvcd__time_in_arc(p, u0),
                  nsvcd__time_in_arc(p, u1), normal);
-  (void)couple;
+  (void)pair;
   (void)normal;
   (void)u0;
   (void)u1;
 }
 
-// A share u of the arc later than its start: the nearest points of a couple.
-static nsvcd__nearest nsvcd__couple_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
-                                            double u) {
+// A share u of the arc later than its start: the nearest points of a triangle pair.
+static nsvcd__nearest nsvcd__pair_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
+                                          double u) {
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
-  return nsvcd__nearest_of(posed, couple->fixed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
+  return nsvcd__nearest_of(posed, pair->fixed);
 }
 
 // How far a triangle is beyond another along a direction. Heights are over a corner of one, so that
@@ -300,22 +301,23 @@ static nsvcd__d3 nsvcd__off_edge(nsvcd__d3 n, nsvcd__d3 a, nsvcd__d3 b) {
   return nsvcd__d3_unit(nsvcd__d3_sub(n, along), none);
 }
 
-// The direction that separates a couple at a time: that of its nearest points. Their roundings
-// over their distance put it off, and points as near to a digit put it off by the root of that.
-// Where it keeps less than half of what is above the clearance, a normal of a triangle, the
+// The direction that separates a triangle pair at a time: that of its nearest points. Their
+// roundings over their distance put it off, and points as near to a digit put it off by the root of
+// that. Where it keeps less than half of what is above the clearance, a normal of a triangle, the
 // direction across an edge of each, or the same direction made normal to an edge, may keep more.
 // The result is how far it separates them.
-static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple *couple,
-                                            double u, const nsvcd__nearest *nearest) {
+static NSVCD__NOINLINE double nsvcd__aim_plane(nsvcd__proof *p,
+                                               const nsvcd__triangle_pair *pair, double u,
+                                               const nsvcd__nearest *nearest) {
   const double distance = sqrt(nearest->square);
-  nsvcd__d3 *plane = &p->memo.parting;
+  nsvcd__d3 *plane = &p->memo.separating;
   *plane = nsvcd__d3_scale(nsvcd__d3_sub(nearest->on_a, nearest->on_b), 1 / distance);
-  const nsvcd__d3 *fixed = couple->fixed;
+  const nsvcd__d3 *fixed = pair->fixed;
   const nsvcd__d3 guess = *plane;
   nsvcd__d3 posed[3];
-  nsvcd__place_triangle(nsvcd__placed_at(p, u), couple->moving, posed);
+  nsvcd__place_triangle(nsvcd__placed_at(p, u), pair->moving, posed);
   double best = nsvcd__beyond(guess, posed, fixed);
-  const double limit = p->ask.clearance + couple->slack;
+  const double limit = p->ask.clearance + pair->slack;
   if (best - limit > 0.5 * (distance - limit)) return best;
   for (size_t k = 0; k < 17; k++) {
     const nsvcd__d3 *of = k % 2 ? fixed : posed;
@@ -331,62 +333,62 @@ static NSVCD__APART double nsvcd__aim_plane(nsvcd__proof *p, const nsvcd__couple
   return best;
 }
 
-// A couple that comes so near from u0 to u1 of the arc, the nearest at `when`, that it cannot be
-// told whether it touches: a doubt. But where distances are measured, less is said, for certain:
-// these come no nearer than that. Then the clearance is lowered and the part to be looked at again,
-// TOO_LONG; ANSWERED where it is as low as is known anyway.
-static nsvcd__outcome nsvcd__settle_doubt(nsvcd__proof *p, const nsvcd__couple *couple,
-                                          double u0, double u1, double when) {
+// A triangle pair that comes so near from u0 to u1 of the arc, the nearest at `when`, that it
+// cannot be told whether it touches: an unresolved pair. But where distances are measured, less is
+// said, for certain: these come no nearer than that. Then the clearance is lowered and the part to
+// be looked at again, TOO_LONG; ANSWERED where it is as low as is known anyway.
+static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
+                                              const nsvcd__triangle_pair *pair, double u0,
+                                              double u1, double when) {
   if (!(p->ask.measure > 0)) {
-    nsvcd__take_doubt(p, couple, u0, u1);
-    return NSVCD__SETTLED;
+    nsvcd__keep_unresolved(p, pair, u0, u1);
+    return NSVCD__RESOLVED;
   }
-  const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
-  if (distance < p->high) (void)nsvcd__take_contact(p, couple, when, &nearest);
-  const double parted = distance - 2 * couple->close;
+  if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
+  const double parted = distance - 2 * pair->close;
   p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
-// What becomes of a part of the arc that is too short to be halved. Where the couple has met by
-// passing, the time is narrowed down to rounding, and is the contact's. If not, it is a doubt.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_short_part(nsvcd__proof *p,
-                                                            const nsvcd__couple *couple,
-                                                            double u0, double u1,
-                                                            double speed) {
-  int passes = nsvcd__couple_passes(p, couple, u0, u1, speed);
+// What becomes of a part of the arc that is too short to be halved. Where the triangle pair has met
+// by passing, the time is narrowed down to rounding, and is the contact's. If not, it is an
+// unresolved pair.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_short_interval(
+    nsvcd__proof *p, const nsvcd__triangle_pair *pair, double u0, double u1, double speed) {
+  int passes = nsvcd__pair_passes(p, pair, u0, u1, speed);
   const int has_met = passes;
   for (size_t n = 0; passes && n < NSVCD__HALVINGS; n++) {
     const double middle = 0.5 * (u0 + u1);
     p->work++;
-    const int in_first = nsvcd__couple_passes(p, couple, u0, middle, speed);
-    passes = in_first || nsvcd__couple_passes(p, couple, middle, u1, speed);
+    const int in_first = nsvcd__pair_passes(p, pair, u0, middle, speed);
+    passes = in_first || nsvcd__pair_passes(p, pair, middle, u1, speed);
     if (!passes) break;
     u0 = in_first ? u0 : middle;
     u1 = in_first ? middle : u1;
   }
   const double when = 0.5 * (u0 + u1);
-  if (!has_met) return nsvcd__settle_doubt(p, couple, u0, u1, when);
-  nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, when);
+  if (!has_met) return nsvcd__resolve_doubtful(p, pair, u0, u1, when);
+  nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   nearest.square = 0;
-  return nsvcd__take_contact(p, couple, when, &nearest);
+  return nsvcd__take_contact(p, pair, when, &nearest);
 }
 
 // Where the least distance is measured and the moving body only goes along: looks between u0 and u1
 // of the arc for when a triangle pair is nearest. The distance is convex, and falls where the
 // nearest points approach each other. Steps of `measure` would not get there.
-static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *couple,
+static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__triangle_pair *pair,
                                           double u0, double u1) {
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
   for (size_t n = 0; n < NSVCD__HALVINGS / 2; n++) {
     const double middle = 0.5 * (u0 + u1);
-    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
     const nsvcd__d3 way = nsvcd__d3_sub(nearest.on_a, nearest.on_b);
     p->work++;
     if (sqrt(nearest.square) < p->high &&
-        nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+        nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
       return NSVCD__ANSWERED;
     const double slope = nsvcd__d3_dot(way, moved) / sqrt(nearest.square);
     // a tangent is nowhere above it
@@ -399,124 +401,125 @@ static nsvcd__outcome nsvcd__take_nearest(nsvcd__proof *p, const nsvcd__couple *
   return NSVCD__SHRUNK;
 }
 
-// Settles a couple from u0 to u1 of an arc in which the moving body only goes along. Then the
-// distance is a convex function of time, and no less than the plane at its nearest points says, its
-// tangent: Newton's method, from the start on, comes to the first contact and never past it. The
-// plane that separated a pair last is tried before.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_straight(nsvcd__proof *p,
-                                                          const nsvcd__couple *couple,
-                                                          double u0, double u1) {
+// Resolves a triangle pair from u0 to u1 of an arc in which the moving body only goes along. Then
+// the distance is a convex function of time, and no less than the plane at its nearest points says,
+// its tangent: Newton's method, from the start on, comes to the first contact and never past it.
+// The plane that separated a pair last is tried before.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_straight(nsvcd__proof *p,
+                                                              const nsvcd__triangle_pair *pair,
+                                                              double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
   const nsvcd__d3 from = nsvcd__placed_at(p, 0)->position;
   const nsvcd__d3 moved = nsvcd__d3_sub(nsvcd__placed_at(p, 1)->position, from);
-  const double close = couple->close;
-  nsvcd__d3 *plane = &p->memo.parting;
+  const double close = pair->close;
+  nsvcd__d3 *plane = &p->memo.separating;
   double at = u0;
   int shrunk = 0;
   size_t steps = 0;
   const double all = nsvcd__min(u1, nsvcd__arc_limit(p));
-  if (u0 < all && nsvcd__plane_parts(p, couple, u0, all, *plane)) {
+  if (u0 < all && nsvcd__plane_separates(p, pair, u0, all, *plane)) {
     p->work++;
-    nsvcd__certify_couple(p, couple, u0, all);
-    return NSVCD__SETTLED;
+    nsvcd__certify_triangle_pair(p, pair, u0, all);
+    return NSVCD__RESOLVED;
   }
-  for (double u = u0;;) {  // before u it is parted
+  for (double u = u0;;) {  // before u it is separated
     const double end = nsvcd__min(u1, nsvcd__arc_limit(p));
-    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+    if (!(u < end)) return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
     at = nsvcd__min(at, end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
-    const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, at);
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, at);
     const double distance = sqrt(nearest.square);
     const double above = distance - p->ask.clearance;
-    if (above <= couple->rounding) {
-      if (nsvcd__take_contact(p, couple, at, &nearest) == NSVCD__ANSWERED)
+    if (above <= pair->rounding) {
+      if (nsvcd__take_contact(p, pair, at, &nearest) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
-      if (p->ask.measure > 0 && nsvcd__take_nearest(p, couple, u, end) == NSVCD__ANSWERED)
+      if (p->ask.measure > 0 && nsvcd__take_nearest(p, pair, u, end) == NSVCD__ANSWERED)
         return NSVCD__ANSWERED;
       shrunk = 1;
       at = u;
       continue;
     }
-    const double beyond = nsvcd__aim_plane(p, couple, at, &nearest);
+    const double beyond = nsvcd__aim_plane(p, pair, at, &nearest);
     const double fall = -nsvcd__d3_dot(*plane, moved);
-    const double room = beyond - p->ask.clearance - couple->slack - couple->rounding;
+    const double room = beyond - p->ask.clearance - pair->slack - pair->rounding;
     const double until = fall > 0 ? nsvcd__min(end, at + room / fall) : end;
-    if (u < until && nsvcd__plane_parts(p, couple, u, until, *plane)) {
-      nsvcd__certify_couple(p, couple, u, until);
+    if (u < until && nsvcd__plane_separates(p, pair, u, until, *plane)) {
+      nsvcd__certify_triangle_pair(p, pair, u, until);
       u = until;
     }
     const int is_short = !(room > 0) || arc->speed * (at - u) <= 0.25 * close;
-    const int is_unsure = fall > 0 ? !(at < end) : is_short;
-    if (u < end && (is_unsure || steps++ == NSVCD__HALVINGS)) {
+    const int is_unresolved = fall > 0 ? !(at < end) : is_short;
+    if (u < end && (is_unresolved || steps++ == NSVCD__HALVINGS)) {
       // what follows is no nearer
-      const nsvcd__outcome part = nsvcd__settle_doubt(p, couple, u, at, at);
+      const nsvcd__outcome part = nsvcd__resolve_doubtful(p, pair, u, at, at);
       if (part == NSVCD__ANSWERED) return part;
-      if (part == NSVCD__SETTLED) u = end;
+      if (part == NSVCD__RESOLVED) u = end;
     } else {
       at = fall > 0 ? at + above / fall : 0.5 * (u + at);
     }
   }
 }
 
-// Settles a couple from u0 to u1 of the arc: halves the time until, in each part, a plane parts the
-// triangles, or there is a contact, or they come too close to tell. After each doubt parts need be
-// less short: what is still asked is whether they meet. The planes tried are the one that parted a
-// couple last, and one at the nearest points of the middle.
-static NSVCD__APART nsvcd__outcome nsvcd__settle_couple(nsvcd__proof *p,
-                                                        const nsvcd__couple *couple, double u0,
-                                                        double u1) {
+// Resolves a triangle pair from u0 to u1 of the arc: halves the time until, in each part, a plane
+// separates the triangles, or there is a contact, or they come too close to tell. After each
+// unresolved pair parts need be less short: what is still asked is whether they meet. The planes
+// tried are the one that separated a triangle pair last, and one at the nearest points of the
+// middle.
+static NSVCD__NOINLINE nsvcd__outcome nsvcd__resolve_pair(nsvcd__proof *p,
+                                                          const nsvcd__triangle_pair *pair,
+                                                          double u0, double u1) {
   const nsvcd__arc *arc = &p->arc;
-  if (nsvcd__is_straight(arc)) return nsvcd__settle_straight(p, couple, u0, u1);
-  const double speed = arc->speed + arc->turn * arc->scale * couple->radial;
-  const double close = couple->close;
-  nsvcd__d3 *plane = &p->memo.parting;
-  double *ends = p->couple_ends;
+  if (nsvcd__is_straight(arc)) return nsvcd__resolve_straight(p, pair, u0, u1);
+  const double speed = arc->speed + arc->turn * arc->scale * pair->radial;
+  const double close = pair->close;
+  nsvcd__d3 *plane = &p->memo.separating;
+  double *ends = p->pair_ends;
   size_t left = 1;
-  size_t doubts = 0;
+  size_t unresolved_count = 0;
   int shrunk = 0;
   ends[0] = u1;
   for (double u = u0; left > 0;) {
     const double end = nsvcd__min(ends[left - 1], nsvcd__arc_limit(p));
-    // a doubt may be the end
+    // an unresolved pair may be the end
     if (!(u < end)) break;
     const double middle = 0.5 * (u + end);
     p->work++;
     NSVCD__TALLY(pairs, 1);
-    if (nsvcd__is_spent(p)) return NSVCD__SPENT;
-    int apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+    if (nsvcd__is_exhausted(p)) return NSVCD__EXHAUSTED;
+    int apart = nsvcd__plane_separates(p, pair, u, end, *plane);
     if (!apart) {
-      const nsvcd__nearest nearest = nsvcd__couple_nearest(p, couple, middle);
+      const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, middle);
       const double distance = sqrt(nearest.square);
-      if (distance <= p->ask.clearance + couple->rounding) {
-        if (nsvcd__take_contact(p, couple, middle, &nearest) == NSVCD__ANSWERED)
+      if (distance <= p->ask.clearance + pair->rounding) {
+        if (nsvcd__take_contact(p, pair, middle, &nearest) == NSVCD__ANSWERED)
           return NSVCD__ANSWERED;
         shrunk = 1;
         continue;
       }
-      (void)nsvcd__aim_plane(p, couple, middle, &nearest);
-      apart = nsvcd__plane_parts(p, couple, u, end, *plane);
+      (void)nsvcd__aim_plane(p, pair, middle, &nearest);
+      apart = nsvcd__plane_separates(p, pair, u, end, *plane);
     }
     if (apart) {
-      nsvcd__certify_couple(p, couple, u, end);
+      nsvcd__certify_triangle_pair(p, pair, u, end);
     } else {
-      const double least = 0.25 * close * (double)(1 + doubts);
+      const double least = 0.25 * close * (double)(1 + unresolved_count);
       const int is_short = speed * (end - u) <= least || left > NSVCD__HALVINGS;
       if (!is_short) {
         ends[left++] = middle;
         p->parts++;
         continue;
       }
-      const nsvcd__outcome part = nsvcd__settle_short_part(p, couple, u, end, speed);
+      const nsvcd__outcome part = nsvcd__resolve_short_interval(p, pair, u, end, speed);
       if (part == NSVCD__ANSWERED) return part;
       shrunk |= part == NSVCD__SHRUNK;
-      if (part != NSVCD__SETTLED) continue;
-      doubts++;
+      if (part != NSVCD__RESOLVED) continue;
+      unresolved_count++;
     }
     u = end;
     left--;
   }
-  return shrunk ? NSVCD__SHRUNK : NSVCD__SETTLED;
+  return shrunk ? NSVCD__SHRUNK : NSVCD__RESOLVED;
 }
 #endif  // NSVCD_NO_PROOF
