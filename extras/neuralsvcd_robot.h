@@ -1893,8 +1893,7 @@ static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_
   return nsvcd__box_over(&from, &to);
 }
 
-// Steps, one after another, of a pair that may come near in the first and in the last of them. As
-// many as 0 with no configuration but one.
+// The steps outside of which the boxes of a pair stay apart; none for a single configuration.
 typedef struct nsvcd__spell {
   size_t first, steps;
 } nsvcd__spell;

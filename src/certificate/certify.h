@@ -217,8 +217,8 @@ static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *node
   return way;
 }
 
-// Puts two visits in place of one: of the children of the node whose box is longer, or of both
-// halves of the time. The one that comes first is the later one on the stack.
+// Replaces a visit by two, pushed in reverse order: of the children of the node with the longer box,
+// or of both halves of the time. Returns 0 where the time is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   nsvcd__nodes *nodes = &v->nodes;
   const double side_a = nsvcd__node_side(&c->a, &nodes->a);

@@ -109,8 +109,7 @@ NSVCDDEF nsvcd_result nsvcd_encode(const nsvcd_mesh *mesh, const nsvcd_encode_op
 // near.
 //   radius, round   metres, > 0; that of a box may be 0
 //   from, to        the ends of the capsule's axis, not NULL, metres; may be the same
-//   half            half of what the box measures, round edges and all, not NULL, metres; none is
-//                   less than round
+//   half            half-extents including the rounding radius; each >= round; not NULL, metres
 //   points          (count, 3) metres, not NULL, not kept
 //   allocator       NULL: malloc and free
 //   body            not NULL; set to the body, about the origin or where its ends and points are;

@@ -113,14 +113,13 @@ typedef struct nsvcd_question {
   float to_time;
   // metres: to come as near as this is a hit; 0: to meet is one
   float clearance;
-  // metres: a contact at the start that is no deeper than this does not count, nor does what is
-  // nearer than the clearance by no more than this; what is both is to be so in sum. So a body may
-  // rest on another, slide along it or leave it. The question is asked as if a were lifted off b,
-  // by this much along the normals of all that it touches, and touches nothing then: see
-  // answer.lift. What is nearer than a twentieth of this is lifted off as if it touched. By FIRST,
-  // so that what was stopped before a contact goes on, so is what is nearer than `to`, up to half
-  // of this: to go into that by less than this is FREE, though it is a hit by HIT, which has no
-  // `to`. Of what was so near and did not touch answer.depth is 0
+  // metres: initial penetration, or violation of the clearance, up to this is ignored (their sum,
+  // if both). So a body may rest on another, slide along it or leave it. The question is asked as
+  // if a were lifted off b by this much along the normals of all that it touches: see answer.lift.
+  // What is nearer than a twentieth of this is lifted off as if it touched. With FIRST, so is what
+  // is nearer than `to`, up to half of this, so that a body that was stopped before a contact goes
+  // on: entering it by less than this is FREE, though HIT, which has no `to`, tells of a contact.
+  // answer.depth is 0 for what was so near and did not touch
   float skin;
   // metres: surfaces that come closer than this, or than this and the clearance, and do not meet,
   // may be left undecided

@@ -48,7 +48,7 @@ NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_along(const nsvcd__v_disc *disc, nsvc
   return out;
 }
 
-// By discs along directions in their own frame.
+// The extent of discs along directions given in their own frame.
 NSVCD__INLINE nsvcd__v_range nsvcd__v_disc_range(const nsvcd__v_disc *disc,
                                                  nsvcd__v3 direction) {
   const nsvcd__v along = nsvcd__v3_dot(direction, disc->normal);

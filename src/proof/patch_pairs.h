@@ -234,8 +234,8 @@ static int nsvcd__is_separated(nsvcd__proof *p, const nsvcd__search *search,
   return 1;
 }
 
-// Is a patch pair to be looked at before another? The deeper; with `first` the one that is nearest
-// earlier in their segment, and once there is a contact that of the earlier segment.
+// Is a patch pair to be looked at before another? Deepest first. For the first contact: earliest
+// closest approach within a segment, and earlier segments once a contact is known.
 static int nsvcd__is_before(const nsvcd__proof *p, const nsvcd__patch_pair *a,
                             const nsvcd__patch_pair *b) {
   if (!(p->ask.first > 0)) return a->depth > b->depth;

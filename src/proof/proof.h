@@ -89,67 +89,97 @@
 #include "../motion/motion.h"
 
 #ifndef NSVCD_NO_PROOF
-// THE SCHEDULE, in the order in which a query comes to it.
+// THE SCHEDULE, in the order in which a query comes to it. A budget is in units of work.
+//
 // The search hands over patch pairs as it finds them.
-#define NSVCD__FRESH 48  // room for patch pairs on which nothing has been tried
-#define NSVCD__NEWS 8    // of them are worth a look before the search goes on
-// A look: planes and witnesses, the deepest patch pair first.
-#define NSVCD__DEEP 0.2f       // patch pairs as deep: a witness is sought before any plane
-#define NSVCD__PLANE_STEPS 12  // of Gilbert's iteration, for a plane between two hulls
-#define NSVCD__HOPE 8       // looks for a witness in vain, before triangles are tried as well
-#define NSVCD__DESPAIR 128  // and before none is looked for, if all that is asked is yes or no
-#define NSVCD__HEIGHTS 256  // over the plane that held last, remembered: of moving patches,
-#define NSVCD__REST_HEIGHTS 64  // and of resting ones
+#define NSVCD__FRESH \
+  48  // patch pairs on which nothing has been tried: there is room for so many
+#define NSVCD__NEWS 8  // and so many are worth a look before the search goes on
+
+// A look tries planes and seeks witnesses, in the deepest patch pair first.
+// In patch pairs deeper than this a witness is sought before any plane is tried.
+#define NSVCD__DEEP 0.2f
+// Steps of Gilbert's iteration, for a plane between two hulls.
+#define NSVCD__PLANE_STEPS 12
+// After so many failed looks for a witness, triangles are tried as well; after so many, where all
+// that is asked is yes or no, no more witnesses are sought.
+#define NSVCD__HOPE 8
+#define NSVCD__DESPAIR 128
+// Remembered heights over the plane that held last: of moving patches, and of resting ones.
+#define NSVCD__HEIGHTS 256
+#define NSVCD__REST_HEIGHTS 64
+
 // What no plane separates is resolved by its triangles, arc by arc.
-#define NSVCD__PATCH_PAIRS \
-  256                    // room for such patch pairs; when it is full they are resolved first
-#define NSVCD__WINDOW 8  // blocks of a resting patch, loaded at once
-// Parts that triangle pairs ask for, before the span is halved for all, if it is longer than this
-// share of an arc.
+// Room for such patch pairs. When it is full, they are resolved first.
+#define NSVCD__PATCH_PAIRS 256
+// Blocks of a resting patch that are loaded at once.
+#define NSVCD__WINDOW 8
+// A span is halved for all its triangle pairs once these have asked for more parts than this, if
+// it is longer than this fraction of an arc.
 #define NSVCD__PATIENCE_TO_PART 1
 #define NSVCD__SHORTEST 0.015
-// Triangle pairs that one plane separates, one after the other, for each time that it is tried on
-// all of two patches.
+// A plane is tried on all of two patches once it has separated so many of their triangle pairs in
+// a row.
 #define NSVCD__SHARED 4
-#define NSVCD__ARC_PARTS 8       // of an arc, waiting
-#define NSVCD__HALVINGS 40       // of a span for one triangle pair
-#define NSVCD__PLACED 8          // poses, remembered
-#define NSVCD__SAME_PLACE 1e-13  // of all lengths: a distance in double that is none
-#define NSVCD__TOO_NEAR \
-  1e-9  // of all lengths: it is not worth halving for a distance as short
-#define NSVCD__AFTER_UNRESOLVED \
-  8  // the share of the limit, 1 / this, that goes on after an unresolved pair
-#define NSVCD__AFTER_FIRST_UNRESOLVED 3000  // units that do, where the first contact is sought
+// Parts of an arc that wait; halvings of a span for one triangle pair; remembered poses.
+#define NSVCD__ARC_PARTS 8
+#define NSVCD__HALVINGS 40
+#define NSVCD__PLACED 8
+// In units of all lengths: a distance in double that is none; and one too short to halve for.
+#define NSVCD__SAME_PLACE 1e-13
+#define NSVCD__TOO_NEAR 1e-9
+// After an unresolved pair 1 / this of the budget is left; where the first contact is sought, so
+// many units.
+#define NSVCD__AFTER_UNRESOLVED 8
+#define NSVCD__AFTER_FIRST_UNRESOLVED 3000
+
 // What else a question asks.
-// units: before the ends of the motion are looked at by themselves; for each of these looks; to
-// find triangles that meet where one is within the other
+// The budget of the first attempt, before the two ends of the motion are tried by themselves.
 #define NSVCD__LONG 6000
+// The budget at each end.
 #define NSVCD__LOOK 1000
+// The budget for triangles that meet where one body is inside the other.
 #define NSVCD__GLANCE 200
-#define NSVCD__TURNS 2     // from when they are nearest to where, and again: for a first bound
-#define NSVCD__TRY 64      // units, of a long motion: for many arcs at once; and what is hard
-#define NSVCD__EASY 16     // units: what takes no more may be tried at once with others:
-#define NSVCD__LARGER 4    // times as many arcs; after a try in vain
-#define NSVCD__SMALLER 8   // times fewer, and up to
-#define NSVCD__WAIT 64     // intervals are to be easy before the next
-#define NSVCD__FINER 2     // times: from pass to pass, where the least distance is measured
-#define NSVCD__IN_ORDER 4  // segments searched together, where the first contact is sought
-// Where that takes too long: the first part of the motion that is proven by itself, in segments;
-// and units that a part may take besides eight times those of the part before.
+// Times that the search for a first bound of the distance alternates between when and where the
+// bodies are nearest.
+#define NSVCD__TURNS 2
+// A long motion. An interval of many arcs is tried with a small budget, and so is what is hard.
+#define NSVCD__TRY 64
+// What takes no more than this is easy. Then the next try takes so many times as many arcs; after
+// a try in vain so many times fewer, and up to so many intervals must be easy before the next.
+#define NSVCD__EASY 16
+#define NSVCD__LARGER 4
+#define NSVCD__SMALLER 8
+#define NSVCD__WAIT 64
+// The least distance is measured in passes, each so many times finer.
+#define NSVCD__FINER 2
+// Segments that are searched together where the first contact is sought.
+#define NSVCD__IN_ORDER 4
+// If that exhausts its budget, the motion is proven part by part. The first part, in segments; and
+// the budget of a part besides eight times that of the part before.
 #define NSVCD__FIRST_PART 0.0625
 #define NSVCD__PART_BUDGET 250
-#define NSVCD__TOUCHES 26  // contacts at the start, looked at together, where there is a skin
-#define NSVCD__LIFTS 6     // directions in which they are undone
-#define NSVCD__DEEPEN 16   // looks at what is touched on the way off
-#define NSVCD__SET_DOWN 0.02  // of the skin: what is kept, where a body is set down
-#define NSVCD__LEAST_EPSILON \
-  1.2e-7                    // of all lengths: as short as what is told in float can tell
-#define NSVCD__EPSILONS 3   // epsilons: so far before a contact a safe place is
-#define NSVCD__AROUND 8     // directions along which contact points are sought,
-#define NSVCD__SUPPORTS 10  // and two across what these span,
-#define NSVCD__SLIM 0.3     // if that is less than this times its length squared; and
-#define NSVCD__HOLDS 64     // patch pairs that are looked at for them
-#define NSVCD__CROSSED 128  // triangles that a ray crosses, where containment is decided
+
+// Where there is a skin: contacts at the start that are looked at together; directions in which
+// they are undone; looks at what is touched on the way off; and the share of the skin that is kept
+// where a body is set down.
+#define NSVCD__TOUCHES 26
+#define NSVCD__LIFTS 6
+#define NSVCD__DEEPEN 16
+#define NSVCD__SET_DOWN 0.02
+// An epsilon, of all lengths, is what a float of an answer can tell. A safe place is so many of
+// them before a contact.
+#define NSVCD__LEAST_EPSILON 1.2e-7
+#define NSVCD__EPSILONS 3
+
+// Contact points are sought along so many directions, and along two across the line that they span
+// if their width is less than so much of its length; in so many patch pairs.
+#define NSVCD__AROUND 8
+#define NSVCD__SUPPORTS 10
+#define NSVCD__SLIM 0.3
+#define NSVCD__HOLDS 64
+// Containment: triangles that a ray may cross.
+#define NSVCD__CROSSED 128
 #define NSVCD__NEVER 1e300  // ticks
 
 typedef struct nsvcd__patch_pair {
@@ -320,8 +350,8 @@ typedef struct nsvcd__given {
   double to;
   // is more asked for than yes or no?
   int tells;
-  // units that may be taken, and each interval of a long motion may, if it grows; and what is
-  // beside the question, an unresolved pair above all, may take of them
+  // The budget, of all or, if it grows, of each interval of a long motion; and the part of it that
+  // what is beside the question may take, above all what follows an unresolved pair.
   size_t work, aside;
   int grows;
 } nsvcd__given;
@@ -334,15 +364,14 @@ typedef struct nsvcd__asked {
   nsvcd__motion *motion;
   // ticks: what begins then or later does not matter
   double end;
-  // nor does what begins with the first unresolved pair
+  // The first unresolved pair ends the search, too.
   int unresolved_ends;
   double clearance, measure;
   // a share of the motion, and as ticks
   double fraction, first;
-  // units: how many may have been taken, and in the end; and how many go on after an unresolved
-  // pair
+  // Budgets: of this search, of all, and of what goes on after an unresolved pair.
   size_t limit, most, after_unresolved;
-  // a try: there is a longer one after it
+  // A first attempt, with a small budget.
   int is_brief;
   nsvcd__collecting collects;
   // how deep touches may be

@@ -83,10 +83,10 @@ static NSVCD__NOINLINE int nsvcd__meets_at(nsvcd__proof *p, nsvcd__search *searc
   return meets;
 }
 
-// A search whose segments have been chosen. Few questions take long, and of these some are about
-// bodies that meet at the start, or the end, and hardly anywhere else: so these are looked at
-// before all is searched once more. Where the first contact is sought, the start comes first
-// anyway. Before intervals that has been done: they are searched at once.
+// Searches segments that have been chosen, first with a small budget: most queries end there. Many
+// of the rest touch only at the start or at the end, so these two poses are tried before all is
+// searched again. The search for a first contact begins at the start anyway, and of the intervals
+// of a long motion the ends have been tried before.
 static nsvcd__outcome nsvcd__prove_and_look(nsvcd__proof *p, nsvcd__search *search,
                                             size_t limit) {
   const int is_brief = !p->ask.motion->arcs && !(p->ask.fraction > 0);

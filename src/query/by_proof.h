@@ -47,10 +47,9 @@ static double nsvcd__way_in(const nsvcd__proof *p, const nsvcd__arc *arc) {
   return arc->speed + arc->turn * arc->scale * (double)p->moving.body->extent;
 }
 
-// The share of the motion in which no point of the moving body goes farther than `to`, if that is
-// asked for, nor longer than `share`, if that is. Of a short motion a quarter of its way, so that
-// not all of it is lost to a contact, if that is more than the epsilons that a safe place is
-// before.
+// The fraction of the motion in which no point of the moving body travels farther than `to`, no
+// longer than `fraction`, where these are asked for. Of a short motion it is at most a quarter, but
+// no less than a safe pose backs off, so that a contact does not cost all of it.
 static double nsvcd__fraction_of(nsvcd__proof *p, double to, double fraction) {
   const nsvcd__motion *motion = p->ask.motion;
   const double most = fraction > 0 ? fraction : 1;
@@ -394,7 +393,7 @@ static void nsvcd__answer_by_proof(nsvcd__query *query, nsvcd_answer *answer) {
     const double late = (double)answer->time.high - until;
     answer->time.low = (float)(until * (1 - 1e-7));
     if (late > p->given.fraction * 1.0001 + 1e-6) answer->why = NSVCD_WHY_WORK;
-    // nearer than this it is proven on the way, but who asks again from there would not be told so
+    // Closer poses are proven free here, but a new query from there could not prove it again.
     double u;
     const nsvcd__arc *arc = nsvcd__arc_at(p, nsvcd__arc_of(motion, until * ticks, &u));
     const double way = nsvcd__way_in(p, arc) * ticks / (double)arc->ticks;
