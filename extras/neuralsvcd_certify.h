@@ -2203,8 +2203,8 @@ static double nsvcd__way_apart(const nsvcd__stretch *s, const nsvcd__nodes *node
   return way;
 }
 
-// Replaces a visit by two, pushed in reverse order: of the children of the node with the longer box,
-// or of both halves of the time. Returns 0 where the time is too short to halve.
+// Replaces a visit by two, pushed in reverse order: of the children of the node whose box is
+// longer, or of both halves of the time. Returns 0 where that is too short to halve.
 static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
   nsvcd__nodes *nodes = &v->nodes;
   const double side_a = nsvcd__node_side(&c->a, &nodes->a);
