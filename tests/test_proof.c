@@ -1293,7 +1293,7 @@ static void proof_wheels_motion(shapes_rng *rng, proof_motion *m) {
   }
 }
 
-// What is said of arcs in double: a point's true way between two times, over what its couple allows
+// What is said of arcs in double: a point's true way between two times, over what its pair allows
 // for along a direction; 0 where nothing bends.
 static double proof_arc_use(const proof_motion *m, nsvcd__motion *motion, shapes_rng *rng) {
   static nsvcd__proof proof;
