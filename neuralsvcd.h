@@ -1055,8 +1055,8 @@ typedef struct nsvcd_contact {
 // lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
 // where they are at the start, as the caller has them.
 typedef struct nsvcd_safe_place {
-  // time.low, or, where they are about to touch then, a hair before: by as much as stored triangles
-  // and poses in float are off. Never later than time.low
+  // time.low, or, where they are about to touch then, a little before: by as much as poses in
+  // float, and coarse triangles, are off. Never later than time.low
   float time;
   // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
   // less than what floats resolve so far from the origin is too little for them
@@ -1488,7 +1488,7 @@ NSVCDDEF nsvcd_result nsvcd_plan(const nsvcd_plan_problem *problem,
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
-    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
 #endif
 // gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
 #if defined(__clang__)
@@ -1621,7 +1621,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "range\0"
       "velocity, acceleration, jerk, collision, duration or margin is not finite, or "
       "seeds or check too large\0"
-      "this build reckons wrongly: see the compiler, and its flags\0"
+      "this build computes wrongly: see the compiler, and its flags\0"
       "unknown result\0",
       (size_t)result);
 }
@@ -5289,7 +5289,7 @@ typedef struct nsvcd__piece {
   uint16_t patch;
   uint8_t count;  // of its corners
   // 1: its triangle is listed in parts
-  uint8_t parted;
+  uint8_t divided;
 } nsvcd__piece;
 
 #define NSVCD__WHOLE 0xffffffffu
@@ -5431,7 +5431,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
     squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
     pieces->waiting[0].points[k] = corners[k];
   }
-  piece.parted = sqrt(squared) > pieces->longest_edge;
+  piece.divided = sqrt(squared) > pieces->longest_edge;
   pieces->waiting[0].count = 3;
   pieces->waiting_count = 1;
   while (pieces->waiting_count > 0) {
@@ -6256,7 +6256,7 @@ static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_
                                     const uint32_t **corners) {
   const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
   *corners = nsvcd__piece_corners(sorted->pieces, piece);
-  if (piece->parted) return piece->count;
+  if (piece->divided) return piece->count;
   *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
   const int first = k == sorted->first[i];
   return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
@@ -10808,7 +10808,7 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
                                          uint64_t wanted) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t n = cache->best;
-  uint64_t parted = 0;
+  uint64_t separated = 0;
   if (n >= nsvcd__planes_known(search)) return wanted;
   nsvcd__resting_know(search, h, n);
   const nsvcd__ranges *resting = &cache->resting[n];
@@ -10824,10 +10824,10 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
       const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
       const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
-      parted |= (uint64_t)here << (s + l);
+      separated |= (uint64_t)here << (s + l);
     }
   }
-  return wanted & ~parted;
+  return wanted & ~separated;
 }
 
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
@@ -10861,13 +10861,13 @@ static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size
     const nsvcd__ranges *moving = &cache->moving[n];
     const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
-    uint32_t parted = 0;
+    uint32_t separated = 0;
     NSVCD__EACH_SLICE(l) {
-      parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
-      parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
+      separated |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
+      separated |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) cache->best = (uint32_t)n;
-    met &= ~parted;
+    if (met & separated) cache->best = (uint32_t)n;
+    met &= ~separated;
   }
   return met;
 }
@@ -10907,7 +10907,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
   nsvcd__passing_turns(search, s, &p);
   for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
     nsvcd__f3 plane = {0, 0, 0};
-    uint32_t parted = 0;
+    uint32_t separated = 0;
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
       if (!(met >> l & NSVCD__SLICE_MASK)) continue;
@@ -10931,15 +10931,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
       }
       const uint32_t here =
           nsvcd__separated_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
-      if (here && !parted) {
+      if (here && !separated) {
         float lanes[3 * NSVCD__SLICE];
         nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
         plane = nsvcd__f3_get(lanes + nsvcd__low_bit(here), NSVCD__SLICE);
       }
-      parted |= here << l;
+      separated |= here << l;
     }
-    met &= ~parted;
-    if (!parted) continue;
+    met &= ~separated;
+    if (!separated) continue;
     const size_t oldest = cache->found++ % NSVCD__PLANES;
     cache->planes[oldest] = plane;
     cache->moving_known = (uint16_t)(cache->moving_known & ~(1u << oldest));
@@ -12190,7 +12190,7 @@ static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
 }
 
-// A track's leg of an arc, and its positions at both ends of it, metres.
+// A track's slerp over an arc, and its positions at both ends, metres.
 static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                               nsvcd__slerp *slerp, nsvcd__d3 *ends) {
   if (track->count == 1) {
@@ -12225,7 +12225,7 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
-// The rotation vector of a leg, over its arc.
+// The rotation vector of a slerp, over its arc.
 static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
   const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);
@@ -12689,12 +12689,12 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
 
 #ifdef NSVCD__CERTIFIES
 // Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *parted, size_t l,
-                                const nsvcd__span *span) {
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *separated,
+                                size_t l, const nsvcd__span *span) {
   float lanes[3][NSVCD__LANES];
   float normal[3];
-  nsvcd__v3_store(lanes, 0, parted->plane);
-  const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
+  nsvcd__v3_store(lanes, 0, separated->plane);
+  const float sign = separated->below >> l & 1 ? -1.0f : 1.0f;
   nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
   NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
                  normal);
@@ -12717,12 +12717,13 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
     }
   }
 }
-#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) nsvcd__certify_disc(i, j, parted, l, span)
+#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
+  nsvcd__certify_disc(i, j, separated, l, span)
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
   nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
 #else
-#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) \
-  ((void)(i), (void)(j), (void)(parted), (void)(l), (void)(span))
+#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
+  ((void)(i), (void)(j), (void)(separated), (void)(l), (void)(span))
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
 #endif
 
@@ -12733,12 +12734,12 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
 
 // Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
 static inline uint32_t nsvcd__not_separated(size_t i, size_t j, const nsvcd__span *span,
-                                            const nsvcd__v_separated *parted,
+                                            const nsvcd__v_separated *separated,
                                             uint32_t wanted) {
-  const uint32_t apart = (parted->above | parted->below) & wanted;
+  const uint32_t apart = (separated->above | separated->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
     const size_t l = nsvcd__low_bit(k);
-    NSVCD__CERTIFY_DISC(i + l, j, parted, l, span);
+    NSVCD__CERTIFY_DISC(i + l, j, separated, l, span);
   }
   return wanted & ~apart;
 }
@@ -12770,8 +12771,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_way(c, l);
     a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
-    nsvcd__v_separated parted = nsvcd__v_separate_by_fixed(&a);
-    wanted = nsvcd__not_separated(i, j, span, &parted, wanted);
+    nsvcd__v_separated separated = nsvcd__v_separate_by_fixed(&a);
+    wanted = nsvcd__not_separated(i, j, span, &separated, wanted);
     if (!wanted) continue;
     // rotations in a span are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
@@ -12779,8 +12780,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    parted = nsvcd__v_separate_by_moving(&a);
-    left |= nsvcd__not_separated(i, j, span, &parted, wanted) << l;
+    separated = nsvcd__v_separate_by_moving(&a);
+    left |= nsvcd__not_separated(i, j, span, &separated, wanted) << l;
   }
   return left;
 }
@@ -13346,8 +13347,8 @@ static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
-  const double parted = distance - 2 * pair->close;
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
+  const double separated = distance - 2 * pair->close;
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, separated));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 
@@ -15219,7 +15220,7 @@ static NSVCD__NOINLINE int nsvcd__starts_within(nsvcd__proof *p) {
 
 // -------------------------------------------------------------------------------------- proof/loop
 // In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
-// contact that answers the question, or the work spent.
+// contact that answers the question, or the budget exhausted.
 
 #ifndef NSVCD_NO_PROOF
 // Segments that are searched now, and still matter.

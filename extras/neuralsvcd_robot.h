@@ -512,7 +512,7 @@ NSVCDDEF nsvcd_result nsvcd_certify_pair(const nsvcd_checker *checker,
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
-    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
 #endif
 // gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
 #if defined(__clang__)
@@ -1232,7 +1232,7 @@ static void *nsvcd__take(char *base, uint64_t *used, size_t rows, size_t row_siz
 #define NSVCD__STRAY_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
-#define NSVCD__PAIR_GLANCE 200
+#define NSVCD__PAIR_TRY 200
 // what frames in double are off, as a share of the lengths that they are computed from
 #define NSVCD__FRAME_ROUNDING 1e-13
 
@@ -1894,24 +1894,24 @@ static nsvcd__bounds nsvcd__bounds_in(const nsvcd_checker *c, size_t part, size_
 }
 
 // The steps outside of which the boxes of a pair stay apart; none for a single configuration.
-typedef struct nsvcd__spell {
+typedef struct nsvcd__step_range {
   size_t first, steps;
-} nsvcd__spell;
+} nsvcd__step_range;
 
 // Where does a pair come as near as `room`, by its boxes? Returns 0 if nowhere.
-static int nsvcd__spell_of(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
-                           double room, nsvcd__spell *spell) {
+static int nsvcd__steps_near(const nsvcd_checker *c, const nsvcd_body_pair *pair, size_t steps,
+                             double room, nsvcd__step_range *range) {
   size_t last = 0;
   if (nsvcd__boxes_apart(&c->members[pair->a].box, &c->members[pair->b].box, room)) return 0;
-  spell->first = steps;
+  range->first = steps;
   for (size_t k = 0; k < steps; k++) {
     const nsvcd__bounds a = nsvcd__bounds_in(c, pair->a, k);
     const nsvcd__bounds b = nsvcd__bounds_in(c, pair->b, k);
     if (nsvcd__boxes_apart(&a, &b, room)) continue;
-    if (spell->first == steps) spell->first = k;
+    if (range->first == steps) range->first = k;
     last = k + 1;
   }
-  spell->steps = last - (steps ? spell->first : 0);
+  range->steps = last - (steps ? range->first : 0);
   return steps == 0 || last > 0;
 }
 
@@ -2010,25 +2010,26 @@ static const nsvcd__frame *nsvcd__frames_at(const nsvcd_checker *c, size_t part,
 }
 
 // Asks about a pair, in the poses of so many steps, whether it comes as near as the clearance and,
-// if a proof is wanted, all that these may be off. spell: what was asked about; the times of *found
+// if a proof is wanted, all that these may be off. range: what was asked about; the times of *found
 // are of it.
 static nsvcd_result nsvcd__ask_pair(nsvcd_checker *c, const nsvcd_body_pair *pair,
                                     size_t steps, int is_proof,
-                                    const nsvcd_check_options *options, nsvcd__spell *spell,
-                                    nsvcd_answer *found, nsvcd_check_answer *answer) {
+                                    const nsvcd_check_options *options,
+                                    nsvcd__step_range *range, nsvcd_answer *found,
+                                    nsvcd_check_answer *answer) {
   nsvcd__sight view;
   const double off = nsvcd__off(c, pair->a) + nsvcd__off(c, pair->b);
   const double room = (double)options->clearance + off;
-  if (!nsvcd__spell_of(c, pair, steps, room * (1 + 1e-9), spell)) {
+  if (!nsvcd__steps_near(c, pair, steps, room * (1 + 1e-9), range)) {
     found->verdict = NSVCD_FREE;
     return NSVCD_OK;
   }
-  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, spell->first),
-                                         nsvcd__frames_at(c, pair->b, spell->first)};
-  nsvcd__look(c, pair, frames, spell->steps + 1, &view);
+  const nsvcd__frame *const frames[2] = {nsvcd__frames_at(c, pair->a, range->first),
+                                         nsvcd__frames_at(c, pair->b, range->first)};
+  nsvcd__look(c, pair, frames, range->steps + 1, &view);
   const double strays = is_proof ? off + view.rounding : 0;
   const double clearance = (double)options->clearance + strays;
-  return nsvcd__ask_seen(c, pair, spell->steps + 1,
+  return nsvcd__ask_seen(c, pair, range->steps + 1,
                          clearance > 0 ? nsvcd__above(clearance) : 0, options, found, answer);
 }
 
@@ -2067,7 +2068,7 @@ static void nsvcd__put_first(nsvcd_checker *c, size_t pair) {
 // Is a pair that is not proven hit in one configuration? Asked about where it is as near as its
 // proof reached, then about where the samples' own way hits. found: what the proof said.
 static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *motion,
-                                    size_t pair, size_t steps, nsvcd__spell *spell,
+                                    size_t pair, size_t steps, nsvcd__step_range *range,
                                     nsvcd_answer *found, const nsvcd_check_options *options,
                                     nsvcd_check_answer *answer) {
   const nsvcd_body_pair *both = &c->scene->pairs[pair];
@@ -2079,9 +2080,9 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
     if (steps > 0) {
       // times of a sweep go by samples
       const double at =
-          (double)spell->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
-      const size_t within = (size_t)at < spell->steps ? (size_t)at : spell->steps - 1;
-      const size_t k = spell->first + within;
+          (double)range->steps * nsvcd__max(0, nsvcd__min(1, (double)found->nearest.time));
+      const size_t within = (size_t)at < range->steps ? (size_t)at : range->steps - 1;
+      const size_t k = range->first + within;
       const double fraction = at - (double)within;
       const double time = c->times[k] + fraction * (c->times[k + 1] - c->times[k]);
       answer->piece = nsvcd__piece_at(motion, time);
@@ -2092,7 +2093,7 @@ static nsvcd_result nsvcd__seek_hit(nsvcd_checker *c, const nsvcd_joint_motion *
     result = nsvcd__ask_at(c, pair, joints, options, answer);
     if (answer->verdict == NSVCD_HIT) return result;
     if (look == 0 && !result)
-      result = nsvcd__ask_pair(c, both, steps, 0, options, spell, found, answer);
+      result = nsvcd__ask_pair(c, both, steps, 0, options, range, found, answer);
   }
   return result;
 }
@@ -2106,9 +2107,9 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
   size_t left = c->scene->pair_count;
   double allowed = NSVCD__COARSE;
   nsvcd_answer found;
-  nsvcd__spell spell;
-  nsvcd_check_options glance = *options;
-  if (!glance.work || glance.work > NSVCD__PAIR_GLANCE) glance.work = NSVCD__PAIR_GLANCE;
+  nsvcd__step_range range;
+  nsvcd_check_options brief = *options;
+  if (!brief.work || brief.work > NSVCD__PAIR_TRY) brief.work = NSVCD__PAIR_TRY;
   memcpy(c->left, c->order, left * sizeof *c->left);
   answer->piece = nsvcd__piece_at(motion, t0);
   answer->fraction = nsvcd__fraction_at(motion, answer->piece, t0);
@@ -2138,13 +2139,13 @@ static nsvcd_result nsvcd__check_stretch(nsvcd_checker *c, const nsvcd_joint_mot
       const size_t pair = c->left[n];
       const nsvcd_body_pair *both = &c->scene->pairs[pair];
       nsvcd_result result =
-          nsvcd__ask_pair(c, both, steps, 1, options, &spell, &found, answer);
+          nsvcd__ask_pair(c, both, steps, 1, options, &range, &found, answer);
       if (!result && found.verdict == NSVCD_FREE) continue;
-      // a glance, but for the last time
+      // with a small budget, but for the last time
       const int is_last = steps == 0 || allowed <= (double)options->finest;
       if (!result)
-        result = nsvcd__seek_hit(c, motion, pair, steps, &spell, &found,
-                                 is_last ? options : &glance, answer);
+        result = nsvcd__seek_hit(c, motion, pair, steps, &range, &found,
+                                 is_last ? options : &brief, answer);
       if (result) return result;
       if (answer->verdict == NSVCD_HIT) {
         nsvcd__put_first(c, pair);

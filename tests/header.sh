@@ -132,10 +132,10 @@ for flags in -O0 -O3 "-O2 -DNSVCD_NO_SIMD" "-O3 -ffast-math -w"; do
   test "$(self '' "${CC:-cc}" -std=c99 $flags)" = ok || fail "the self test refuses ${CC:-cc} $flags"
 done
 slip='/ nsvcd__vquat_mul(/,/^}/s/nsvcd__v_sub(/nsvcd__v_add(/'
-case $(self "$slip" "${CC:-cc}" -std=c99 -O0) in "this build reckons wrongly"*) ;; *) fail "the self test sees no slip" ;; esac
+case $(self "$slip" "${CC:-cc}" -std=c99 -O0) in "this build computes wrongly"*) ;; *) fail "the self test sees no slip" ;; esac
 if command -v tcc >/dev/null; then
   ! tcc -c "$dir/twice.c" -o "$dir/tcc.o" 2>"$dir/tcc.txt" && grep -q 'error.*tcc passes arguments wrongly' "$dir/tcc.txt" || fail "tcc is not refused"
-  case $(self '/^#error "neuralsvcd.h: tcc/d' tcc -w) in "this build reckons wrongly"*) ;; *) fail "the self test passes tcc" ;; esac
+  case $(self '/^#error "neuralsvcd.h: tcc/d' tcc -w) in "this build computes wrongly"*) ;; *) fail "the self test passes tcc" ;; esac
   echo "header: tcc is refused"
 else
   echo "header: no tcc: not tested"

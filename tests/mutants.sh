@@ -253,7 +253,7 @@ robot: no strays|const double clearance = (double)options->clearance + strays;|c
 robot: boxes without the clearance|const double room = (double)options->clearance + off;|const double room = off;
 robot: boxes at samples alone|return nsvcd__box_over(\&from, \&to);|return from;
 robot: boxes without strays|const double room = (double)options->clearance + off;|const double room = (double)options->clearance;
-robot: the first step of a spell alone|spell->steps = last - (steps ? spell->first : 0);|spell->steps = steps \&\& last > spell->first ? 1 : 0;
+robot: the first step of a spell alone|range->steps = last - (steps ? range->first : 0);|range->steps = steps \&\& last > range->first ? 1 : 0;
 robot: the last piece alone|const size_t steps = next - p == 1|if (next < motion->pieces) continue;\n    const size_t steps = next - p == 1
 robot: what is free of the first pair|if (!result \&\& found.verdict == NSVCD_FREE) continue;|if (!result \&\& found.verdict == NSVCD_FREE) break;
 robot: the other half of a tree never|nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,|if (0) nsvcd__nearest_in(t, cell->first + !(side > 0), at, off,

@@ -18,7 +18,7 @@
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
 #error \
-    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are reckoned in double"
+    "neuralsvcd.h: NSVCD_ONE_PATH: not with -ffast-math, nor where floats are computed in double"
 #endif
 // gcc has a flag for it, and a pragma that makes all slower by an order of magnitude.
 #if defined(__clang__)

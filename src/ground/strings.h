@@ -86,7 +86,7 @@ NSVCDDEF const char *nsvcd_result_string(nsvcd_result result) {
       "range\0"
       "velocity, acceleration, jerk, collision, duration or margin is not finite, or "
       "seeds or check too large\0"
-      "this build reckons wrongly: see the compiler, and its flags\0"
+      "this build computes wrongly: see the compiler, and its flags\0"
       "unknown result\0",
       (size_t)result);
 }

@@ -221,8 +221,8 @@ typedef struct nsvcd_contact {
 // lift ends that (depth is HUGE_VALF), or where one is, or may be, inside of the other: then it is
 // where they are at the start, as the caller has them.
 typedef struct nsvcd_safe_place {
-  // time.low, or, where they are about to touch then, a hair before: by as much as stored triangles
-  // and poses in float are off. Never later than time.low
+  // time.low, or, where they are about to touch then, a little before: by as much as poses in
+  // float, and coarse triangles, are off. Never later than time.low
   float time;
   // of both, world. The lift is in the pose of a; where only b moves, in that of b. A skin that is
   // less than what floats resolve so far from the origin is too little for them

@@ -132,12 +132,12 @@ NSVCD__INLINE nsvcd__v_separated nsvcd__v_separate_by_moving(const nsvcd__v_appr
 
 #ifdef NSVCD__CERTIFIES
 // Patches i and j, by the plane in lane l of a slice.
-static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *parted, size_t l,
-                                const nsvcd__span *span) {
+static void nsvcd__certify_disc(size_t i, size_t j, const nsvcd__v_separated *separated,
+                                size_t l, const nsvcd__span *span) {
   float lanes[3][NSVCD__LANES];
   float normal[3];
-  nsvcd__v3_store(lanes, 0, parted->plane);
-  const float sign = parted->below >> l & 1 ? -1.0f : 1.0f;
+  nsvcd__v3_store(lanes, 0, separated->plane);
+  const float sign = separated->below >> l & 1 ? -1.0f : 1.0f;
   nsvcd__f3_store(nsvcd__f3_scale(nsvcd__lane_of(lanes, l), sign), normal);
   NSVCD__CERTIFY(NSVCD__BY_DISC, i, j, NSVCD_NONE, NSVCD_NONE, span->t_start, span->t_end,
                  normal);
@@ -160,12 +160,13 @@ static void nsvcd__certify_groups(const nsvcd__proof *p, const nsvcd__search *se
     }
   }
 }
-#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) nsvcd__certify_disc(i, j, parted, l, span)
+#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
+  nsvcd__certify_disc(i, j, separated, l, span)
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) \
   nsvcd__certify_groups(p, search, g, h, first, apart, by_fixed, by_moving)
 #else
-#define NSVCD__CERTIFY_DISC(i, j, parted, l, span) \
-  ((void)(i), (void)(j), (void)(parted), (void)(l), (void)(span))
+#define NSVCD__CERTIFY_DISC(i, j, separated, l, span) \
+  ((void)(i), (void)(j), (void)(separated), (void)(l), (void)(span))
 #define NSVCD__CERTIFY_GROUPS(p, search, g, h, first, apart, by_fixed, by_moving) ((void)0)
 #endif
 
@@ -176,12 +177,12 @@ static inline uint32_t nsvcd__lanes_of_slice(uint32_t lanes, size_t l) {
 
 // Lanes of `wanted` that are not separated: pairs of moving patches from the i-th on and patch j.
 static inline uint32_t nsvcd__not_separated(size_t i, size_t j, const nsvcd__span *span,
-                                            const nsvcd__v_separated *parted,
+                                            const nsvcd__v_separated *separated,
                                             uint32_t wanted) {
-  const uint32_t apart = (parted->above | parted->below) & wanted;
+  const uint32_t apart = (separated->above | separated->below) & wanted;
   for (uint32_t k = apart; k; k &= k - 1) {
     const size_t l = nsvcd__low_bit(k);
-    NSVCD__CERTIFY_DISC(i + l, j, parted, l, span);
+    NSVCD__CERTIFY_DISC(i + l, j, separated, l, span);
   }
   return wanted & ~apart;
 }
@@ -213,8 +214,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     a.from = nsvcd__v3_sub(nsvcd__chords_start(c, l), nsvcd__v3_set(centre));
     a.chord = nsvcd__chords_way(c, l);
     a.moving = nsvcd__v_disc_load(p->moving.discs + i, p->moving.body->padded);
-    nsvcd__v_separated parted = nsvcd__v_separate_by_fixed(&a);
-    wanted = nsvcd__not_separated(i, j, span, &parted, wanted);
+    nsvcd__v_separated separated = nsvcd__v_separate_by_fixed(&a);
+    wanted = nsvcd__not_separated(i, j, span, &separated, wanted);
     if (!wanted) continue;
     // rotations in a span are times the scale
     const float half = 0.5f * p->ask.motion->per_scale;
@@ -222,8 +223,8 @@ static uint32_t nsvcd__discs_meet(const nsvcd__proof *p, const nsvcd__chords *c,
     const nsvcd__mat3 half_turn = nsvcd__mat3_mix(half, to, -1, from);
     a.mean = nsvcd__vmat3_apply(nsvcd__vmat3_set(&middle), a.moving.normal);
     a.turned = nsvcd__vmat3_apply(nsvcd__vmat3_set(&half_turn), a.moving.normal);
-    parted = nsvcd__v_separate_by_moving(&a);
-    left |= nsvcd__not_separated(i, j, span, &parted, wanted) << l;
+    separated = nsvcd__v_separate_by_moving(&a);
+    left |= nsvcd__not_separated(i, j, span, &separated, wanted) << l;
   }
   return left;
 }

@@ -1,5 +1,5 @@
 // In: a question, and a motion that has been cut into segments. Out: all of it resolved, or a
-// contact that answers the question, or the work spent.
+// contact that answers the question, or the budget exhausted.
 #pragma once
 #include "containment.h"
 #include "discs.h"

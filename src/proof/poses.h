@@ -28,7 +28,7 @@ static nsvcd__dquat nsvcd__slerp_at(const nsvcd__slerp *slerp, double u) {
   return nsvcd__dquat_unit(nsvcd__dquat_fma(after, slerp->end, start));
 }
 
-// A track's leg of an arc, and its positions at both ends of it, metres.
+// A track's slerp over an arc, and its positions at both ends, metres.
 static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_t ticks,
                               nsvcd__slerp *slerp, nsvcd__d3 *ends) {
   if (track->count == 1) {
@@ -63,7 +63,7 @@ static void nsvcd__slerp_init(const nsvcd__track *track, uint32_t first, uint32_
   slerp->half_angle = 2 * nsvcd__atan2(sqrt(apart), sqrt(together));
 }
 
-// The rotation vector of a leg, over its arc.
+// The rotation vector of a slerp, over its arc.
 static nsvcd__d3 nsvcd__slerp_turn(const nsvcd__slerp *slerp) {
   const nsvcd__d3 u = nsvcd__dquat_axis(slerp->start);
   const nsvcd__d3 v = nsvcd__dquat_axis(slerp->end);

@@ -347,8 +347,8 @@ static nsvcd__outcome nsvcd__resolve_doubtful(nsvcd__proof *p,
   const nsvcd__nearest nearest = nsvcd__pair_nearest(p, pair, when);
   const double distance = sqrt(nearest.square);
   if (distance < p->high) (void)nsvcd__take_contact(p, pair, when, &nearest);
-  const double parted = distance - 2 * pair->close;
-  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, parted));
+  const double separated = distance - 2 * pair->close;
+  p->ask.clearance = nsvcd__max(p->low, nsvcd__min(p->ask.clearance, separated));
   return p->ask.clearance > p->low ? NSVCD__TOO_LONG : NSVCD__ANSWERED;
 }
 

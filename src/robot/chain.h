@@ -33,7 +33,7 @@
 #define NSVCD__STRAY_FRACTION 8
 #define NSVCD__FINEST 1e-5f
 // units that a look for a hit may take, before the last
-#define NSVCD__PAIR_GLANCE 200
+#define NSVCD__PAIR_TRY 200
 // what frames in double are off, as a share of the lengths that they are computed from
 #define NSVCD__FRAME_ROUNDING 1e-13
 

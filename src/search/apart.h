@@ -212,7 +212,7 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
                                          uint64_t wanted) {
   nsvcd__plane_cache *cache = search->cache;
   const size_t n = cache->best;
-  uint64_t parted = 0;
+  uint64_t separated = 0;
   if (n >= nsvcd__planes_known(search)) return wanted;
   nsvcd__resting_know(search, h, n);
   const nsvcd__ranges *resting = &cache->resting[n];
@@ -228,10 +228,10 @@ static uint64_t nsvcd__unparted_segments(const nsvcd__search *search, size_t h,
       const nsvcd__v low = nsvcd__v_sub(nsvcd__v_min(start, end), reach);
       const nsvcd__v high = nsvcd__v_add(nsvcd__v_max(start, end), reach);
       const uint32_t here = nsvcd__v_lt(above, low) | nsvcd__v_lt(high, below);
-      parted |= (uint64_t)here << (s + l);
+      separated |= (uint64_t)here << (s + l);
     }
   }
-  return wanted & ~parted;
+  return wanted & ~separated;
 }
 
 // Of the members `bits` of group h of the fixed body, those that the same plane does not separate
@@ -265,13 +265,13 @@ static uint32_t nsvcd__not_separated_again(nsvcd__search *search, size_t g, size
     const nsvcd__ranges *moving = &cache->moving[n];
     const nsvcd__v low = nsvcd__v_set(cache->resting[n].low[k]);
     const nsvcd__v high = nsvcd__v_set(cache->resting[n].high[k]);
-    uint32_t parted = 0;
+    uint32_t separated = 0;
     NSVCD__EACH_SLICE(l) {
-      parted |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
-      parted |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
+      separated |= nsvcd__v_lt(high, nsvcd__v_load(moving->low + l)) << l;
+      separated |= nsvcd__v_lt(nsvcd__v_load(moving->high + l), low) << l;
     }
-    if (met & parted) cache->best = (uint32_t)n;
-    met &= ~parted;
+    if (met & separated) cache->best = (uint32_t)n;
+    met &= ~separated;
   }
   return met;
 }
@@ -311,7 +311,7 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
   nsvcd__passing_turns(search, s, &p);
   for (size_t n = 0; n < NSVCD__DIRECTIONS && met; n++) {
     nsvcd__f3 plane = {0, 0, 0};
-    uint32_t parted = 0;
+    uint32_t separated = 0;
     NSVCD__EACH_SLICE(l) {
       const size_t i = NSVCD__GROUP * g + l;
       if (!(met >> l & NSVCD__SLICE_MASK)) continue;
@@ -335,15 +335,15 @@ static NSVCD__NOINLINE uint32_t nsvcd__not_separated_anew(nsvcd__search *search,
       }
       const uint32_t here =
           nsvcd__separated_along(&p, &rest, u) & (met >> l & NSVCD__SLICE_MASK);
-      if (here && !parted) {
+      if (here && !separated) {
         float lanes[3 * NSVCD__SLICE];
         nsvcd__v3_store_rows(u, lanes, NSVCD__SLICE);
         plane = nsvcd__f3_get(lanes + nsvcd__low_bit(here), NSVCD__SLICE);
       }
-      parted |= here << l;
+      separated |= here << l;
     }
-    met &= ~parted;
-    if (!parted) continue;
+    met &= ~separated;
+    if (!separated) continue;
     const size_t oldest = cache->found++ % NSVCD__PLANES;
     cache->planes[oldest] = plane;
     cache->moving_known = (uint16_t)(cache->moving_known & ~(1u << oldest));

@@ -130,7 +130,7 @@ typedef struct nsvcd__piece {
   uint16_t patch;
   uint8_t count;  // of its corners
   // 1: its triangle is listed in parts
-  uint8_t parted;
+  uint8_t divided;
 } nsvcd__piece;
 
 #define NSVCD__WHOLE 0xffffffffu
@@ -272,7 +272,7 @@ static int nsvcd__cut_up(nsvcd__pieces *pieces, uint32_t triangle, uint32_t *gue
     squared = nsvcd__max(squared, nsvcd__d3_distance2(a, b));
     pieces->waiting[0].points[k] = corners[k];
   }
-  piece.parted = sqrt(squared) > pieces->longest_edge;
+  piece.divided = sqrt(squared) > pieces->longest_edge;
   pieces->waiting[0].count = 3;
   pieces->waiting_count = 1;
   while (pieces->waiting_count > 0) {

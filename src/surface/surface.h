@@ -76,7 +76,7 @@ static size_t nsvcd__listed_corners(const nsvcd__sorted *sorted, size_t i, size_
                                     const uint32_t **corners) {
   const nsvcd__piece *piece = nsvcd__sorted_piece(sorted, k);
   *corners = nsvcd__piece_corners(sorted->pieces, piece);
-  if (piece->parted) return piece->count;
+  if (piece->divided) return piece->count;
   *corners = nsvcd__triangle_corners(sorted->pieces, piece->triangle);
   const int first = k == sorted->first[i];
   return first || nsvcd__sorted_piece(sorted, k - 1)->triangle != piece->triangle ? 3 : 0;
