@@ -362,50 +362,14 @@ checker: a normal of 0|if (!(gap > least \&\& last > least \&\& gap < VERIFY__BE
 checker: corners that there are not|\|\| of->mesh->part[out->a] == NSVCD_VERIFY_NONE)|)
 LIST
 
+if [ -n "${DRY:-}" ]; then python3 tests/make_mutant.py --all $work/list && exit 0 || exit 1; fi
 survived=0
 while IFS= read -r line; do
   name=${line%%|*}
   case "$name" in *"${1:-}"*) ;; *) continue ;; esac
   number=$((${number:-0} + 1))
   test -z "${OF:-}" || test $((number % OF)) = "$PART" || continue
-  cp examples/verify/*.h $work/examples/verify/
-  LINE="$line" WORK="$work" python3 - <<'PYTHON' || exit 1
-import os, re, sys
-name, old, new = re.split(r'(?<!\\)\|', os.environ['LINE'], maxsplit=2)
-old, new = [part.replace('\\n', '\n').replace('\\&', '&').replace('\\|', '|') for part in (old, new)]
-new = new if name == 'none' or not new.endswith('|') else new.rstrip('|')
-work = os.environ['WORK'] + '/'
-headers = ('neuralsvcd.h', 'extras/neuralsvcd_certify.h', 'extras/neuralsvcd_robot.h')
-texts = {header: open(header).read() for header in headers}
-def write():
-    os.makedirs(work + 'extras', exist_ok=True)
-    for header, text in texts.items():
-        open(work + header, 'w').write(text)
-if name.startswith(('verify:', 'checker:', 'fits:')):
-    write()
-    # in the one file of the checker that has it
-    pattern = r'\s+'.join(map(re.escape, old.split()))
-    folder = os.environ['WORK'] + '/examples/verify/'
-    files = [f for f in os.listdir(folder) if re.search(pattern, open(folder + f).read())]
-    if len(files) != 1:
-        sys.exit(f'{name}: found in {len(files)} files')
-    text = open(folder + files[0]).read()
-    found = re.findall(pattern, text)
-    if len(found) != 1:
-        sys.exit(f'{name}: found {len(found)} times')
-    open(folder + files[0], 'w').write(text.replace(found[0], new))
-    sys.exit()
-# however its lines are broken
-pattern = r'\s+'.join(map(re.escape, old.split()))
-found = [(header, text) for header in headers for text in re.findall(pattern, texts[header])] if old else []
-# a room of the ground stands in several headers, and counts once
-if old and (len(found) == 0 or len({text for _, text in found}) != 1 or len({header for header, _ in found}) != len(found)):
-    sys.exit(f'{name}: found {len(found)} times')
-for header, text in found:
-    texts[header] = texts[header].replace(text, new)
-write()
-PYTHON
-  test -z "${DRY:-}" || continue
+  python3 tests/make_mutant.py "$work" "$line" || exit 1
   tile=  # those of tiles are looked for where small bodies make several
   file=test_proof.c
   fused=  # as the Makefile compiles these
