@@ -225,7 +225,8 @@ _EncodeOptions = _struct(
     "nsvcd_encode_options", patches=c_size_t, patch_radius=c_float, round=c_float, open=c_int, latents=c_int,
     no_triangles=c_int, coarse=c_int, progress=_PROGRESS, user=c_void_p)
 _BodyFacts = _struct(
-    "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, mean_patch_radius=c_float,
+    "nsvcd_body_facts", size=c_size_t, patches=c_size_t, centre=c_float * 3, radius=c_float, extent=c_float,
+    low=c_float * 3, high=c_float * 3, mean_patch_radius=c_float,
     triangles=c_size_t, listings=c_size_t, quantum=c_float, round=c_float, latents=c_int,
     components=c_size_t, open_components=c_size_t, open_edges=c_size_t, open=c_int)
 _Pose = _struct("nsvcd_pose", position=c_float * 3, rotation=c_float * 4)
@@ -636,6 +637,8 @@ class Facts(NamedTuple):
     size               bytes
     patches            parts of its surface
     centre, radius     of a sphere that contains it, metres
+    extent             no point of the mesh is farther from the origin, metres
+    low, high          a box that contains the mesh, metres; zeros: no triangles are stored
     mean_patch_radius  metres
     triangles          of the mesh; 0: none are stored
     listings           triangles and parts of them that are stored
@@ -651,6 +654,9 @@ class Facts(NamedTuple):
     patches: int
     centre: Vector
     radius: float
+    extent: float
+    low: Vector
+    high: Vector
     mean_patch_radius: float
     triangles: int
     listings: int
@@ -782,7 +788,8 @@ class Body:
     @property
     def facts(self) -> Facts:
         facts = _library.nsvcd_body_describe(self._address)
-        return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.mean_patch_radius,
+        return Facts(facts.size, facts.patches, _vector(facts.centre), facts.radius, facts.extent,
+                     _vector(facts.low), _vector(facts.high), facts.mean_patch_radius,
                      facts.triangles, facts.listings, facts.quantum, facts.round,
                      bool(facts.latents), facts.components, facts.open_components, facts.open_edges,
                      bool(facts.open))
