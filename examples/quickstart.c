@@ -3,7 +3,7 @@
 // two motions hits, and when first?
 //
 // Two OBJ files, two encoded bodies, two motions, two answers, and a picture of them (`make demo`:
-// build/demo.svg).
+// build/demo.svg). `build/quickstart build/demo.gif` writes a film of them as well.
 #define _POSIX_C_SOURCE 200112L  // scenery/clock.h
 #include <math.h>
 #include <stdio.h>
@@ -13,6 +13,7 @@
 #include "../neuralsvcd.h"
 
 #include "picture.h"
+#include "film.h"
 #include "scenery/clock.h"
 
 #define POSES 65  // per motion
@@ -57,7 +58,7 @@ static void carry(float height, nsvcd_pose *poses) {
   }
 }
 
-int main(void) {
+int main(int argc, char **argv) {
   // Once per mesh: load and encode. A body is one block of bytes: keep it, save it, copy it.
   nsvcd_mesh mug_mesh, rack_mesh;
   const nsvcd_body *mug = load("examples/assets/mug.obj", &mug_mesh);
@@ -110,6 +111,7 @@ int main(void) {
   }
   if (!picture_write("build/demo.svg", &mug_mesh, &rack_mesh, panels, 2)) return 1;
   printf("see build/demo.svg\n");
+  if (argc > 1 && !film_write(argv[1], &mug_mesh, &rack_mesh, panels, 2)) return 1;
 
   free(workspace);
   nsvcd_body_free(mug, NULL);

@@ -1,7 +1,7 @@
 // bench.c - accuracy against time: every method on the same problems, in one process, on one
 // thread.
 //
-//   bench [--quick|--race] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
+//   bench [--quick|--race|--trade] [--limit N] [--out build/tradeoff] NAME=FILE[,FILE...]...
 //
 // For each set NAME (problem files, examples/FORMATS.md) and each method: rows of settings, with accuracy,
 // misses and false alarms, time per query (pose samples in, verdict out; warm, the least of three
@@ -11,7 +11,7 @@
 //
 // Sets named after an extreme (see problems.c) are answered by NeuralSVCD alone, to see how far it
 // leaves the standard. --race: the proof, the network's default and the mesh hierarchy only, on all
-// sets.
+// sets. --trade: the few settings of which README's picture is drawn (trade.py).
 #define _POSIX_C_SOURCE 200112L
 #define NEURALSVCD_IMPLEMENTATION
 #include "../../neuralsvcd.h"
@@ -620,6 +620,38 @@ static void run_race(table *t, const problem_set *set) {
   run_proof(t, set, points, 1);
 }
 
+// What trade.py draws: the proof, the network's three sizes, and of each sampled method a choice of settings.
+static void run_trade(table *t, const problem_set *set) {
+  static const size_t points[] = {NSVCD_DEFAULT_PATCHES};
+  query_setting settings[10];  // as given, and 2 mm thicker
+  nsvcd_question sizes[3];
+  preparation how = {0, 0};
+  for (size_t i = 0; i < 10; i++) {
+    settings[i].samples = (size_t)4 << i % 5;
+    settings[i].activation = i < 5 ? 0 : 0.002f;
+  }
+  run_discrete(t, set, &full_mesh_method, &how, "", settings, 5);
+#ifdef HAVE_LIBCCD
+  run_discrete(t, set, &convex_method, &how, "32 parts, ", settings, 10);
+#endif
+  for (int i = 0; i < 4; i++) {
+    char label[40];
+    how.detail = i < 2 ? 0.01f : 0.03f;
+    how.points = i % 2 ? 1000 : 100;
+    snprintf(label, sizeof label, "voxel %.0f mm, %zu points, ", 1e3 * (double)how.detail,
+             how.points);
+    run_discrete(t, set, &spheres_method, &how, label, settings, 10);
+  }
+  run_proof(t, set, points, 1);
+  memset(sizes, 0, sizeof sizes);
+  for (int i = 0; i < 3; i++) {
+    sizes[i].method = NSVCD_METHOD_NETWORK;
+    sizes[i].network.model = (nsvcd_model)(NSVCD_MODEL_TINY + i);
+  }
+  const nsvcd_encode_options encode = {.patches = NSVCD_DEFAULT_NETWORK_PATCHES, .no_triangles = 1};
+  run_ours(t, set, "NeuralSVCD", &encode, sizes, 3);
+}
+
 static void run_all_neural(table *t, const problem_set *set, int quick) {
   static const size_t all_points[] = {32, 64, 128, 256, 512};
   static const size_t all_pairs[] = {1, 2, 4, 8, 16, 32, 64, 256};
@@ -817,7 +849,8 @@ static void draw_rows(chart *c, const problem_set *set, const table *t) {
 }
 
 static int usage(void) {
-  fprintf(stderr, "bench [--quick|--race] [--limit N] [--out PREFIX] NAME=FILE[,FILE...]...\n");
+  fprintf(stderr,
+          "bench [--quick|--race|--trade] [--limit N] [--out PREFIX] NAME=FILE[,FILE...]...\n");
   return USAGE;
 }
 
@@ -825,6 +858,7 @@ int main(int argc, char **argv) {
   static const size_t proof_points[] = {64, 128, NSVCD_DEFAULT_PATCHES, 256, 512};
   int quick = 0;
   int race = 0;
+  int trade = 0;
   int i = 1;
   size_t limit = 0;
   const char *out = "build/tradeoff";
@@ -833,6 +867,8 @@ int main(int argc, char **argv) {
       quick = 1;
     else if (strcmp(argv[i], "--race") == 0)
       race = 1;
+    else if (strcmp(argv[i], "--trade") == 0)
+      trade = 1;
     else if (strcmp(argv[i], "--limit") == 0 && i + 1 < argc &&
              parse_count(argv[i + 1], 1, SIZE_MAX, &limit))
       i++;
@@ -856,9 +892,10 @@ int main(int argc, char **argv) {
     problem_set set;
     table t = {NULL, 0, 0};
     if (!load_set(argv[i], limit, &set)) return REFUSED;
-    if (race) {
-      run_race(&t, &set);
-      for (size_t k = 0; k < t.count; k++) t.rows[k].front = 1;
+    if (race || trade) {
+      (trade ? run_trade : run_race)(&t, &set);
+      mark_fronts(&t);
+      for (size_t k = 0; k < t.count && race; k++) t.rows[k].front = 1;
       write_rows(file, &set, &t);
       print_rows(&set, &t);
       free(t.rows);
