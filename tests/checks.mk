@@ -32,9 +32,9 @@ check-header: | build  # as C99 to C++17, strictly, and what it leaves in the na
 	CC="$(CC)" CXX="$(CXX)" tests/header.sh
 check-examples: all build/make_assets  # they run, and they say no as examples/FORMATS.md demands
 	tests/examples.sh
-# What README holds, word by word (Debian: mmdebstrap); README_LINES=130: and how long it may be.
+# What README holds, word by word (Debian: mmdebstrap); README_LINES=110: and how long it may be.
 check-newcomer:  # README's commands on a bare Debian, one by one; and are mistakes in a README noticed?
-	README_LINES=130 tests/newcomer.sh
+	README_LINES=110 tests/newcomer.sh
 	tests/newcomer.sh --mutants
 check-packages:  # installed, found by pkg-config and CMake, as one file, in a project's folder
 	+CC="$(CC)" tests/packages.sh

@@ -106,17 +106,20 @@ tail -1 build/fly_through.svg | grep -q '^</svg>$' || fail "build/fly_through.sv
 expect 2 'usage: ' build/fly_through 10
 expect 2 'usage: ' build/fly_through 1000 1000
 
-# The program in README, as it stands there, as C99 and C++11.
-awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md >"$dir/readme.c"
-cp "$dir/readme.c" "$dir/readme.cc"
-readme() {  # COMPILER AND FLAGS
-  "$@" -O2 -Wall -Wextra -Werror -I. -o "$dir/readme" -lm && "$dir/readme" >"$dir/out" || fail "the program in README: $*"
-  head -1 "$dir/out" | grep -q '^hit, t = 0.60$' || fail "the program in README says: $(cat "$dir/out")"
-  (cd "$dir" && ./readme) 2>"$dir/err" && fail "the program in README ends with 0 without its meshes"
-  grep -q '^examples/assets/mug.obj: the file is missing' "$dir/err" || fail "the program in README, without its meshes: $(cat "$dir/err")"
+# The program of which README shows the middle, line by line, as C99 and C++11.
+awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md >"$dir/shown"
+sed 's/^  //' examples/hello.c >"$dir/lines"
+grep -q nsvcd_sweep "$dir/shown" || fail "README shows no question"
+grep -vxFf "$dir/lines" "$dir/shown" >"$dir/others" && fail "examples/hello.c has not what README shows: $(head -1 "$dir/others")"
+cp examples/hello.c "$dir/hello.cc"
+hello() {  # COMPILER AND FLAGS
+  "$@" -O2 -Wall -Wextra -Werror -Iexamples -o "$dir/hello" -lm && "$dir/hello" >"$dir/out" || fail "README's program: $*"
+  head -1 "$dir/out" | grep -q '^hit, t = 0.60$' || fail "README's program says: $(cat "$dir/out")"
+  (cd "$dir" && ./hello) 2>"$dir/err" && fail "README's program ends with 0 without its meshes"
+  grep -q '^examples/assets/mug.obj: the file is missing' "$dir/err" || fail "README's program, without its meshes: $(cat "$dir/err")"
 }
-readme "${CC:-cc}" -std=c99 "$dir/readme.c"
-if command -v "${CXX:-c++}" >/dev/null; then readme "${CXX:-c++}" -std=c++11 "$dir/readme.cc"; fi
+hello "${CC:-cc}" -std=c99 examples/hello.c
+if command -v "${CXX:-c++}" >/dev/null; then hello "${CXX:-c++}" -std=c++11 "$dir/hello.cc"; fi
 # 0.60 is the first contact: until 0.59 it is free. Any other is not called the first.
 expect 0 '' build/svcd sweep examples/assets/mug.obj examples/assets/dish_rack.obj --from 0,-0.4,0.3 --to 0,-0.164,0.123
 line '^free'

@@ -10,6 +10,7 @@ and how much text there is; exit status 1 if something is not. That a room uses 
   paths      the files that it names are there, of .md files too
   links      of .md files: the file is there, and so is the heading that is named behind a #
   counts     the lines of the checker are as many as README says, to a hundred
+  README     is a page: 110 lines at most, and 25 numbers in its text
   tables     no row of a comment's table is cut, as a formatter does: a word or two at the margin, and the rest below
 """
 
@@ -22,6 +23,8 @@ COLUMNS = 100
 ROOM = 800
 LINES = 80
 WIDTH = 40
+PAGE = 110
+NUMBERS = 25
 
 
 def code_of(line: str) -> str:
@@ -156,6 +159,15 @@ def miscounted() -> list[str]:
     return [f"the checker has {lines} lines in {len(headers)} headers, README says {said and said[1]} in four"]
 
 
+def too_much() -> list[str]:
+    text = (SRC.parent / "README.md").read_text(encoding="utf-8")
+    prose = re.sub(r"```.*?^```|^    .*?$|\]\([^)]*\)|`[^`]*`", "", text, flags=re.S | re.M)
+    lines = text.count("\n")
+    numbers = len(re.findall(r"(?<![\w.-])\d", prose))
+    faults = [f"{lines} lines, not at most {PAGE}"] if lines > PAGE else []
+    return faults + ([f"{numbers} numbers, not at most {NUMBERS}"] if numbers > NUMBERS else [])
+
+
 def cut_rows(lines: list[str]) -> list[str]:
     """A row is a name, two blanks or more, and text, which goes on below itself."""
     faults = []
@@ -208,7 +220,7 @@ def main() -> int:
     for name in twins([path.read_text(encoding="ascii") for path in [*SRC.glob("*.h"), *rooms]]):
         print(f"src: {name} is a public name but for an underscore")
         broken = True
-    for fault in miscounted():
+    for fault in miscounted() + too_much():
         print(f"README.md: {fault}")
         broken = True
     mean = sum(map(len, code)) / len(code)

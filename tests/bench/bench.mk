@@ -64,3 +64,11 @@ bench-flags: build/problems $(call files,standard hollow rest)  ## -O2 against -
 	CC="$(CC)" ALL="$(ALL)" tests/bench/flags.sh $(call files,standard hollow rest)
 sizes:  ## code and data that each compile-time switch leaves out, host and Cortex-M
 	CC="$(CC)" tests/bench/sizes.sh
+
+# MEASURE=1 MESHES=folder measures anew, in minutes; without it the table that is there is drawn.
+TRADE = tests/bench/trade
+trade-picture: $(if $(MEASURE),build/bench $(BENCH_REAL) $(DATA)/hollow.txt $(BENCH_REST))  ## README's picture of the trade, tests/bench/trade.svg
+	$(if $(MEASURE),build/bench --trade --limit 600 --out build/trade real=$(subst $(space),$(comma),$(strip $(BENCH_REAL))) \
+	  hollow=$(DATA)/hollow.txt rest=$(BENCH_REST))
+	python3 $(TRADE).py $(TRADE).tsv $(TRADE).svg $(if $(MEASURE),build/trade.tsv)
+.PHONY: trade-picture
