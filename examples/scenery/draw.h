@@ -147,10 +147,8 @@ DRAW_DEF void draw_shape(draw_list *list, const shapes_mesh *shape, double scale
 
 // ------------------------------------------------------------------------------------ what is seen
 
-#ifndef DRAW_SAMPLES
 #define DRAW_SAMPLES 2  // a pixel, along each axis
-#endif
-#define DRAW_STEPS 24  // of light: more the eye does not see
+#define DRAW_STEPS 24   // of light: more the eye does not see
 
 // What is seen at each sample: the fill, 0 for nothing, and how near it is.
 typedef struct draw_raster {
