@@ -17949,7 +17949,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 }
 
 // The candidate for which this is greatest decides.
-static float nsvcd__unresolved(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
@@ -17985,8 +17985,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float here = nsvcd__unresolved(task, &items[i]);
-      const float d = here - nsvcd__unresolved(task, &items[best]);
+      const float here = nsvcd__closeness(task, &items[i]);
+      const float d = here - nsvcd__closeness(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
@@ -18008,9 +18008,9 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const float unresolved_pair = nsvcd__unresolved(task, portion[k]);
-      if (!(unresolved_pair > most)) continue;
-      most = unresolved_pair;
+      const float closeness = nsvcd__closeness(task, portion[k]);
+      if (!(closeness > most)) continue;
+      most = closeness;
       nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }
@@ -19726,6 +19726,7 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__clear_until NSVCD__AT(clear_until)
 #define nsvcd__clearance NSVCD__AT(clearance)
 #define nsvcd__clip_segment NSVCD__AT(clip_segment)
+#define nsvcd__closeness NSVCD__AT(closeness)
 #define nsvcd__collect_contacts NSVCD__AT(collect_contacts)
 #define nsvcd__collect_places NSVCD__AT(collect_places)
 #define nsvcd__collect_touch NSVCD__AT(collect_touch)
@@ -20111,7 +20112,6 @@ static nsvcd_result nsvcd__run_gradient(const nsvcd_question *question, void *wo
 #define nsvcd__unit_rotation NSVCD__AT(unit_rotation)
 #define nsvcd__unparted_members NSVCD__AT(unparted_members)
 #define nsvcd__unparted_segments NSVCD__AT(unparted_segments)
-#define nsvcd__unresolved NSVCD__AT(unresolved)
 #define nsvcd__v NSVCD__AT(v)
 #define nsvcd__v3 NSVCD__AT(v3)
 #define nsvcd__v3_add NSVCD__AT(v3_add)

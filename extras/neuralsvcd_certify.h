@@ -65,10 +65,10 @@ NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
 NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
                                        const nsvcd_tree **tree);
 
-// Takes a corner x of the mesh to scale * rotation x + position.
+// A pose in double: takes a corner x of the mesh to position + scale * x turned by rotation.
 typedef struct nsvcd_placement {
-  double rotation[3][3];  // row-major
-  double position[3];     // metres
+  double position[3];  // metres
+  double rotation[4];  // x y z w, of any length but 0
 } nsvcd_placement;
 
 // By how much a point leaves the chord between its places at two times, at most, along a unit
@@ -1414,9 +1414,12 @@ typedef struct nsvcd__moving_tree {
 
 static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
   const nsvcd_placement at = moving->model.place(moving->model.motion, t);
-  nsvcd__posed out;
-  memcpy(&out.turn, at.rotation, sizeof out.turn);
-  memcpy(&out.at, at.position, sizeof out.at);
+  const double *q = at.rotation;
+  const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
+  const nsvcd__posed out = {
+      nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
+      nsvcd__d3_of(at.position[0], at.position[1], at.position[2]),
+  };
   return out;
 }
 
@@ -1471,11 +1474,8 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   return out;
 }
 
-static nsvcd_placement nsvcd__placement_of(nsvcd__dquat turn, nsvcd__d3 at) {
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(turn));
-  nsvcd_placement out;
-  memcpy(out.rotation, &rotation, sizeof out.rotation);
-  memcpy(out.position, &at, sizeof out.position);
+static nsvcd_placement nsvcd__placement_of(nsvcd__dquat q, nsvcd__d3 at) {
+  const nsvcd_placement out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
   return out;
 }
 
@@ -2229,7 +2229,7 @@ static int nsvcd__divide_visit(nsvcd__certifier *c, nsvcd__visit *v) {
 static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
   nsvcd__visit stack[NSVCD__WALK_STACK];
   size_t height = 1;
-  int after_unresolved = 0;
+  int is_unresolved = 0;
   memset(stack, 0, sizeof *stack);
   stack->nodes.a.count = (uint32_t)c->a.tree->mesh.triangle_count;
   stack->nodes.b.count = (uint32_t)c->b.tree->mesh.triangle_count;
@@ -2268,9 +2268,9 @@ static nsvcd_verdict nsvcd__prove_walk(nsvcd__certifier *c, size_t visits) {
     // they touch, or nearly so: no proof that they are free, but others may still meet
     const int goes_on = nsvcd__divide_visit(c, v);
     height += goes_on ? 1 : (size_t)-1;
-    after_unresolved |= !goes_on;
+    is_unresolved |= !goes_on;
   }
-  return after_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
+  return is_unresolved ? NSVCD_UNDECIDED : NSVCD_FREE;
 }
 
 // ---- what is inside
@@ -2371,48 +2371,6 @@ static uint64_t nsvcd__certifier_layout(size_t instants, const nsvcd_tree *a,
   return used;
 }
 
-// Both riders are in c, and all else is 0.
-static nsvcd_result nsvcd__write_certificate(nsvcd__certifier *c, size_t instants,
-                                             float clearance,
-                                             const nsvcd_certify_options *options,
-                                             void *workspace, size_t workspace_size,
-                                             uint8_t *bytes, size_t capacity,
-                                             nsvcd_certificate *made) {
-  const nsvcd_certify_options defaults = {NULL, 0};
-  const nsvcd_certify_options *o = options ? options : &defaults;
-  nsvcd_certificate out;
-  memset(&out, 0, sizeof out);
-  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
-    return NSVCD_ERROR_CLEARANCE;
-  const uint64_t needed =
-      nsvcd__certifier_layout(instants, c->a.tree, c->b.tree, (char *)workspace, c);
-  if (!workspace || !nsvcd__is_aligned(workspace) || workspace_size < needed)
-    return NSVCD_ERROR_WORKSPACE;
-  c->stretch.a = &c->a;
-  c->stretch.b = &c->b;
-  c->stretch.clearance = (double)clearance;
-  c->bytes = bytes;
-  c->capacity = capacity;
-  c->digest = nsvcd__digest(c->a.model.digest + 31 * c->b.model.digest, &clearance, 1);
-  c->made = &out;
-  if (!(o->answer && nsvcd__meet_as_told(c, o->answer))) {
-    out.verdict = nsvcd__prove_walk(c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
-    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 0);
-    if (out.verdict == NSVCD_FREE && !c->apart) out.verdict = nsvcd__cast_all(c, 1);
-  }
-  // here what is not closed encloses nothing, and no flaw is mended
-  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
-  const int has_open = nsvcd__has_open(c->a.tree) || nsvcd__has_open(c->b.tree);
-  if (is_inside && has_open && out.verdict == NSVCD_FREE) {
-    out.verdict = NSVCD_UNDECIDED;
-    out.why = NSVCD_WHY_OPEN;
-  }
-  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c->bits + 7) / 8;
-  if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
-  *made = out;
-  return NSVCD_OK;
-}
-
 NSVCDDEF size_t nsvcd_certify_models_workspace_size(size_t keyframes, const nsvcd_tree *a,
                                                     const nsvcd_tree *b) {
   nsvcd__certifier counted;
@@ -2425,17 +2383,46 @@ NSVCDDEF nsvcd_result nsvcd_certify_models(
     const nsvcd_motion_model *models, size_t keyframes, float clearance, const nsvcd_tree *a,
     const nsvcd_tree *b, const nsvcd_certify_options *options, void *workspace,
     size_t workspace_size, uint8_t *bytes, size_t capacity, nsvcd_certificate *made) {
+  const nsvcd_certify_options defaults = {NULL, 0};
+  const nsvcd_certify_options *o = options ? options : &defaults;
   nsvcd__certifier c;
-  const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
+  nsvcd_certificate out;
   if (!models || !a || !b || !made || (capacity > 0 && !bytes)) return NSVCD_ERROR_ARGUMENT;
-  if (needed == 0 || workspace_size < needed) return NSVCD_ERROR_WORKSPACE;
   memset(&c, 0, sizeof c);
+  memset(&out, 0, sizeof out);
+  if (!nsvcd__is_finite(clearance) || clearance < 0 || clearance > NSVCD_MAX_COORDINATE)
+    return NSVCD_ERROR_CLEARANCE;
+  const size_t needed = nsvcd_certify_models_workspace_size(keyframes, a, b);
+  if (!workspace || !nsvcd__is_aligned(workspace) || !needed || workspace_size < needed)
+    return NSVCD_ERROR_WORKSPACE;
+  (void)nsvcd__certifier_layout(keyframes + 2, a, b, (char *)workspace, &c);
   c.a.tree = a;
   c.b.tree = b;
   c.a.model = models[0];
   c.b.model = models[1];
-  return nsvcd__write_certificate(&c, keyframes + 2, clearance, options, workspace,
-                                  workspace_size, bytes, capacity, made);
+  c.stretch.a = &c.a;
+  c.stretch.b = &c.b;
+  c.stretch.clearance = (double)clearance;
+  c.bytes = bytes;
+  c.capacity = capacity;
+  c.digest = nsvcd__digest(c.a.model.digest + 31 * c.b.model.digest, &clearance, 1);
+  c.made = &out;
+  if (!(o->answer && nsvcd__meet_as_told(&c, o->answer))) {
+    out.verdict = nsvcd__prove_walk(&c, o->visits ? o->visits : NSVCD_DEFAULT_VISITS);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 0);
+    if (out.verdict == NSVCD_FREE && !c.apart) out.verdict = nsvcd__cast_all(&c, 1);
+  }
+  // here what is not closed encloses nothing, and no flaw is mended
+  const int is_inside = o->answer && (o->answer->inside || o->answer->why == NSVCD_WHY_OPEN);
+  const int has_open = nsvcd__has_open(c.a.tree) || nsvcd__has_open(c.b.tree);
+  if (is_inside && has_open && out.verdict == NSVCD_FREE) {
+    out.verdict = NSVCD_UNDECIDED;
+    out.why = NSVCD_WHY_OPEN;
+  }
+  out.size = out.verdict == NSVCD_UNDECIDED ? 0 : (c.bits + 7) / 8;
+  if (out.verdict == NSVCD_UNDECIDED && !out.why) out.why = NSVCD_WHY_TOO_NEAR;
+  *made = out;
+  return NSVCD_OK;
 }
 
 static size_t nsvcd__keyframes_of(const nsvcd_question *question) {

@@ -2349,10 +2349,8 @@ static nsvcd_placement nsvcd__carried_place(const void *motion, double t) {
     at = nsvcd__frame_in(&joint, &at);
     at = nsvcd__frame_in(&origin, &at);
   }
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(at.turn));
-  nsvcd_placement out;
-  memcpy(out.rotation, &rotation, sizeof out.rotation);
-  memcpy(out.position, &at.place, sizeof out.position);
+  const nsvcd_placement out = {{at.place.x, at.place.y, at.place.z},
+                               {at.turn.x, at.turn.y, at.turn.z, at.turn.w}};
   return out;
 }
 

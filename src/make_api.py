@@ -10,6 +10,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from make_header import PLANS
+
 SRC = Path(__file__).parent
 ROOM = re.compile(r'#include "interface/(?P<name>\w+)\.h"  +// (?P<says>.+)')
 NAME = re.compile(r"\b(?:nsvcd|NSVCD)_[a-zA-Z0-9]\w*")
@@ -161,7 +163,7 @@ dt { font-family: ui-monospace, monospace; font-size: 13.5px; max-width: 14rem }
 def page_of(src: Path) -> str:
     plan = (src / "header.h").read_text(encoding="ascii").splitlines()
     rooms = []
-    for line in [line for name in ("header", "certify", "robot") for line in (src / f"{name}.h").read_text(encoding="ascii").splitlines()]:
+    for line in "\n".join((src / f"{name}.h").read_text(encoding="ascii") for name in PLANS).splitlines():
         if room := ROOM.match(line):
             lines = (src / "interface" / f"{room['name']}.h").read_text(encoding="ascii").splitlines()
             rooms.append((room["name"], room["says"], *items_of(lines)))

@@ -346,10 +346,10 @@ static void long_lifts_are_kept(void) {
   CHECK_EQ(nsvcd_encode_sphere(1, NULL, &bodies[1]), NSVCD_OK);
   for (size_t n = 0; n < 1501; n++) {
     const double at = n < 1000 ? 0 : (double)(n - 1000) / 100;
-    const size_t slerp = at < 5 ? (size_t)at : 4;
-    const double u = at - (double)slerp;
-    const double *from = corners[slerp];
-    const double *to = corners[slerp + 1];
+    const size_t leg = at < 5 ? (size_t)at : 4;
+    const double u = at - (double)leg;
+    const double *from = corners[leg];
+    const double *to = corners[leg + 1];
     memset(&poses[n], 0, sizeof poses[n]);
     poses[n].position[0] = (float)((1 - u) * from[0] + u * to[0]);
     poses[n].position[1] = n < 1000 && n % 2 ? 0.4f : 0;

@@ -116,7 +116,7 @@ static void tasks_repeat_from_their_seed(void) {
     static task_scene a, b, other;
     CHECK(tasks_make(&a, task, 12) && tasks_make(&b, task, 12) && tasks_make(&other, task, 13));
     CHECK_EQ(memcmp(a.problems, b.problems, sizeof a.problems), 0);
-    CHECK_EQ(memcmp(a.resolved, b.resolved, sizeof a.resolved), 0);
+    CHECK_EQ(memcmp(a.settled, b.settled, sizeof a.settled), 0);
     CHECK_EQ(memcmp(a.pairs, b.pairs, sizeof a.pairs), 0);
     CHECK(memcmp(a.problems, other.problems, sizeof a.problems));
     task_free(&a);
@@ -180,26 +180,26 @@ static void tasks_dishes_settle(void) {
     while (strcmp(scene.bodies[rack].name, "rack")) rack++;
     for (int i = 0; i < 3; i++) {
       const oracle_mesh *dish = &scene.bodies[scene.held[i]].exact;
-      oracle_pose lower = scene.resolved[i];
+      oracle_pose lower = scene.settled[i];
       oracle_pose links[TASK_MAX_JOINTS + 1];
       lower.position[2] -= 0.001;
       const oracle_pose *rack_pose = &scene.bodies[rack].offset;
-      CHECK(oracle_distance(dish, &scene.resolved[i], &scene.bodies[rack].exact, rack_pose, NULL,
+      CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL,
                             NULL) > 0);
-      CHECK_LE(oracle_distance(dish, &scene.resolved[i], &scene.bodies[rack].exact, rack_pose, NULL,
+      CHECK_LE(oracle_distance(dish, &scene.settled[i], &scene.bodies[rack].exact, rack_pose, NULL,
                                NULL),
                1e-4);
       CHECK_EQ(oracle_distance(dish, &lower, &scene.bodies[rack].exact, rack_pose, NULL, NULL), 0);
       for (int k = 0; k < i; k++)
-        CHECK(oracle_distance(dish, &scene.resolved[i], &scene.bodies[scene.held[k]].exact,
-                              &scene.resolved[k], NULL, NULL) > 0.01);
+        CHECK(oracle_distance(dish, &scene.settled[i], &scene.bodies[scene.held[k]].exact,
+                              &scene.settled[k], NULL, NULL) > 0.01);
       double q[TASK_MAX_JOINTS];
       task_select(&scene, i);
       for (int j = 0; j < scene.joint_count; j++) q[j] = (double)scene.problems[i].goal[j];
       task_links(&scene, q, links);
       oracle_pose held = task_body_pose(&scene, scene.held[i], links);
       for (int k = 0; k < 3; k++)
-        CHECK_NEAR(held.position[k], scene.resolved[i].position[k] + (k == 2 ? 0.01 : 0), 1e-5);
+        CHECK_NEAR(held.position[k], scene.settled[i].position[k] + (k == 2 ? 0.01 : 0), 1e-5);
     }
     task_free(&scene);
   }
@@ -222,7 +222,7 @@ static void tasks_attach_and_release(void) {
         pairs += scene.pairs[k][0] == body || scene.pairs[k][1] == body;
       CHECK_EQ(pairs > 0, i <= selected);
       CHECK_EQ(memcmp(&at_start[body], &at_goal[body], sizeof at_goal[0]) != 0, i == selected);
-      if (i < selected) CHECK_NEAR(at_goal[body].position[2], scene.resolved[i].position[2], 1e-6);
+      if (i < selected) CHECK_NEAR(at_goal[body].position[2], scene.settled[i].position[2], 1e-6);
     }
   }
   task_free(&scene);

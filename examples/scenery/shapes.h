@@ -559,18 +559,18 @@ SHAPES_DEF void shapes_shelf(shapes_mesh *mesh, double x, double y, double z, do
     shapes_box_at(mesh, 0, 0, wall / 2 + (z - wall) * i / (boards - 1), x, y, wall);
   if (back) shapes_box_at(mesh, 0, (y - wall) / 2, z / 2, x, wall, z);
 }
-SHAPES_DEF void shapes_chair(shapes_mesh *mesh, double width, double height, double slerp) {
+SHAPES_DEF void shapes_chair(shapes_mesh *mesh, double width, double height, double leg) {
   double w = width;
   double seat = 0.45 * height;
-  shapes_box_at(mesh, 0, 0, seat, w, w, slerp);
+  shapes_box_at(mesh, 0, 0, seat, w, w, leg);
   for (int sx = -1; sx <= 1; sx += 2)
     for (int sy = -1; sy <= 1; sy += 2) {
       double top = sy > 0 ? height : seat;
-      shapes_box_at(mesh, sx * (w - slerp) / 2, sy * (w - slerp) / 2, top / 2, slerp, slerp, top);
+      shapes_box_at(mesh, sx * (w - leg) / 2, sy * (w - leg) / 2, top / 2, leg, leg, top);
     }
   for (int i = 0; i < 3; i++)
-    shapes_box_at(mesh, 0, (w - slerp) / 2, seat + (height - seat) * (i + 1.5) / 4.6, w,
-                  0.6 * slerp, 0.8 * slerp);
+    shapes_box_at(mesh, 0, (w - leg) / 2, seat + (height - seat) * (i + 1.5) / 4.6, w, 0.6 * leg,
+                  0.8 * leg);
 }
 SHAPES_DEF void shapes_dish_rack(shapes_mesh *mesh, double x, double y, double height, double wire,
                                  int slots, int sides) {

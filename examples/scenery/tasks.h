@@ -79,10 +79,10 @@ typedef struct task_scene {
   int pair_count;
   task_problem problems[3];
   int problem_count;
-  int selected;             // problem
-  int held[3];              // bodies: the dish of each problem; peg and block; pickaxe
-  oracle_pose grasps[3];    // of the dishes in the hand
-  oracle_pose resolved[3];  // and in the rack, once released
+  int selected;            // problem
+  int held[3];             // bodies: the dish of each problem; peg and block; pickaxe
+  oracle_pose grasps[3];   // of the dishes in the hand
+  oracle_pose settled[3];  // and in the rack, once released
   shapes_rng rng;
   int failed;  // no memory, or too many bodies or pairs
 } task_scene;
@@ -644,7 +644,7 @@ TASK_DEF void task_select(task_scene *scene, int index) {
     task_body *dish = &scene->bodies[scene->held[i]];
     dish->kind = i < index ? TASK_SCENE : i == index ? TASK_HELD : TASK_ABSENT;
     dish->link = i == index ? scene->joint_count : 0;
-    dish->offset = i < index ? scene->resolved[i] : scene->grasps[i];
+    dish->offset = i < index ? scene->settled[i] : scene->grasps[i];
   }
   task_find_pairs(scene);
 }
@@ -705,8 +705,8 @@ TASK_DEF void task_rack(shapes_mesh *mesh) {
       shapes_rod_between(mesh, prong[0], prong[1], TASK_WIRE, 6);
     }
     for (int i = -1; i <= 1; i += 2) {
-      double slerp[2][3] = {{i * end, s * 0.08, 0.001}, {i * end, s * 0.08, TASK_RAIL}};
-      shapes_rod_between(mesh, slerp[0], slerp[1], 1.5 * TASK_WIRE, 6);
+      double leg[2][3] = {{i * end, s * 0.08, 0.001}, {i * end, s * 0.08, TASK_RAIL}};
+      shapes_rod_between(mesh, leg[0], leg[1], 1.5 * TASK_WIRE, 6);
     }
   }
 }
@@ -754,7 +754,7 @@ TASK_DEF int task_dish_problem(task_scene *scene, int index, int slot, int rack,
   oracle_pose target = task_compose(rack_pose, &above);
   memset(turn.position, 0, sizeof turn.position);
   target = task_compose(&target, &turn);
-  target = scene->resolved[index] =
+  target = scene->settled[index] =
       task_rest(&scene->bodies[dish].exact, &target, &scene->bodies[rack].exact, rack_pose);
   target.position[2] += lift;
   task_select(scene, index);

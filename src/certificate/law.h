@@ -19,9 +19,12 @@ typedef struct nsvcd__moving_tree {
 
 static nsvcd__posed nsvcd__posed_at(const nsvcd__moving_tree *moving, double t) {
   const nsvcd_placement at = moving->model.place(moving->model.motion, t);
-  nsvcd__posed out;
-  memcpy(&out.turn, at.rotation, sizeof out.turn);
-  memcpy(&out.at, at.position, sizeof out.at);
+  const double *q = at.rotation;
+  const nsvcd__dquat turn = {q[0], q[1], q[2], q[3]};
+  const nsvcd__posed out = {
+      nsvcd__dmat3_of(nsvcd__dquat_unit(turn)),
+      nsvcd__d3_of(at.position[0], at.position[1], at.position[2]),
+  };
   return out;
 }
 
@@ -76,11 +79,8 @@ static nsvcd__turning nsvcd__turning_of(const nsvcd_pose *a, const nsvcd_pose *b
   return out;
 }
 
-static nsvcd_placement nsvcd__placement_of(nsvcd__dquat turn, nsvcd__d3 at) {
-  const nsvcd__dmat3 rotation = nsvcd__dmat3_of(nsvcd__dquat_unit(turn));
-  nsvcd_placement out;
-  memcpy(out.rotation, &rotation, sizeof out.rotation);
-  memcpy(out.position, &at, sizeof out.position);
+static nsvcd_placement nsvcd__placement_of(nsvcd__dquat q, nsvcd__d3 at) {
+  const nsvcd_placement out = {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}};
   return out;
 }
 

@@ -20,10 +20,10 @@ NSVCDDEF size_t nsvcd_tree_size(const nsvcd_mesh *mesh);
 NSVCDDEF nsvcd_result nsvcd_tree_build(const nsvcd_mesh *mesh, void *memory, size_t size,
                                        const nsvcd_tree **tree);
 
-// Takes a corner x of the mesh to scale * rotation x + position.
+// A pose in double: takes a corner x of the mesh to position + scale * x turned by rotation.
 typedef struct nsvcd_placement {
-  double rotation[3][3];  // row-major
-  double position[3];     // metres
+  double position[3];  // metres
+  double rotation[4];  // x y z w, of any length but 0
 } nsvcd_placement;
 
 // By how much a point leaves the chord between its places at two times, at most, along a unit

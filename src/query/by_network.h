@@ -134,7 +134,7 @@ static int nsvcd__of_distance(const nsvcd__task *task) {
 }
 
 // The candidate for which this is greatest decides.
-static float nsvcd__unresolved(const nsvcd__task *task, const nsvcd__candidate *c) {
+static float nsvcd__closeness(const nsvcd__task *task, const nsvcd__candidate *c) {
   if (!nsvcd__of_distance(task)) return c->score;
   return -c->apart * nsvcd__candidate_reach(task, c);
 }
@@ -170,8 +170,8 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
   for (size_t k = 0; k < count; k++) {
     size_t best = k;
     for (size_t i = k + 1; i < kept->count; i++) {
-      const float here = nsvcd__unresolved(task, &items[i]);
-      const float d = here - nsvcd__unresolved(task, &items[best]);
+      const float here = nsvcd__closeness(task, &items[i]);
+      const float d = here - nsvcd__closeness(task, &items[best]);
       if (d > 0 || (d >= 0 && nsvcd__is_shallower(&items[best], &items[i]))) best = i;
     }
     const nsvcd__candidate first = items[best];
@@ -193,9 +193,9 @@ static void nsvcd__judge(const nsvcd__task *task, nsvcd__candidates *kept,
       nsvcd__decode(task, portion, size, settings->decoder);
     }
     for (size_t k = 0; k < size; k++) {
-      const float unresolved_pair = nsvcd__unresolved(task, portion[k]);
-      if (!(unresolved_pair > most)) continue;
-      most = unresolved_pair;
+      const float closeness = nsvcd__closeness(task, portion[k]);
+      if (!(closeness > most)) continue;
+      most = closeness;
       nsvcd__answer_with(task, portion[k], settings->decoder, out);
     }
   }

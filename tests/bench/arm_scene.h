@@ -157,8 +157,8 @@ static void arm_furnish(arm_scene *s, arm_kind kind) {
     shapes_rng rng = {5};
     const double top = kind == ARM_ON_TABLE ? 0 : 0.42;
     if (top > 0) arm_box(s, 0.6, 0, top - 0.015, 0.6, 1, 0.03);
-    for (int slerp = 0; slerp < 4 && top > 0; slerp++)
-      arm_box(s, slerp / 2 ? 0.87 : 0.33, slerp % 2 ? 0.47 : -0.47, top / 2 - 0.02, 0.04, 0.04,
+    for (int leg = 0; leg < 4 && top > 0; leg++)
+      arm_box(s, leg / 2 ? 0.87 : 0.33, leg % 2 ? 0.47 : -0.47, top / 2 - 0.02, 0.04, 0.04,
               top - 0.04);
     for (int n = 0; n < 16; n++) {
       shapes_mesh mesh;

@@ -87,13 +87,13 @@ typedef struct set_floor {
 } set_floor;
 
 // A top on four legs that end within it. The legs stand in a little: no faces share a plane.
-SHAPES_DEF void set_table(shapes_mesh *mesh, double x, double y, double top, double slerp) {
+SHAPES_DEF void set_table(shapes_mesh *mesh, double x, double y, double top, double leg) {
   const double length = 0.25;
   shapes_box_at(mesh, 0, 0, -top / 2, x, y, top);
   for (int i = 0; i < 4; i++) {
-    const double at_x = (i % 2 ? 0.5 : -0.5) * (x - 1.5 * slerp);
-    const double at_y = (i / 2 ? 0.5 : -0.5) * (y - 1.5 * slerp);
-    shapes_box_at(mesh, at_x, at_y, -top / 2 - length / 2, slerp, slerp, length);
+    const double at_x = (i % 2 ? 0.5 : -0.5) * (x - 1.5 * leg);
+    const double at_y = (i / 2 ? 0.5 : -0.5) * (y - 1.5 * leg);
+    shapes_box_at(mesh, at_x, at_y, -top / 2 - length / 2, leg, leg, length);
   }
 }
 #define SET_FLOORS 5
@@ -185,14 +185,14 @@ typedef struct set_outline {
 } set_outline;
 
 // A rectangle, its edges cut. Every other piece is `hair` long, in halves of an edge.
-SHAPES_DEF set_outline set_rectangle(double x, double y, int pairs, double epsilon) {
+SHAPES_DEF set_outline set_rectangle(double x, double y, int pairs, double hair) {
   set_outline out;
   out.count = 8 * pairs;
   for (int i = 0; i < out.count; i++) {
     const int side = i / (2 * pairs);
     const int step = i / 2 % pairs;
     // From one corner of the rectangle (-1) to the next (1), the first included.
-    const double along = 2.0 * step / pairs - 1 + (i % 2 ? epsilon : 0);
+    const double along = 2.0 * step / pairs - 1 + (i % 2 ? hair : 0);
     const double u = side == 0 ? along : side == 1 ? 1 : side == 2 ? -along : -1;
     const double v = side == 0 ? -1 : side == 1 ? along : side == 2 ? 1 : -along;
     out.corner[i][0] = u * x / 2;
@@ -201,13 +201,13 @@ SHAPES_DEF set_outline set_rectangle(double x, double y, int pairs, double epsil
   return out;
 }
 // A regular polygon, or every other edge `hair` times the radius long.
-SHAPES_DEF set_outline set_circle(double radius, int count, double epsilon) {
+SHAPES_DEF set_outline set_circle(double radius, int count, double hair) {
   set_outline out;
   out.count = count;
   for (int i = 0; i < count; i++) {
     const int pair = i - i % 2;
     const double even = 2 * SHAPES_PI * i / count;
-    const double angle = epsilon > 0 ? 2 * SHAPES_PI * pair / count + i % 2 * epsilon : even;
+    const double angle = hair > 0 ? 2 * SHAPES_PI * pair / count + i % 2 * hair : even;
     out.corner[i][0] = radius * cos(angle);
     out.corner[i][1] = radius * sin(angle);
   }

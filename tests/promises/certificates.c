@@ -151,8 +151,7 @@ typedef struct swing {
 
 static nsvcd_placement swing_place(const void *motion, double t) {
   const swing *s = (const swing *)motion;
-  const nsvcd_placement out = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                               {s->way * sin(FULL_TURN * t), 0, s->height}};
+  const nsvcd_placement out = {{s->way * sin(FULL_TURN * t), 0, s->height}, {0, 0, 0, 1}};
   return out;
 }
 static double swing_next(const void *motion, double t) {
